@@ -56,6 +56,7 @@ static void set_mode(uint32_t wanted, mvs_id chord) {
   tool.struct_size = sizeof tool;
   tool.mode = mode = wanted;
   tool.chord = chord;
+  if (mode == MVS_HAND_MODE_CONVEX) log_line(now.time, "takes the %s", instrument_give(&tool));
   must(mvs_device_set_hand(device, &tool));
   log_line(now.time, "the hand %s", mode_name(mode));
 }
@@ -63,6 +64,7 @@ static void set_mode(uint32_t wanted, mvs_id chord) {
 void help(void) {
   printf(
       "  1 view  2 grasp  3 push with a ball  4 with a rod  5 feel a chord  6 drag a chord\n"
+      "  7 push with an instrument   i  the next one: hook, spatula, sizer\n"
       "  a  forces on   space  forces off   n  select the chord nearest to the hand\n"
       "  c  strain or anatomy   arrows, or h j k l, rotate the view; z Z zoom in and out\n"
       "  driver mouse: left button grasps, wheel moves away and near, right button to the "
@@ -72,7 +74,7 @@ void help(void) {
 }
 
 int is_key(int key) {
-  return strchr("123456a nchljkzZ?q", key) != NULL || is_surgery_key(key);
+  return strchr("1234567ia nchljkzZ?q", key) != NULL || is_surgery_key(key);
 }
 
 static void choose_chord(void) {
@@ -84,8 +86,10 @@ static void choose_chord(void) {
 
 static void press(int key) {
   const char *said;
-  if (key >= '1' && key <= '6')
+  if (key >= '1' && key <= '7')
     set_mode((uint32_t)(key - '1'), 0);
+  else if (key == 'i')
+    instrument_next(), set_mode(MVS_HAND_MODE_CONVEX, 0);
   else if (key == 'a')
     log_line(now.time, "%s", mvs_device_arm(device) ? mvs_last_error()->message : "armed");
   else if (key == ' ')

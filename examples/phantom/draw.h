@@ -45,6 +45,10 @@ void add_text(scene *out, const eye *from, double x, double y, double height, co
               const tint colour);
 double text_width(const char *text, double height);
 
+/* The bodies of a convex tool of the valve. */
+void show_bodies(scene *out, const mvs_snapshot *valve, const eye *from, const mvs_tool_state *tool,
+                 const tint colour);
+
 /* Parts of the picture that lie over the valve. */
 void show_scale(scene *out, const eye *from);
 void show_orifice(scene *out, const eye *from, const orifice *hole);

@@ -131,9 +131,9 @@ void log_events(mvs_sim *sim, const mvs_device_report *hand, const mvs_device_st
 
 const char *mode_name(uint32_t mode) {
   static const char *const names[] = {
-      "looks",         "grasps",       "pushes with a ball", "pushes with a rod",
-      "feels a chord", "drags a chord"};
-  return mode < 6 ? names[mode] : "";
+      "looks",         "grasps",        "pushes with a ball",       "pushes with a rod",
+      "feels a chord", "drags a chord", "pushes with an instrument"};
+  return mode < 7 ? names[mode] : "";
 }
 
 /* Forces of the motors, or without motors the use of the pointer. */

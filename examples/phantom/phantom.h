@@ -70,6 +70,11 @@ typedef struct orifice {
   const mvs_snapshot *valve; /* null: not yet measured */
 } orifice;
 
+/* The convex instruments of the hand: a hook, a spatula, a sizer. instrument_give fills in the
+ * bodies of the present one, instrument_next takes the next; both return its name. */
+const char *instrument_give(mvs_device_hand *to);
+const char *instrument_next(void);
+
 /* Objects to show besides the valve. */
 typedef struct sight {
   int strain;           /* 1: colours show strain, 0: anatomy */

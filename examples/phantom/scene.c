@@ -137,7 +137,8 @@ static void show_annulus_and_heads(scene *out, const mvs_snapshot *valve, const 
 }
 
 /* The instrument at its position in the tissue, the hand, and the force between them. */
-static void show_instrument(scene *out, const eye *from, const sight *what) {
+static void show_instrument(scene *out, const mvs_snapshot *valve, const eye *from,
+                            const sight *what) {
   const double tip[2] = {1.0e-3, 0}, strength = sqrt(dot(what->force, what->force));
   double beside[3], shaft[3], end[3];
   if (what->marked) add_ball(out, from, what->marked, 0.5e-3, chosen);
@@ -145,7 +146,10 @@ static void show_instrument(scene *out, const eye *from, const sight *what) {
     along(what->tool.proxy, what->tool.length, what->tool.proxy_axis, end);
     add_line(out, from, what->tool.proxy, end, what->tool.radius, steel);
   }
-  if (what->tool.kind) {
+  if (what->tool.kind == MVS_TOOL_KIND_CONVEX) {
+    show_bodies(out, valve, from, &what->tool, steel);
+    add_line(out, from, what->tool.proxy, what->hand, 0.15e-3, steel);
+  } else if (what->tool.kind) {
     add_ball(out, from, what->tool.proxy, fmax(what->tool.radius, 1.2e-3), steel);
     add_line(out, from, what->tool.proxy, what->hand, 0.15e-3, steel);
   }
@@ -164,7 +168,7 @@ void scene_build(scene *out, const mvs_snapshot *valve, const eye *from, const s
   show_leaflets(out, valve, from, what->strain);
   show_chordae(out, valve, from, what);
   show_annulus_and_heads(out, valve, from);
-  show_instrument(out, from, what);
+  show_instrument(out, valve, from, what);
   out->solid = out->count;
   show_orifice(out, from, &what->orifice);
   if (what->strain) show_scale(out, from);

@@ -12,7 +12,8 @@
 namespace mvs::core {
 namespace {
 
-constexpr const char *kinds[] = {"grasp", "ball", "rod"};
+constexpr const char *kinds[] = {"grasp", "ball", "rod", "convex"};
+constexpr const char *body_kinds[] = {"hull", "ball", "capsule", "box", "cylinder", "cone"};
 
 const char *word_of(ToolKind kind) {
   return kinds[static_cast<uint32_t>(kind) - 1];
@@ -46,7 +47,7 @@ ToolKind kind_at(const Json &json) {
   for (uint32_t k = 0; k < std::size(kinds); ++k) {
     if (json["kind"].text() == kinds[k]) return static_cast<ToolKind>(k + 1);
   }
-  fail(MVS_E_FORMAT, "plan", "kind has to be grasp, ball or rod");
+  fail(MVS_E_FORMAT, "plan", "kind has to be grasp, ball, rod or convex");
 }
 
 // Numbers as base64 of their little-endian bytes: exact, in a third of the length of decimals.
@@ -82,8 +83,8 @@ std::vector<Tool> read_trajectory_tools(const Json &json) {
   return tools;
 }
 
-std::vector<Vec3> read_points(const Json &json) {
-  const std::vector<uint64_t> words = unpacked<uint64_t>(json, "points_m");
+std::vector<Vec3> read_points(const Json &json, const char *key) {
+  const std::vector<uint64_t> words = unpacked<uint64_t>(json, key);
   std::vector<Vec3> points(words.size() / 3);
   for (size_t k = 0; k < 3 * points.size(); ++k) {
     points[k / 3][k % 3] = bit_cast<double>(words[k]);
@@ -91,9 +92,49 @@ std::vector<Vec3> read_points(const Json &json) {
   return points;
 }
 
+std::string packed_points(const std::vector<Vec3> &points) {
+  std::vector<uint64_t> words;
+  for (const Vec3 &point : points) {
+    for (int k = 0; k < 3; ++k) words.push_back(bit_cast<uint64_t>(point[k]));
+  }
+  return packed(words);
+}
+
+Json bodies_json(const ToolShape &shape) {
+  Json bodies = Json::array();
+  for (const ToolBody &body : shape.bodies()) {
+    bodies.add(Json::object({{"kind", body_kinds[static_cast<uint32_t>(body.kind) - 1]},
+                             {"radius_m", body.radius},
+                             {"vertices_m", packed_points(body.vertices)}}));
+  }
+  return bodies;
+}
+
+ToolBody read_body(const Json &json) {
+  ToolBody body;
+  body.kind = BodyKind{0};
+  for (uint32_t k = 0; k < std::size(body_kinds); ++k) {
+    if (json["kind"].text() == body_kinds[k]) body.kind = static_cast<BodyKind>(k + 1);
+  }
+  body.radius = json["radius_m"].number();
+  body.vertices = read_points(json, "vertices_m");
+  return body;
+}
+
+ToolShapePtr read_shape(const Json &json) {
+  std::vector<ToolBody> bodies;
+  for (const Json &item : json["bodies"].items()) bodies.push_back(read_body(item));
+  MVS_MUST(are_valid(bodies), MVS_E_FORMAT, "plan",
+           "bodies has to be 1 to %u bodies with kind, radius_m and vertices_m, within %g m and of "
+           "at most %u vertices",
+           most_tool_bodies, most_body_extent, most_tool_vertices);
+  return ToolShapePtr(std::make_shared<const ToolShape>(std::move(bodies)));
+}
+
 // Keeps a recorded unit axis bit for bit and normalises any other axis.
 void read_hand(const Json &json, Tool &tool) {
   tool.position = vector_at(json, "position_m");
+  if (json.has("rodrigues")) tool.axis = vector_at(json, "rodrigues");
   if (!json.has("axis")) return;
   tool.axis = vector_at(json, "axis");
   const double length = tool.axis.norm();
@@ -103,13 +144,18 @@ void read_hand(const Json &json, Tool &tool) {
 
 void read_added(const Json &json, Tool &tool) {
   check_keys(json, {"tool", "kind", "position_m", "axis", "radius_m", "length_m", "stiffness_N/m",
-                    "max_force_N", "node"});
+                    "max_force_N", "node", "rodrigues", "bodies"});
   tool.kind = kind_at(json);
   read_hand(json, tool);
   tool.stiffness = positive_at(json, "stiffness_N/m");
   tool.max_force = positive_at(json, "max_force_N");
   if (tool.kind == ToolKind::grasp) {
     tool.node = static_cast<uint32_t>(std::min<uint64_t>(whole_at(json, "node"), none - 1));
+    return;
+  }
+  if (tool.kind == ToolKind::convex) {
+    tool.shape = read_shape(json);
+    tool.length = tool.shape->arm();
     return;
   }
   tool.radius = positive_at(json, "radius_m");
@@ -139,9 +185,13 @@ Json tool_json(const RecordedEvent &event) {
   if (event.kind == RecordedEvent::tool_add) json.set("kind", word_of(tool.kind));
   json.set("position_m", vector_json(tool.position));
   if (tool.kind == ToolKind::rod) json.set("axis", vector_json(tool.axis));
+  if (tool.kind == ToolKind::convex) json.set("rodrigues", vector_json(tool.axis));
   if (event.kind == RecordedEvent::tool_move) return json;
   if (tool.kind == ToolKind::grasp) json.set("node", tool.node);
-  if (tool.kind != ToolKind::grasp) json.set("radius_m", tool.radius);
+  if (tool.kind == ToolKind::ball || tool.kind == ToolKind::rod) {
+    json.set("radius_m", tool.radius);
+  }
+  if (tool.kind == ToolKind::convex) json.set("bodies", bodies_json(*tool.shape));
   if (tool.kind == ToolKind::rod) json.set("length_m", tool.length);
   json.set("stiffness_N/m", tool.stiffness);
   json.set("max_force_N", tool.max_force);
@@ -153,14 +203,10 @@ Json trajectory_json(const RecordedEvent &event) {
   for (const Tool &tool : event.tools.get()) {
     tools.add(Json::object({{"tool", tool.id}, {"kind", word_of(tool.kind)}}));
   }
-  std::vector<uint64_t> words;
-  for (const Vec3 &point : event.points.get()) {
-    for (int k = 0; k < 3; ++k) words.push_back(bit_cast<uint64_t>(point[k]));
-  }
   json.set("do", "tool_trajectory");
   json.set("count", event.count);
   json.set("tools", std::move(tools));
-  json.set("points_m", packed(words));
+  json.set("points_m", packed_points(event.points));
   if (event.count != event.steps_per_row.size()) {
     json.set("steps_per_row", packed(event.steps_per_row.get()));
   }
@@ -171,7 +217,7 @@ RecordedEvent read_trajectory(const Json &json) {
   RecordedEvent event;
   event.kind = RecordedEvent::tool_trajectory;
   event.tools = read_trajectory_tools(json);
-  event.points = read_points(json);
+  event.points = read_points(json, "points_m");
   const size_t rows = event.points.size() / std::max<size_t>(1, points_per_row(event));
   event.steps_per_row = std::vector<uint32_t>(rows, 1);
   if (json.has("steps_per_row")) {
@@ -193,7 +239,7 @@ std::optional<RecordedEvent> read_tool_step(const Json &json) {
     read_added(json, tool);
   } else if (word == "tool_move") {
     event.kind = RecordedEvent::tool_move;
-    check_keys(json, {"tool", "position_m", "axis"});
+    check_keys(json, {"tool", "position_m", "axis", "rodrigues"});
     read_hand(json, tool);
   } else if (word == "tool_remove") {
     event.kind = RecordedEvent::tool_remove;

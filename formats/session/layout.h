@@ -95,6 +95,13 @@ void pass(Archive &a, Is<Valve> auto &valve) {
 }
 
 template <typename Archive>
+void pass(Archive &a, Is<ToolBody> auto &body) {
+  a.word(body.kind);
+  a.number(body.radius);
+  a.array(body.vertices);
+}
+
+template <typename Archive>
 void pass(Archive &a, Is<Tool> auto &tool) {
   a.word(tool.id);
   a.word(tool.kind);
@@ -106,6 +113,11 @@ void pass(Archive &a, Is<Tool> auto &tool) {
   for (auto *v : {&tool.position, &tool.axis, &tool.proxy[0], &tool.proxy[1]}) {
     for (int k = 0; k < 3; ++k) a.number((*v)[k]);
   }
+  if (tool.kind != ToolKind::convex) return;
+  for (auto *v : {&tool.proxy[2], &tool.proxy[3]}) {
+    for (int k = 0; k < 3; ++k) a.number((*v)[k]);
+  }
+  a.shape(tool.shape);
 }
 
 template <typename Archive>

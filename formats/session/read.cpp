@@ -51,6 +51,7 @@ class SessionReader {
   template <typename Part>
   void list(CowVector<Part> &parts);
   void model(ModelPtr &model);
+  void shape(ToolShapePtr &shape);
   void points(mvs_array &given);
   void optional_text(const char *&given);
   template <typename Item>
@@ -111,7 +112,7 @@ class SessionReader {
              Made<CowVector<uint32_t>>, Made<CowVector<Leaflet>>, Made<CowVector<Scallop>>,
              Made<CowVector<Chord>>, Made<CowVector<Head>>, Made<CowVector<Ring>>,
              Made<CowVector<Tool>>, Made<CowVector<ChordCurve>>, Made<CowVector<CurvePoint>>,
-             Made<ModelPtr>, Made<RecordedEvents>, Made<HistoryEntries>,
+             Made<ToolShapePtr>, Made<ModelPtr>, Made<RecordedEvents>, Made<HistoryEntries>,
              Made<std::shared_ptr<const HistoryEntry>>>
       made_;
   ModelPtr last_model_;
@@ -199,6 +200,17 @@ void SessionReader::model(ModelPtr &model) {
   });
 }
 
+void SessionReader::shape(ToolShapePtr &shape) {
+  shape = part(made<ToolShapePtr>(), [&](ToolShapePtr &it) {
+    std::vector<ToolBody> bodies(count());
+    for (ToolBody &body : bodies) pass(*this, body);
+    if (bodies.empty()) return;
+    MVS_MUST(are_valid(bodies), MVS_E_FORMAT, "state",
+             "the file has a tool with bodies that cannot be");
+    it = ToolShapePtr(std::make_shared<const ToolShape>(std::move(bodies)));
+  });
+}
+
 // Checks that a state fits its model.
 void SessionReader::check(const ModelState &current) const {
   const State &state = current.state;
@@ -224,7 +236,9 @@ void SessionReader::check(const RecordedEvent &event) {
   bool is_good = event.kind == RecordedEvent::tool_trajectory ? is_consistent(event)
                                                               : event.tools.size() == is_of_tool;
   for (const Tool &tool : event.tools.get()) {
-    is_good = is_good && tool.kind >= ToolKind::grasp && tool.kind <= ToolKind::rod;
+    is_good = is_good && tool.kind >= ToolKind::grasp && tool.kind <= ToolKind::convex;
+    if (event.kind == RecordedEvent::tool_add && tool.kind == ToolKind::convex)
+      is_good = is_good && tool.shape;
   }
   MVS_MUST(is_good, MVS_E_FORMAT, "history",
            "the history of the file has an event whose tools and numbers do not agree");

@@ -30,6 +30,7 @@ class SessionWriter {
   template <typename Part>
   void list(const CowVector<Part> &parts);
   void model(const ModelPtr &model);
+  void shape(const ToolShapePtr &shape);
   void points(const mvs_array &given);
   void optional_text(const char *given);
   template <typename Item>
@@ -129,6 +130,16 @@ void SessionWriter::list(const CowVector<Part> &parts) {
 
 void SessionWriter::model(const ModelPtr &model) {
   part_at(model.get(), [&] { pass(*this, model->valve); });
+}
+
+void SessionWriter::shape(const ToolShapePtr &shape) {
+  const auto all = [&] {
+    word(uint64_t{shape ? shape->bodies().size() : 0});
+    if (!shape) return;
+    for (const ToolBody &body : shape->bodies()) pass(*this, body);
+  };
+  if (shape) return part_at(shape.get(), all);
+  word(part(all));
 }
 
 template <typename Item>

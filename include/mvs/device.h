@@ -25,6 +25,7 @@
 #include "base.h"
 #include "driver.h"
 #include "sim.h"
+#include "tool.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -154,7 +155,8 @@ enum mvs_hand_mode_e {
   MVS_HAND_MODE_ROD = 3,   /* pushes with a rod along the stylus; its torque is rendered by devices
                               with 6 freedoms out */
   MVS_HAND_MODE_FEEL = 4,  /* feels the tension of `chord` */
-  MVS_HAND_MODE_DRAG = 5   /* the button drags the leaflet end of `chord` to set its length */
+  MVS_HAND_MODE_DRAG = 5,  /* the button drags the leaflet end of `chord` to set its length */
+  MVS_HAND_MODE_CONVEX = 6 /* pushes with `bodies`, which turn with the stylus */
 };
 typedef uint32_t mvs_hand_mode;
 
@@ -165,12 +167,15 @@ typedef struct mvs_device_hand {
   mvs_id chord;       /* to feel or drag [the nearest one when the button is pressed] */
   uint32_t button;    /* that grasps [0: the first] */
   uint32_t reserved;
-  double reach;     /* m, in the scene, largest distance of a grasped part [5e-3] */
-  double radius;    /* m, of ball or rod [2e-3] */
-  double length;    /* m, of the rod [40e-3] */
-  double stiffness; /* N/m, of the spring between hand and tool, in the scene [200] */
-  double max_force; /* N, of that spring, in the scene [5] */
-  double gain;      /* factor on the tension of a felt chord [1] */
+  double reach;                /* m, in the scene, largest distance of a grasped part [5e-3] */
+  double radius;               /* m, of ball or rod [2e-3] */
+  double length;               /* m, of the rod [40e-3] */
+  double stiffness;            /* N/m, of the spring between hand and tool, in the scene [200] */
+  double max_force;            /* N, of that spring, in the scene [5] */
+  double gain;                 /* factor on the tension of a felt chord [1] */
+  const mvs_body_desc *bodies; /* as those of mvs_tool_desc; null when it is read */
+  uint32_t body_count;
+  uint32_t body_stride; /* sizeof(mvs_body_desc) */
 } mvs_device_hand;
 /* Sets or reads the tool. A change releases the held part at the next mvs_device_sync. */
 MVS_API mvs_result mvs_device_set_hand(mvs_device *device, const mvs_device_hand *hand);
@@ -224,7 +229,7 @@ typedef struct mvs_device_report {
   double stiffness;           /* N/m, largest stiffness of the rendered tissue model */
   double drag_to[3];          /* m, target of a dragged chord end */
   double torque[3];         /* N m, in the scene, on the hand about `position`, before it is scaled;
-                               of a rod, on every device */
+                               of a rod or convex tool, on every device */
   double angular_stiffness; /* N m/rad, largest one of that model; 0 if it has no torque */
 } mvs_device_report;
 

@@ -10,6 +10,7 @@
 #include "haptics/examine.h"
 #include "haptics/signal_handler.h"
 #include "session/device_hand.h"
+#include "session/tool_bodies.h"
 
 using namespace mvs::core;
 
@@ -41,6 +42,19 @@ mvs_result device_at_boundary(mvs_device *device, Work &&work) noexcept {
     must_point(device, "device");
     work(*device);
   });
+}
+
+mvs_body_desc body_in_hand(const mvs_body_desc &given) {
+  return given;
+}
+
+// The bodies of a hand that pushes with a convex tool; vertices that are no corners are dropped.
+ToolShapePtr shape_of(const mvs_device_hand &hand) {
+  if (hand.mode != MVS_HAND_MODE_CONVEX) return {};
+  std::vector<std::string> warnings;
+  const auto bodies =
+      read_list(hand.bodies, hand.body_count, hand.body_stride, "hand.bodies", body_in_hand);
+  return read_bodies(bodies, "hand", false, warnings);
 }
 
 mvs_device_desc read_device(const mvs_device_desc *given) {
@@ -207,8 +221,10 @@ mvs_result mvs_device_get_view(const mvs_device *device, mvs_device_view *view) 
 }
 
 mvs_result mvs_device_set_hand(mvs_device *device, const mvs_device_hand *hand) {
-  return device_at_boundary(device,
-                            [&](mvs_device &d) { d.hand.set_hand(read_struct(hand, "hand")); });
+  return device_at_boundary(device, [&](mvs_device &d) {
+    const mvs_device_hand read = read_struct(hand, "hand");
+    d.hand.set_hand(read, shape_of(read));
+  });
 }
 
 mvs_result mvs_device_get_hand(const mvs_device *device, mvs_device_hand *hand) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "collision/near_parts.h"
 #include "geometry/bvh.h"
 #include "geometry/distance.h"
 
@@ -18,27 +19,17 @@ Aabb box_around(const Vec3 &from, const Vec3 &to, double margin) {
   return box;
 }
 
-// Returns a bit for each side of a box that a place is outside of.
-uint8_t sides_outside(const Aabb &box, const Vec3 &place) {
-  uint32_t bits = 0;
-  for (int k = 0; k < 3; ++k) {
-    bits |= static_cast<uint32_t>(place[k] < box.low[k]) << (2 * k);
-    bits |= static_cast<uint32_t>(place[k] > box.high[k]) << (2 * k + 1);
-  }
-  return static_cast<uint8_t>(bits);
-}
-
-void sort_unique(std::vector<uint32_t> &numbers) {
-  std::sort(numbers.begin(), numbers.end());
-  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-}
-
 }  // namespace
 
 void InstrumentBodies::set_tools(const std::vector<Tool> &tools, uint32_t first) {
+  if (convex_.set_tools(tools, first)) prepared_ = false;
   size_t k = 0;
   for (const Tool &tool : tools) {
     if (tool.points() == 0) continue;
+    if (tool.kind == ToolKind::convex) {
+      first += tool.points();
+      continue;
+    }
     const bool is_known = k < bodies_.size() && bodies_[k].tool.is_same_as(tool);
     if (!is_known) {
       bodies_.resize(k);
@@ -55,6 +46,7 @@ void InstrumentBodies::set_tools(const std::vector<Tool> &tools, uint32_t first)
 void InstrumentBodies::prepare(const std::vector<Vec3> &x, const std::vector<Vec3> &to,
                                double slack) {
   for (InstrumentBody &body : bodies_) find_near(body, x, to, slack);
+  convex_.prepare(x, to, slack);
   prepared_ = true;
 }
 
@@ -113,6 +105,7 @@ void InstrumentBodies::shorten(std::vector<Vec3> &step, double longest) const {
     if (!body.is_rod() || length <= longest) continue;
     for (const uint32_t p : body.point) step[p] *= longest / length;
   }
+  convex_.shorten(step, longest);
 }
 
 }  // namespace mvs::core

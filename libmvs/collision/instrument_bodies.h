@@ -1,12 +1,14 @@
 // Broad phase of instruments: the vertices, edges and triangles of the sheet near each ball or rod
 // during a step, and the pairs that the step limiter keeps apart.
 //
-// The points of an instrument (the centre of a ball, the centres of both ends of a rod) are nodes
-// like those of the sheet.
+// The points of an instrument (the centre of a ball, the centres of both ends of a rod, the frame
+// of a convex tool) are nodes like those of the sheet. convex_bodies.h has the part of convex
+// tools.
 #pragma once
 
 #include <vector>
 
+#include "collision/convex_bodies.h"
 #include "model/model.h"
 
 namespace mvs::core {
@@ -31,11 +33,14 @@ struct InstrumentBody {
 
 class InstrumentBodies {
  public:
-  explicit InstrumentBodies(const Model &model) : model_(&model) {}
+  explicit InstrumentBodies(const Model &model) : model_(&model), convex_(model) {}
 
   // Points are nodes from `first` on. Without tools that push, all functions below have no effect.
   void set_tools(const std::vector<Tool> &tools, uint32_t first);
   const std::vector<InstrumentBody> &all() const { return bodies_; }
+  ConvexBodies &convex() { return convex_; }
+  const ConvexBodies &convex() const { return convex_; }
+  bool empty() const { return bodies_.empty() && convex_.all().empty(); }
 
   // Finds the parts of the sheet near each instrument while every node stays within `slack` of its
   // segment from x to `to`.
@@ -45,8 +50,8 @@ class InstrumentBodies {
 
   // Returns all pairs near an instrument, for StepLimiter.
   const std::vector<ToolPair> &barrier_pairs(const std::vector<Vec3> &x);
-  // Shortens the steps of both ends of a rod by the same factor, so that neither is longer than
-  // `longest`.
+  // Shortens the steps of all points of a rod or convex tool by the same factor, so that none is
+  // longer than `longest`.
   void shorten(std::vector<Vec3> &step, double longest) const;
 
  private:
@@ -55,6 +60,7 @@ class InstrumentBodies {
 
   const Model *model_;
   std::vector<InstrumentBody> bodies_;
+  ConvexBodies convex_;
   bool prepared_ = true;
   std::vector<ToolPair> pairs_;
   std::vector<uint8_t> outside_;  // of each node: sides of the box at hand, see sides_outside()

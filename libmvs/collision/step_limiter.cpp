@@ -4,17 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision/approach.h"
 #include "geometry/distance.h"
 
 namespace mvs::core {
 namespace {
 
-// Share of a distance that one step may use up. The rest is far more than rounding errors.
-constexpr double usable_share = 0.9;
-// m, the least distance of an instrument from the sheet: large enough that a pair that was pressed
-// together parts again soon. A Newton step on a logarithm doubles its distance, and from 1e-10 m a
-// ball that a hand drew back stuck in the tissue for twenty steps.
-constexpr double least_tool_distance = 1e-6;
 // Least distance of two parts of the sheet, as a share of their barrier's range (0.2 mm or less),
 // and in m. A barrier without room to push back never comes to balance: where edges are 1 mm long
 // it bears 1 N at a share of 5e-3, and 100 N, ten times the systolic force on a valve, at this one.
@@ -37,6 +32,8 @@ uint32_t StepLimiter::limit(const Model &model, const std::vector<Vec3> &x, doub
                             BroadPhase &broad_phase, std::vector<Vec3> &dx,
                             InstrumentBodies *tools) {
   static const std::vector<ToolPair> no_pairs;
+  static const std::vector<BodyPair> no_body_pairs;
+  if (tools) tools->convex().keep_upright(dx);
   for (uint32_t lists = 0;;) {
     to_.resize(x.size());
     for (size_t i = 0; i < x.size(); ++i) to_[i] = x[i] + dx[i];
@@ -50,7 +47,9 @@ uint32_t StepLimiter::limit(const Model &model, const std::vector<Vec3> &x, doub
       if (tools) tools->prepare(x, to_, slack);
     }
     const auto &tool_pairs = tools ? tools->barrier_pairs(x) : no_pairs;
-    if (limit(model, x, broad_phase, dx, tool_pairs) == 1 || broad_phase.is_independent()) {
+    const auto &body_pairs = tools ? tools->convex().barrier_pairs(x, dx) : no_body_pairs;
+    if (limit(model, x, broad_phase, dx, tool_pairs, body_pairs) == 1 ||
+        broad_phase.is_independent()) {
       return lists;
     }
   }
@@ -58,9 +57,10 @@ uint32_t StepLimiter::limit(const Model &model, const std::vector<Vec3> &x, doub
 
 double StepLimiter::limit(const Model &model, const std::vector<Vec3> &x,
                           const BroadPhase &broad_phase, std::vector<Vec3> &dx,
-                          const std::vector<ToolPair> &tools) {
+                          const std::vector<ToolPair> &tools, const std::vector<BodyPair> &bodies) {
   add_pairs(model, x, broad_phase, dx);
   for (const ToolPair &p : tools) add_pair(p, p.radius + least_tool_distance, dx);
+  for (const BodyPair &p : bodies) add_pair(p, dx);
   if (pairs_.empty()) return 1;
   max_safe_step_.assign(dx.size(), 1.0);
   bool changed = true;
@@ -71,6 +71,10 @@ double StepLimiter::limit(const Model &model, const std::vector<Vec3> &x,
   }
   for (const ToolPair &p : tools) {
     for (uint32_t k = 0; k < 4; ++k) max_safe_step_[p.node[k]] = max_safe_step_[p.with[k]];
+  }
+  for (const BodyPair &p : bodies) {
+    for (uint32_t k = 1; k < frame_points; ++k)
+      max_safe_step_[p.frame + k] = max_safe_step_[p.frame];
   }
   double least = 1;
   for (size_t i = 0; i < dx.size(); ++i) {
@@ -91,7 +95,18 @@ void StepLimiter::add_pair(const ToolPair &pair, double least_distance,
     side = std::max(side, dx[pair.node[k]].squaredNorm());
   }
   if (std::sqrt(near) + std::sqrt(far) <= max_approach) return;
-  pairs_.push_back({pair.node, pair.with, pair.split, pair.separation / length, max_approach});
+  pairs_.push_back({pair.node, pair.with, pair.split, pair.separation / length, max_approach, {}});
+}
+
+void StepLimiter::add_pair(const BodyPair &pair, const std::vector<Vec3> &dx) {
+  const double max_approach =
+      usable_share * std::max(0.0, pair.gap - pair.radius - least_tool_distance);
+  double far = 0;
+  for (const uint32_t i : pair.node) far = std::max(far, dx[i].squaredNorm());
+  if (pair.body_approach + std::sqrt(far) <= max_approach) return;
+  const auto [i, j, k] = pair.node;
+  const std::array<uint32_t, 4> node = {pair.frame, i, j, k};
+  pairs_.push_back({node, node, 1, pair.normal, max_approach, pair.body_approach});
 }
 
 void StepLimiter::add_pairs(const Model &model, const std::vector<Vec3> &x,
@@ -119,7 +134,9 @@ bool StepLimiter::limit_pair(const Pair &pair, const std::vector<Vec3> &dx, bool
   std::array<double, 2> side{-1e300, -1e300};
   for (uint32_t k = 0; k < 4; ++k) {
     const uint32_t s = k < pair.split ? 0 : 1;
-    const double along = pair.normal.dot(dx[pair.node[k]]) * max_safe_step_[pair.with[k]];
+    const double whole =
+        k == 0 && pair.body_approach ? -*pair.body_approach : pair.normal.dot(dx[pair.node[k]]);
+    const double along = whole * max_safe_step_[pair.with[k]];
     approach[k] = s == 0 ? -along : along;
     side[s] = std::max(side[s], approach[k]);
   }

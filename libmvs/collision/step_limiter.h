@@ -11,6 +11,7 @@
 // Unlike one global time of impact, two sheets that nearly touch do not stop the rest of the valve.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "collision/broad_phase.h"
@@ -27,21 +28,24 @@ class StepLimiter {
   uint32_t limit(const Model &model, const std::vector<Vec3> &x, double slack,
                  BroadPhase &broad_phase, std::vector<Vec3> &dx, InstrumentBodies *tools = nullptr);
 
-  // Limits a step for the pairs of `broad_phase`, which must hold for it, and of `tools`. Returns
-  // the smallest factor by which the step of a node was shortened, 1 if none was.
+  // Limits a step for the pairs of `broad_phase`, which must hold for it, of `tools` and of
+  // `bodies`. Returns the smallest factor by which the step of a node was shortened, 1 if none was.
   double limit(const Model &model, const std::vector<Vec3> &x, const BroadPhase &broad_phase,
-               std::vector<Vec3> &dx, const std::vector<ToolPair> &tools = {});
+               std::vector<Vec3> &dx, const std::vector<ToolPair> &tools = {},
+               const std::vector<BodyPair> &bodies = {});
 
  private:
   struct Pair {
     std::array<uint32_t, 4> node, with;  // with: the node whose share of its step a node takes
     uint32_t split;                      // nodes before it are on the side of the normal
     Vec3 normal;
-    double max_approach;  // m, of both sides together
+    double max_approach;                  // m, of both sides together
+    std::optional<double> body_approach;  // m, of node 0, the frame of a convex tool
   };
   void add_pairs(const Model &model, const std::vector<Vec3> &x, const BroadPhase &broad_phase,
                  const std::vector<Vec3> &dx);
   void add_pair(const ToolPair &pair, double least_distance, const std::vector<Vec3> &dx);
+  void add_pair(const BodyPair &pair, const std::vector<Vec3> &dx);
   bool limit_pair(const Pair &pair, const std::vector<Vec3> &dx, bool by_halves);
 
   std::vector<Vec3> to_;

@@ -6,7 +6,7 @@
 namespace mvs::core {
 
 Hold hold_of(const Tool &tool, uint32_t k, uint32_t node) {
-  const double share = tool.kind == ToolKind::rod ? 0.5 : 1;
+  const double share = tool.points() > 1 ? 1.0 / tool.points() : 1;
   return {node, tool.target(k), share * tool.stiffness, share * tool.max_force};
 }
 

@@ -16,6 +16,7 @@ void InstrumentTerm::collect(const std::vector<Vec3> &x) {
     if (!body.is_rod()) continue;
     for (const uint32_t e : body.edges) take_edge(x, body, e);
   }
+  convex_.collect(x, bodies_.convex());
 }
 
 void InstrumentTerm::take_vertex(const std::vector<Vec3> &x, const InstrumentBody &body,
@@ -65,7 +66,7 @@ double InstrumentTerm::energy(const std::vector<Vec3> &x) const {
     const double longer = (x[body.point[1]] - x[body.point[0]]).norm() - body.tool.length;
     sum += 0.5 * settings::instrument::rod_stiffness * longer * longer;
   }
-  return sum;
+  return sum + convex_.energy(x);
 }
 
 double InstrumentTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
@@ -77,6 +78,7 @@ double InstrumentTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g
     g[body.point[0]] -= f;
     g[body.point[1]] += f;
   }
+  convex_.add_gradient(x, g);
   return energy(x);
 }
 
@@ -95,7 +97,7 @@ bool InstrumentTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
     system.add_diagonal(b, block);
     complete = system.add(a, b, -block) && complete;
   }
-  return complete;
+  return convex_.hessian(x, curvature, system) && complete;
 }
 
 void InstrumentTerm::add_pairs(std::vector<Edge> &pairs) const {
@@ -103,6 +105,7 @@ void InstrumentTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const InstrumentBody &body : bodies_.all()) {
     if (body.is_rod()) pairs.push_back(body.point);
   }
+  convex_.add_pairs(pairs);
 }
 
 }  // namespace mvs::core

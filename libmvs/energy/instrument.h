@@ -10,27 +10,29 @@
 // at any mesh size. A short-range barrier of the same B keeps triangles and edges out between
 // vertices: for each end and triangle, and for each axis and edge. While all of these distances are
 // above R nothing passes through. An axial spring keeps the length of a rod. There is no
-// friction, and chordae do not collide with instruments.
+// friction, and chordae do not collide with balls and rods. convex_contact.h has convex tools.
 #pragma once
 
 #include <vector>
 
 #include "collision/instrument_bodies.h"
 #include "energy/barrier.h"
+#include "energy/convex_contact.h"
 #include "model/model.h"
 
 namespace mvs::core {
 
 class InstrumentTerm {
  public:
-  explicit InstrumentTerm(const Model &model) : model_(&model), bodies_(model) {}
+  explicit InstrumentTerm(const Model &model) : model_(&model), bodies_(model), convex_(model) {}
 
   InstrumentBodies &bodies() { return bodies_; }
   const InstrumentBodies &bodies() const { return bodies_; }
-  bool empty() const { return bodies_.all().empty(); }
+  bool empty() const { return bodies_.empty(); }
 
   void collect(const std::vector<Vec3> &x);
   const std::vector<ContactPair> &contact_pairs() const { return contact_pairs_; }
+  const ConvexContactTerm &convex() const { return convex_; }
 
   // These refer to the last collect().
   double energy(const std::vector<Vec3> &x) const;
@@ -48,6 +50,7 @@ class InstrumentTerm {
   const Model *model_;
   InstrumentBodies bodies_;
   std::vector<ContactPair> contact_pairs_;
+  ConvexContactTerm convex_;
 };
 
 }  // namespace mvs::core

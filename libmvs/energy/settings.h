@@ -23,6 +23,10 @@ namespace instrument {
 
 // N/m, axial stiffness of a rod: 5 N on its ends shorten it by a quarter of a millimetre.
 inline constexpr double rod_stiffness = 2e4;
+// N/m, of each of the six edges of the frame of a convex tool, as for a rod: 5 N stretch it by
+// about a hundredth of its arm. At 1e5 a live step took 1.7 times as long as that of a ball instead
+// of 1.46 (bench_step --tool convex), and the valve did not come to rest beside a still hand.
+inline constexpr double frame_stiffness = 2e4;
 
 }  // namespace instrument
 

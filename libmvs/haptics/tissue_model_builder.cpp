@@ -36,6 +36,10 @@ double nearest_on_axis(const Model &model, const std::vector<Vec3> &x, const Too
 // Returns the orientation of a hand that lay along the axis of the tool when the tool moved last:
 // the present one, turned by the shortest way. Rotation about the axis changes nothing.
 Eigen::Quaterniond orientation_of(const Tool &tool, const Eigen::Quaterniond &hand) {
+  if (tool.kind == ToolKind::convex) {
+    const Quaternion q = quaternion_of(tool.axis);
+    return Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+  }
   return Eigen::Quaterniond::FromTwoVectors(hand * Vec3::UnitZ(), tool.axis) * hand;
 }
 
@@ -48,10 +52,12 @@ TissueModel TissueModelBuilder::next(uint32_t kind) const {
   return tissue;
 }
 
-// The far end of a tool moves by its length times the change of its axis.
+// The far end of a rod moves by its length times the change of its axis, a point of a convex tool's
+// frame by about twice that of its Rodrigues vector, half of the angle.
 bool TissueModelBuilder::needs_stiffness(const Model &model, const Tool &tool) {
+  const double per_axis = tool.length * (tool.kind == ToolKind::convex ? 2 : 1);
   const double moved =
-      (tool.position - at_).norm() + (turns_ ? tool.length * (tool.axis - axis_).norm() : 0);
+      (tool.position - at_).norm() + (turns_ ? per_axis * (tool.axis - axis_).norm() : 0);
   const bool serves = age_ > 0 && valve_ == model.serial &&
                       (moved <= same_place || age_ > refresh_calls - least_calls);
   age_ = serves ? age_ - 1 : refresh_calls;
@@ -90,7 +96,9 @@ TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, 
     tissue.turns = 1;
     tissue.orientation = orientation_of(tool, *orientation);
     tissue.lever = tool.length;
-    tissue.most_torque = 0.5 * tool.max_force * tool.length;
+    // of the springs at their largest force: half of it at the far end of a rod, a quarter at each
+    // of the four points of a convex tool
+    tissue.most_torque = (tool.kind == ToolKind::rod ? 0.5 : 1) * tool.max_force * tool.length;
   }
   if (touches) {
     refresh_stiffness(model, state, tool, turns);
@@ -108,7 +116,9 @@ TissueModel TissueModelBuilder::of_tool(const Model &model, const State &state, 
   tissue.normal = room.away;
   tissue.gap = room.distance - tool_range(model);
   tissue.stiffness = tool.stiffness * Mat3::Identity();
-  if (turns) tissue.arm = nearest_on_axis(model, state.x, tool) * tool.length * tool.axis;
+  // a convex tool turns the hand only once it touches
+  if (turns && tool.kind == ToolKind::rod)
+    tissue.arm = nearest_on_axis(model, state.x, tool) * tool.length * tool.axis;
   return tissue;
 }
 

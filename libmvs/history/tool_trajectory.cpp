@@ -91,7 +91,7 @@ void take_steps(uint64_t &count, uint64_t &from, uint64_t most) {
 }  // namespace
 
 size_t points_of_tool(const Tool &tool) {
-  return tool.kind == ToolKind::rod ? 2 : 1;
+  return tool.kind == ToolKind::rod || tool.kind == ToolKind::convex ? 2 : 1;
 }
 
 size_t points_per_row(const RecordedEvent &trajectory) {
@@ -178,8 +178,8 @@ bool is_consistent(const RecordedEvent &trajectory) {
 void apply_row(State &state, const RecordedEvent &trajectory, size_t row) {
   const Vec3 *point = trajectory.points.get().data() + row * points_per_row(trajectory);
   for (const Tool &tool : trajectory.tools.get()) {
-    const bool is_rod = points_of_tool(tool) == 2;
-    move_tool(state, tool.id, point[0], is_rod ? point[1] : Vec3::Zero());
+    const bool has_axis = points_of_tool(tool) == 2;
+    move_tool(state, tool.id, point[0], has_axis ? point[1] : Vec3::Zero());
     point += points_of_tool(tool);
   }
 }

@@ -7,7 +7,8 @@
 
 namespace mvs::core {
 
-// The number of points of a tool in a row: its position, and the axis of a rod.
+// The number of points of a tool in a row: its position, and the axis of a rod or the
+// orientation of a convex tool.
 size_t points_of_tool(const Tool &tool);
 size_t points_per_row(const RecordedEvent &trajectory);
 

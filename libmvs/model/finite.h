@@ -13,8 +13,10 @@ inline void must_be_finite(const State &state) {
              "a node left the range of numbers: take a smaller time step or load");
   }
   for (const Tool &tool : state.tools.get()) {
-    MVS_MUST(tool.proxy[0].allFinite() && tool.proxy[1].allFinite(), MVS_E_DIVERGED, "tool",
-             "a tool left the range of numbers: take a smaller time step or move it less");
+    for (const Vec3 &point : tool.proxy) {
+      MVS_MUST(point.allFinite(), MVS_E_DIVERGED, "tool",
+               "a tool left the range of numbers: take a smaller time step or move it less");
+    }
   }
 }
 

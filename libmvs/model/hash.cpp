@@ -75,6 +75,15 @@ void add(Hash &hash, const Tool &tool) {
     hash.add(number);
   }
   for (const Vec3 &v : {tool.position, tool.axis, tool.proxy[0], tool.proxy[1]}) add(hash, v);
+  if (!tool.shape) return;
+  for (const Vec3 &v : {tool.proxy[2], tool.proxy[3]}) add(hash, v);
+  hash.add(uint64_t{tool.shape->bodies().size()});
+  for (const ToolBody &body : tool.shape->bodies()) {
+    add(hash, body.kind);
+    hash.add(body.radius);
+    hash.add(uint64_t{body.vertices.size()});
+    for (const Vec3 &v : body.vertices.get()) add(hash, v);
+  }
 }
 
 template <typename Item>

@@ -34,7 +34,17 @@ enum class RingKind : uint32_t { rigid = MVS_RING_KIND_RIGID, band = MVS_RING_KI
 enum class ToolKind : uint32_t {
   grasp = MVS_TOOL_KIND_GRASP,
   ball = MVS_TOOL_KIND_BALL,
-  rod = MVS_TOOL_KIND_ROD
+  rod = MVS_TOOL_KIND_ROD,
+  convex = MVS_TOOL_KIND_CONVEX
+};
+
+enum class BodyKind : uint32_t {
+  hull = MVS_BODY_KIND_HULL,
+  ball = MVS_BODY_KIND_BALL,
+  capsule = MVS_BODY_KIND_CAPSULE,
+  box = MVS_BODY_KIND_BOX,
+  cylinder = MVS_BODY_KIND_CYLINDER,
+  cone = MVS_BODY_KIND_CONE
 };
 
 enum class LeafletLawId : uint32_t {

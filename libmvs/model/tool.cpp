@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "geometry/convex_distance.h"
 #include "geometry/distance.h"
 #include "geometry/intersect.h"
 #include "model/model.h"
@@ -26,7 +27,7 @@ bool is(const Tool &tool, Id id) {
 
 // Returns 0 for a tool axis that crosses the triangle.
 double distance_of_core(const std::vector<Vec3> &x, const Tri &t, const Tool &tool) {
-  const auto &[a, b] = tool.proxy;
+  const Vec3 &a = tool.proxy[0], &b = tool.proxy[1];
   const Vec3 &p = x[t[0]], &q = x[t[1]], &r = x[t[2]];
   if (tool.points() == 1) return std::sqrt(closest_on_triangle(a, p, q, r).distance2);
   if (segment_crosses_triangle(a, b, p, q, r)) return 0;
@@ -55,6 +56,38 @@ Vec3 away_from(const std::vector<Vec3> &x, const Tri &t, const Tool &tool) {
   return away.normalized();
 }
 
+// The nearest tissue of a convex tool so far.
+struct NearestTissue {
+  double gap = std::numeric_limits<double>::infinity();  // m
+  Vec3 away = Vec3::Zero();
+
+  void take(std::span<const Vec3> body, std::span<const Vec3> part, double radius) {
+    const double cutoff = std::max(0.0, gap + radius);
+    const ConvexDistance found = convex_distance(body, part, cutoff);
+    if (found.is_beyond || found.distance - radius >= gap) return;
+    gap = found.distance - radius;
+    away = found.apart.normalized();
+  }
+};
+
+Room room_of_convex(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
+  NearestTissue nearest;
+  std::vector<Vec3> body;
+  for (size_t b = 0; b < tool.shape->bodies().size(); ++b) {
+    place_body(*tool.shape, b, tool.proxy, body);
+    const double radius = tool.shape->bodies()[b].radius;
+    for (const Tri &t : model.valve.triangles) {
+      const std::array<Vec3, 3> part = {x[t[0]], x[t[1]], x[t[2]]};
+      nearest.take(body, part, radius);
+    }
+    for (const Chord &chord : model.valve.chords) {
+      const std::array<Vec3, 2> part = {x[chord.a], x[chord.b]};
+      nearest.take(body, part, radius + chord_radius(chord));
+    }
+  }
+  return {nearest.gap, nearest.away};
+}
+
 void check_node(const Model &model, uint32_t node) {
   MVS_MUST(node < model.node_count(), MVS_E_ARGUMENT, "desc.node",
            "desc.node is %u, but the valve has %zu nodes", node, model.node_count());
@@ -68,11 +101,27 @@ double tool_range(const Model &model) {
   return 0.5 * model.valve.contact_thickness;
 }
 
+double chord_radius(const Chord &chord) {
+  constexpr double per_pi = 0.318309886183790672;  // 1 / pi
+  return std::sqrt(per_pi * chord.area);
+}
+
+void place_body(const ToolShape &shape, size_t body, std::span<const Vec3> frame,
+                std::vector<Vec3> &vertices) {
+  const std::vector<FrameWeights> &weights = shape.weights(body);
+  vertices.resize(weights.size());
+  for (size_t k = 0; k < weights.size(); ++k) {
+    const FrameWeights &w = weights[k];
+    vertices[k] = w[0] * frame[0] + w[1] * frame[1] + w[2] * frame[2] + w[3] * frame[3];
+  }
+}
+
 double clearance(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
   return room_of(model, x, tool).distance;
 }
 
 Room room_of(const Model &model, const std::vector<Vec3> &x, const Tool &tool) {
+  if (tool.kind == ToolKind::convex) return room_of_convex(model, x, tool);
   double least = std::numeric_limits<double>::infinity();
   const Tri *nearest = nullptr;
   for (const Tri &t : model.valve.triangles) {
@@ -89,7 +138,8 @@ Id add_tool(const Model &model, State &state, Tool tool) {
   MVS_MUST(state.tools.size() < MVS_MAX_TOOLS, MVS_E_STATE, "tool",
            "there are %u tools, which is the limit: remove one first", MVS_MAX_TOOLS);
   tool.id = first_tool_id + state.tools_made;
-  tool.proxy = {tool.target(0), tool.target(1)};
+  const uint32_t places = tool.kind == ToolKind::convex ? frame_points : 2;
+  for (uint32_t k = 0; k < places; ++k) tool.proxy[k] = tool.target(k);
   if (tool.kind == ToolKind::grasp) {
     check_node(model, tool.node);
   } else {
@@ -110,7 +160,10 @@ bool is_valid(const Model &model, const Tool &tool) {
                      !model.topology.fixed[tool.node];
   const bool pushes =
       (tool.kind == ToolKind::ball || tool.kind == ToolKind::rod) && tool.node == none;
-  return (holds || pushes) && tool.stiffness > 0 && tool.max_force > 0;
+  const bool has_shape = tool.kind == ToolKind::convex && tool.node == none && tool.shape &&
+                         tool.length == tool.shape->arm();
+  return (holds || has_shape || (pushes && !tool.shape)) && tool.stiffness > 0 &&
+         tool.max_force > 0;
 }
 
 const Tool &tool_of(const State &state, Id id, const char *call) {

@@ -12,8 +12,8 @@
 
 namespace mvs::core {
 
-void Hand::set_hand(const mvs_device_hand &given) {
-  MVS_MUST(static_cast<HandMode>(given.mode) <= HandMode::drag, MVS_E_ARGUMENT, "hand.mode",
+void Hand::set_hand(const mvs_device_hand &given, const ToolShapePtr &shape) {
+  MVS_MUST(static_cast<HandMode>(given.mode) <= HandMode::convex, MVS_E_ARGUMENT, "hand.mode",
            "hand.mode is %u: it has to be one of MVS_HAND_MODE_*", given.mode);
   MVS_MUST(given.button < 32, MVS_E_ARGUMENT, "hand.button",
            "hand.button is %u: it has to be 0 to 31", given.button);
@@ -22,6 +22,8 @@ void Hand::set_hand(const mvs_device_hand &given) {
   const ToolSizes sizes =
       read_tool_sizes({given.radius, given.length, given.stiffness, given.max_force}, "hand");
   hand_ = given;
+  hand_.bodies = nullptr;
+  shape_ = shape;
   hand_.reach = read_reach(given.reach, 5e-3, "hand");
   hand_.radius = sizes.radius;
   hand_.length = sizes.length;
@@ -114,14 +116,19 @@ void Hand::let_go(mvs_sim &sim) {
   builder_.begin_contact();
 }
 
-// The spring stiffness is limited to the value that the device can render through this view.
-// Returns the largest stiffness of a tool's spring, N/m, that the device renders stably. A rod has
-// half of it at each end: with the lever L its energy is k (x^2 + (x + L p)^2) / 4, whose larger
-// eigenvalue in the metric of StiffnessLimits is k times `largest`.
+// Returns the largest stiffness of a tool's spring, N/m, that the device renders stably through
+// this view. A rod has half of it at each end: with the lever L its energy is
+// k (x^2 + (x + L p)^2) / 4, whose larger eigenvalue in the metric of StiffnessLimits is k times
+// `largest`. A convex tool has a quarter of it at each corner of a regular tetrahedron: with the
+// arm a its energy is k (x^2 / 2 + a^2 p^2 / 3).
 double Hand::stiffest_spring(ToolKind kind) const {
   const double linear = most_.linear / view_.stiffness_scale();
-  if (kind != ToolKind::rod || most_.angular <= 0) return linear;
+  const bool turns = kind == ToolKind::rod || kind == ToolKind::convex;
+  if (!turns || most_.angular <= 0) return linear;
   const double angular = most_.angular / view_.torque_scale();
+  if (kind == ToolKind::convex) {
+    return std::min(linear, 1.5 * angular / (shape_->arm() * shape_->arm()));
+  }
   const double a = 1 / linear, b = 0.5 * hand_.length * hand_.length / angular;
   const double half = 0.5 * (a - b), off2 = 0.25 * hand_.length * hand_.length / (linear * angular);
   const double largest = 0.5 * (a + b) + std::sqrt(half * half + off2);
@@ -137,6 +144,8 @@ mvs_tool_desc Hand::describe(ToolKind kind) const {
     write(axis(), desc.axis);
     desc.length = hand_.length;
   }
+  const Quaternion turned = turn();
+  if (kind == ToolKind::convex) std::copy(turned.begin(), turned.end(), desc.orientation);
   if (kind != ToolKind::grasp) desc.radius = hand_.radius;
   desc.reach = hand_.reach;
   desc.stiffness = std::max(1.0, std::min(hand_.stiffness, stiffest_spring(kind)));
@@ -147,7 +156,7 @@ mvs_tool_desc Hand::describe(ToolKind kind) const {
 // Returns false if the position does not allow the tool.
 bool Hand::add(mvs_sim &sim, mvs_tool_desc desc) {
   try {
-    tool_ = add_tool_now(sim, desc);
+    tool_ = add_tool_now(sim, desc, shape_);
   } catch (const Error &error) {
     if (error.code != MVS_E_STATE && error.code != MVS_E_ARGUMENT) throw;
     return false;
@@ -166,15 +175,19 @@ void Hand::follow(mvs_sim &sim) {
     events_ |= MVS_EVENT_LOST_TOOL;
     builder_.begin_contact();
   }
-  const bool pushes = mode() == HandMode::ball || mode() == HandMode::rod;
+  const bool pushes =
+      mode() == HandMode::ball || mode() == HandMode::rod || mode() == HandMode::convex;
   if (pushes && tool_ == 0) {
-    const ToolKind kind = mode() == HandMode::ball ? ToolKind::ball : ToolKind::rod;
+    const ToolKind kind = mode() == HandMode::ball  ? ToolKind::ball
+                          : mode() == HandMode::rod ? ToolKind::rod
+                                                    : ToolKind::convex;
     if (!add(sim, describe(kind))) events_ |= MVS_EVENT_BLOCKED;
   } else if (held) {
     Tool moved = *held;
     moved.position = place_;
     if (moved.kind == ToolKind::rod) moved.axis = axis();
-    sim.hands.post(moved, moved.kind == ToolKind::rod);
+    if (moved.kind == ToolKind::convex) moved.axis = rodrigues_of(turn());
+    sim.hands.post(moved, moved.kind == ToolKind::rod || moved.kind == ToolKind::convex);
   }
 }
 

@@ -18,13 +18,14 @@ enum class HandMode : uint32_t {
   ball = MVS_HAND_MODE_BALL,
   rod = MVS_HAND_MODE_ROD,
   feel = MVS_HAND_MODE_FEEL,
-  drag = MVS_HAND_MODE_DRAG
+  drag = MVS_HAND_MODE_DRAG,
+  convex = MVS_HAND_MODE_CONVEX
 };
 
 class Hand {
  public:
   // set_hand and set_view throw MVS_E_ARGUMENT.
-  void set_hand(const mvs_device_hand &given);
+  void set_hand(const mvs_device_hand &given, const ToolShapePtr &shape = {});
   void set_view(const mvs_device_view &given) {
     view_ = DeviceView::read(given);
     builder_.begin_contact();  // the device coordinates of the tissue change
@@ -54,9 +55,11 @@ class Hand {
   mvs_tool_desc describe(ToolKind kind) const;
   Vec3 axis() const;
   double stiffest_spring(ToolKind kind) const;
+  Quaternion turn() const { return {turn_.w(), turn_.x(), turn_.y(), turn_.z()}; }
 
   DeviceView view_;
   mvs_device_hand hand_ = {};
+  ToolShapePtr shape_;  // of a convex tool
   TissueModelBuilder builder_;
   Vec3 place_ = Vec3::Zero();  // of the hand, in the scene
   Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();

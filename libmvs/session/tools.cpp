@@ -6,6 +6,7 @@
 #include "base/option_checks.h"
 #include "session/nearest.h"
 #include "session/recorded_event.h"
+#include "session/tool_bodies.h"
 
 namespace mvs::core {
 namespace {
@@ -21,13 +22,26 @@ uint32_t node_in_reach(const mvs_snapshot &now, const Vec3 &place, double reach)
 
 void check_numbers(const mvs_tool_desc &desc) {
   const auto kind = static_cast<ToolKind>(desc.kind);
-  MVS_MUST(kind >= ToolKind::grasp && kind <= ToolKind::rod, MVS_E_ARGUMENT, "desc.kind",
+  MVS_MUST(kind >= ToolKind::grasp && kind <= ToolKind::convex, MVS_E_ARGUMENT, "desc.kind",
            "desc.kind is %u: it has to be one of MVS_TOOL_KIND_*", desc.kind);
   MVS_MUST(desc.by_node <= 1, MVS_E_ARGUMENT, "desc.by_node",
            "desc.by_node is %u: it has to be 0 or 1", desc.by_node);
+  MVS_MUST(desc.strict_hulls <= 1, MVS_E_ARGUMENT, "desc.strict_hulls",
+           "desc.strict_hulls is %u: it has to be 0 or 1", desc.strict_hulls);
+  MVS_MUST(kind == ToolKind::convex || desc.body_count == 0, MVS_E_ARGUMENT, "desc.body_count",
+           "desc.body_count is %u, but only MVS_TOOL_KIND_CONVEX has bodies", desc.body_count);
+  must_be_zero(desc.reserved, "desc.reserved");
 }
 
-Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc) {
+// Fills in shape and orientation of a convex tool.
+void read_convex(const mvs_tool_desc &desc, const ToolShapePtr &shape, Tool &tool) {
+  MVS_MUST(shape, MVS_E_ARGUMENT, "desc.body_count", "a convex tool has at least one body");
+  tool.shape = shape;
+  tool.length = tool.shape->arm();
+  tool.axis = read_orientation(desc.orientation, "desc.orientation");
+}
+
+Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc, const ToolShapePtr &shape) {
   check_numbers(desc);
   Tool tool;
   tool.kind = static_cast<ToolKind>(desc.kind);
@@ -39,6 +53,10 @@ Tool read_tool(const mvs_snapshot &now, const mvs_tool_desc &desc) {
   tool.max_force = sizes.max_force;
   if (tool.kind == ToolKind::grasp) {
     tool.node = desc.by_node ? desc.node : node_in_reach(now, tool.position, reach);
+    return tool;
+  }
+  if (tool.kind == ToolKind::convex) {
+    read_convex(desc, shape, tool);
     return tool;
   }
   tool.radius = sizes.radius;
@@ -89,9 +107,9 @@ double read_reach(double given, double fallback, const std::string &of) {
   return value_or(given, fallback);
 }
 
-Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc) {
+Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc, const ToolShapePtr &shape) {
   const SnapshotPtr before = sim.present();
-  Tool added = read_tool(*before.get(), desc);
+  Tool added = read_tool(*before.get(), desc, shape);
   added.id = first_tool_id + before->state.tools_made;
   apply_at_once(sim, event_of(RecordedEvent::tool_add, added));
   return added.id;

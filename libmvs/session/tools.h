@@ -3,6 +3,8 @@
 
 #include <mvs/tool.h>
 
+#include <string>
+
 #include "session/simulator.h"
 
 namespace mvs::core {
@@ -26,7 +28,8 @@ inline constexpr double max_coordinate = 10;
 Vec3 read_place(const double given[3], const char *what);
 Vec3 read_axis(const double given[3], const char *what);
 
-Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc);
+// `shape`: of a convex tool, in place of the bodies of `desc`.
+Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc, const ToolShapePtr &shape = {});
 void remove_tool_now(mvs_sim &sim, Id id);
 
 }  // namespace mvs::core

@@ -103,7 +103,7 @@ static void what_cannot_be_is_refused_and_changes_nothing(void) {
   } while (0)
   REFUSED(struct_size, 0, MVS_E_ARGUMENT, "struct_size");
   REFUSED(kind, 0, MVS_E_ARGUMENT, "MVS_TOOL_");
-  REFUSED(kind, 4, MVS_E_ARGUMENT, "MVS_TOOL_");
+  REFUSED(kind, 5, MVS_E_ARGUMENT, "MVS_TOOL_");
   REFUSED(position[1], NAN, MVS_E_ARGUMENT, "within 10");
   REFUSED(position[1], 11, MVS_E_ARGUMENT, "within 10");
   REFUSED(position[1], 9, MVS_E_ARGUMENT, "no free vertex");

@@ -1,40 +1,19 @@
-// The local model of force and torque: it is the derivative of an energy at any rotation, and it
-// predicts force and torque of the full simulation of a rod.
+// The local model of force and torque is the derivative of an energy at any rotation, within the
+// limits of the springs and of the device.
 #include <doctest/doctest.h>
-#include <mvs/sim.h>
+#include <mvs/device.h>
 
 #include <cmath>
 
-#include "anatomy/parametric.h"
 #include "haptics/tissue_model_builder.h"
 #include "linalg/eigenvalues.h"
 #include "session/device_view.h"
-#include "solve/solver.h"
+#include "tests/haptics/numbers.h"
 
 using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
-
-struct Numbers {
-  uint64_t state = 1;
-  // Uniform in -1 .. 1 (xorshift, Marsaglia 2003).
-  double next() {
-    state ^= state << 13;
-    state ^= state >> 7;
-    state ^= state << 17;
-    return static_cast<double>(state >> 11) * 0x1p-52 - 1;
-  }
-  Vec3 vector() {
-    const double x = next(), y = next();
-    return Vec3(x, y, next());
-  }
-};
-
-Eigen::Quaterniond turned(const Vec3 &rotation) {
-  const double angle = rotation.norm();
-  if (angle == 0) return Eigen::Quaterniond::Identity();
-  return Eigen::Quaterniond(Eigen::AngleAxisd(angle, rotation / angle));
-}
 
 // A grasp of the size of a rod's contact: 200 N/m, 0.1 N m/rad, coupled.
 TissueModel coupled(Numbers &numbers) {
@@ -176,122 +155,4 @@ TEST_CASE("the stiffness of a view is within the limits of translation and rotat
     CHECK_GE(energy, -1e-12 * bound);
     CHECK_LE(energy, bound * (1 + 1e-12));
   }
-}
-
-namespace {
-
-// A rod that lies obliquely on the closed valve, pushed into it.
-struct PushedRod {
-  PushedRod() {
-    mvs_parametric_desc desc = {};
-    desc.shape = MVS_SHAPE_FOUNDING;
-    desc.struct_size = sizeof desc;
-    model = make_model(make_parametric_valve(desc));
-    state = initial_state(*model);
-    state.load = {MVS_SYSTOLE_PA, 1};
-    settle(state);
-    const Vec3 axis = Vec3(0.6, 0, 0.8);
-    for (const uint32_t node : {60u, 100u, 140u, 180u, 220u, 260u, 300u}) {
-      if (place(state.x.get()[node], axis)) return;
-    }
-    FAIL("no place for the rod");
-  }
-  bool place(const Vec3 &under, const Vec3 &axis) {
-    Tool rod;
-    rod.kind = ToolKind::rod;
-    rod.radius = 2e-3;
-    rod.length = 15e-3;
-    rod.stiffness = 200;
-    rod.max_force = 5;
-    rod.axis = axis;
-    rod.position = under + Vec3(0, 0, 4e-3);
-    rod.proxy = {rod.position, rod.position + rod.length * axis};
-    if (clearance(*model, state.x, rod) < 0.2e-3) return false;
-    State pushed = state;
-    id = add_tool(*model, pushed, rod);
-    move_tool(pushed, id, under + Vec3(0.5e-3, 0, -2e-3), axis);
-    settle(pushed);
-    const ToolForce felt = force_of(pushed, tool_of(pushed, id, "test"));
-    if (felt.force.norm() < 0.1 || felt.torque.norm() < 1e-4) return false;
-    state = pushed;
-    return true;
-  }
-  void settle(State &at) const {
-    SolveOptions options;
-    options.residual = 1e-7;
-    Solver solver(Backend::fastest);
-    REQUIRE(solver.settle(*model, at, options, {}).converged);
-  }
-  const Tool &rod() const { return tool_of(state, id, "test"); }
-  // Force and torque of the full simulation with the hand moved and turned.
-  ToolForce moved(const Vec3 &step, const Vec3 &rotation) const {
-    State other = state;
-    move_tool(other, id, rod().position + step, turned(rotation) * rod().axis);
-    settle(other);
-    return force_of(other, tool_of(other, id, "test"));
-  }
-
-  ModelPtr model;
-  State state;
-  Id id = 0;
-};
-
-}  // namespace
-
-TEST_CASE("the stiffness of a rod is the slope of its force and torque, to first order") {
-  const PushedRod pushed;
-  ToolFeel feel(Backend::fastest);
-  const ToolStiffness k = feel.wrench_stiffness(*pushed.model, pushed.state, pushed.rod());
-  const Vec3 torque = force_of(pushed.state, pushed.rod()).torque;
-  Mat3 linear, coupling, angular;
-  // central differences of forces good to 1e-7 N
-  constexpr double step = 2e-6, angle = 2e-4;  // m, rad
-  for (int c = 0; c < 3; ++c) {
-    const Vec3 unit = Vec3::Unit(c);
-    const ToolForce ahead = pushed.moved(step * unit, Vec3::Zero());
-    const ToolForce back = pushed.moved(-step * unit, Vec3::Zero());
-    linear.col(c) = -(ahead.force - back.force) / (2 * step);
-    const ToolForce left = pushed.moved(Vec3::Zero(), angle * unit);
-    const ToolForce right = pushed.moved(Vec3::Zero(), -angle * unit);
-    coupling.col(c) = -(left.force - right.force) / (2 * angle);
-    // of the torque w g + v x g to that of g
-    angular.col(c) = -(left.torque - right.torque) / (2 * angle) + 0.5 * unit.cross(torque);
-  }
-  const double off[] = {(k.linear - linear).norm() / linear.norm(),
-                        (k.coupling - coupling).norm() / coupling.norm(),
-                        (k.angular - angular).norm() / angular.norm()};
-  MESSAGE("stiffness of a rod, difference from the simulation: ", 100 * off[0], " % of ",
-          linear.norm(), " N/m, ", 100 * off[1], " % of ", coupling.norm(), " N/rad, ",
-          100 * off[2], " % of ", angular.norm(), " N m/rad");
-  // as for a grasp (feel.cpp): the part of the pressure at the free edge is not symmetric, and left
-  // out
-  for (const double share : off) CHECK_LT(share, 0.05);
-}
-
-TEST_CASE("the local model of a rod predicts force and torque within 10 % around") {
-  const PushedRod pushed;
-  TissueModelBuilder maker;
-  const Eigen::Quaterniond hand =
-      Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), pushed.rod().axis);
-  const TissueModel tissue = maker.of_tool(*pushed.model, pushed.state, pushed.rod(), &hand);
-  REQUIRE_EQ(tissue.turns, 1);
-  CHECK_LT((tissue.torque - force_of(pushed.state, pushed.rod()).torque).norm(), 1e-15);
-  double worst_force = 0, worst_torque = 0, force = tissue.force.norm(),
-         torque = tissue.torque.norm();
-  Numbers numbers;
-  for (int k = 0; k < 8; ++k) {
-    const Vec3 step = 0.2e-3 * numbers.vector(), rotation = 0.02 * numbers.vector();
-    const ToolForce truth = pushed.moved(step, rotation);
-    const Wrench model =
-        wrench_at(tissue, {pushed.rod().position + step, turned(rotation) * tissue.orientation});
-    worst_force = std::max(worst_force, (model.force - truth.force).norm());
-    worst_torque = std::max(worst_torque, (model.torque - truth.torque).norm());
-    force = std::max(force, truth.force.norm());
-    torque = std::max(torque, truth.torque.norm());
-  }
-  MESSAGE("local model of a rod within 0.35 mm and 0.035 rad, largest error: ",
-          100 * worst_force / force, " % of the force, ", 100 * worst_torque / torque,
-          " % of the torque");
-  CHECK_LT(worst_force, 0.1 * force);
-  CHECK_LT(worst_torque, 0.1 * torque);
 }

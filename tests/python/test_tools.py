@@ -90,6 +90,62 @@ def test_a_plan_does_not_change_held_tools(sim):
     np.testing.assert_array_equal(led.position, points[-1])
 
 
+HOOK = [
+    {"kind": "capsule", "position": (0, 0, 0), "end": (0, 0, 20e-3), "radius": 0.6e-3},
+    {"kind": "box", "position": (2e-3, 0, 0), "size": (4e-3, 1e-3, 1e-3), "radius": 0.2e-3},
+    {"kind": "cone", "position": (4e-3, 0, 0), "end": (4e-3, 0, 3e-3), "size": 0.5e-3},
+]
+
+
+def test_a_hook_turns_with_its_hand(sim):
+    half = np.sqrt(0.5)
+    tool = sim.add_tool("convex", (0, 0, 0.05), bodies=HOOK, orientation=(half, 0, 0, half))
+    sim.move_tool(tool, (0, 0, 0.04), orientation=(1, 0, 0, 0.9))
+    for _ in range(300):
+        sim.step()
+    seen = sim.tool(tool)
+    assert seen.kind == mvs.ToolKind.CONVEX and seen.body_count == 3 and seen.touching is False
+    wanted = np.array([1, 0, 0, 0.9]) / np.hypot(1, 0.9)
+    np.testing.assert_allclose(seen.orientation, wanted, atol=1e-15)
+    # the proxy is where the hand is, after 300 steps to a residual of 1e-5 N over 200 N/m
+    np.testing.assert_allclose(seen.proxy_orientation, wanted, atol=1e-5)
+    np.testing.assert_allclose(seen.proxy, (0, 0, 0.04), atol=1e-6)
+
+
+def test_the_bodies_of_a_hook_are_read_back(sim):
+    sim.add_tool("grasp", sim.snapshot().node_position[sim.snapshot().free_edge_nodes[0]])
+    sim.add_tool("convex", (0, 0, 0.05), bodies=HOOK)
+    snapshot = sim.snapshot()
+    assert snapshot.tool_bodies(0) == ()
+    shaft, bar, tip = snapshot.tool_bodies(1)
+    assert (shaft.kind, shaft.radius, len(shaft.triangles)) == (mvs.BodyKind.CAPSULE, 0.6e-3, 0)
+    np.testing.assert_allclose(shaft.vertices, [(0, 0, 0), (0, 0, 20e-3)])
+    assert bar.vertices.shape == (8, 3) and bar.triangles.shape == (12, 3)
+    # a regular polygon of 24 corners: volume of the pyramid on it
+    corners = tip.vertices[tip.triangles]
+    volume = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+    area = 24 / 2 * np.sin(2 * np.pi / 24) * 0.5e-3**2
+    np.testing.assert_allclose(volume, area * 3e-3 / 3, rtol=1e-12)
+
+
+def test_wrong_bodies_are_refused(sim):
+    def refused(match, *bodies, **more):
+        with pytest.raises(mvs.ArgumentError, match=match):
+            sim.add_tool("convex", (0, 0, 0.05), bodies=bodies, **more)
+
+    before = sim.snapshot().hash
+    refused("1 to 16 bodies")
+    refused("needed, not \"torus\"", {"kind": "torus"})
+    refused("has no \"colour\"", {"kind": "ball", "colour": 1})
+    refused("n x 3", {"kind": "hull", "vertices": [1.0, 2.0]})
+    refused("no volume", {"kind": "hull", "vertices": 1e-3 * np.eye(3)[[0, 1, 2, 0]]})
+    dented = np.vstack([np.zeros(3), 1e-3 * np.eye(3), np.full(3, 2e-4)])
+    refused("not convex: 1 of its 5", {"kind": "hull", "vertices": dented}, strict_hulls=True)
+    with pytest.raises(mvs.ArgumentError, match="one of them"):
+        sim.move_tool(0, (0, 0, 0), (0, 0, 1), orientation=(1, 0, 0, 0))
+    assert sim.snapshot().hash == before
+
+
 def test_wrong_words_are_refused(sim):
     with pytest.raises(mvs.ArgumentError, match="grasp"):
         sim.add_tool("knife", (0, 0, 0))

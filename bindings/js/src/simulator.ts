@@ -243,6 +243,11 @@ export class Simulator extends Owned {
     this.mvs.c.mvs_move_tool(this.handle, tool, position, axis);
   }
 
+  /** The same with an orientation, w x y z of a quaternion, which a convex tool or rod takes. */
+  moveToolPose(tool: bigint, position: ArrayLike<number>, orientation?: ArrayLike<number>): void {
+    this.mvs.c.mvs_move_tool_pose(this.handle, tool, position, orientation);
+  }
+
   removeTool(tool: bigint): void {
     this.mvs.c.mvs_remove_tool(this.handle, tool);
   }

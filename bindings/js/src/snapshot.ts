@@ -5,7 +5,7 @@ import { refuse } from "./error.js";
 import { ArrayKind, MeasureGroupFlags, type Format, type PartKind } from "./generated/enums.js";
 import type {
   ChordInfo, Comparison, Cost, CostOptions, EnsembleOptions, HistoryEntry, LoadCase, LoadCaseInput, Measures, OrificePart,
-  Part, PlanOptions, RegionMeasures, Rest, SettleOptions, Stability, ToolState,
+  Part, PlanOptions, RegionMeasures, Rest, SettleOptions, Stability, ToolBody, ToolState,
 } from "./generated/structs.js";
 import { Owned } from "./handles.js";
 import { enumNumber } from "./layout.js";
@@ -166,6 +166,13 @@ export class Snapshot extends Owned {
   tools(): ToolState[] {
     const { c } = this.mvs;
     return Array.from({ length: c.mvs_snapshot_get_tool_count(this.handle) }, (_, k) => c.mvs_snapshot_get_tool(this.handle, k));
+  }
+
+  /** The bodies of the convex tool at an index of tools(); empty for others. Their views are valid while the snapshot is. */
+  toolBodies(index: number): ToolBody[] {
+    const { c } = this.mvs;
+    const count = c.mvs_snapshot_get_tool(this.handle, index).body_count;
+    return Array.from({ length: count }, (_, k) => c.mvs_snapshot_get_tool_body(this.handle, index, k));
   }
 
   /** The bytes of a file with this valve: "obj" is read back exactly; "vtp" and "feb" are for others. */

@@ -66,7 +66,7 @@ class Describer {
     const hidden = new Set(["struct_size", "reserved"]);
     const shown = [];
     for (const field of struct.all) {
-      const one = field.name.replace(/s$/, "");
+      const one = field.name.replace(/ies$/, "y").replace(/s$/, "");
       const codec = this.codec(struct, field, names, one);
       if (codec.kind === "structs") [`${one}_count`, `${one}_stride`].forEach((name) => hidden.add(name));
       if (field.name === "scallops") hidden.add("scallop_count");

@@ -34,6 +34,7 @@ from .values import (
     Stability,
     Stats,
     Tool,
+    ToolBody,
 )
 
 _F64 = NDArray[np.float64]
@@ -192,6 +193,7 @@ class Snapshot:
     def parts(self) -> tuple[Part, ...]: ...
     @property
     def tools(self) -> tuple[Tool, ...]: ...
+    def tool_bodies(self, index: int) -> tuple[ToolBody, ...]: ...
     @property
     def history(self) -> tuple[HistoryEntry, ...]: ...
     @property
@@ -426,7 +428,7 @@ class Simulator:
     def check(self, operation: Union[str, Operation], /, **fields: Any) -> None: ...
     def add_tool(
         self,
-        kind: Literal["grasp", "ball", "rod"],
+        kind: Literal["grasp", "ball", "rod", "convex"],
         position: _Point,
         *,
         axis: Optional[_Point] = None,
@@ -436,9 +438,17 @@ class Simulator:
         max_force: Optional[float] = None,
         reach: Optional[float] = None,
         node: Optional[int] = None,
+        bodies: Sequence[dict[str, Any]] = (),
+        orientation: Optional[_Point] = None,
+        strict_hulls: bool = False,
     ) -> int: ...
     def move_tool(
-        self, tool: int, position: _Point, axis: Optional[_Point] = None
+        self,
+        tool: int,
+        position: _Point,
+        axis: Optional[_Point] = None,
+        *,
+        orientation: Optional[_Point] = None,
     ) -> None: ...
     def remove_tool(self, tool: int) -> None: ...
     def tool(self, tool: int) -> Tool: ...

@@ -75,6 +75,18 @@ class ToolKind(IntEnum):
     GRASP = 1
     BALL = 2
     ROD = 3
+    CONVEX = 4
+
+
+class BodyKind(IntEnum):
+    """Kinds of bodies of a convex tool."""
+
+    HULL = 1
+    BALL = 2
+    CAPSULE = 3
+    BOX = 4
+    CYLINDER = 5
+    CONE = 6
 
 
 class LeafletLaw(IntEnum):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .describe import annotation_of, with_field_help
-from .kinds import EnsembleOrder, FindingSource, PartKind, SamRisk, ToolKind
+from .kinds import BodyKind, EnsembleOrder, FindingSource, PartKind, SamRisk, ToolKind
 
 
 def unit_of(kind: type, name: str) -> str:
@@ -111,13 +111,13 @@ class Tool:
     """An instrument in a snapshot: positions of hand and tool, and the force on the hand."""
 
     id: Annotated[int, "1", "id of the tool"]
-    kind: Annotated[ToolKind, "1", "grasp, ball or rod"]
+    kind: Annotated[ToolKind, "1", "grasp, ball, rod or convex"]
     position: Annotated[NDArray[np.float64], "m", "of the hand"]
     axis: Annotated[NDArray[np.float64], "1", "unit vector of the rod of the hand; 0 for others"]
     proxy: Annotated[NDArray[np.float64], "m", "the held node, or the centre of ball or tip"]
     proxy_axis: Annotated[NDArray[np.float64], "1", "unit vector of the rod; 0 for others"]
     force: Annotated[NDArray[np.float64], "N", "on the hand"]
-    torque: Annotated[NDArray[np.float64], "N m", "of a rod, on the hand about its position"]
+    torque: Annotated[NDArray[np.float64], "N m", "of a rod or convex tool, on the hand about its position"]
     distance: Annotated[float, "m", "from its surface to the mid-surface of the nearest leaflet"]
     radius: Annotated[float, "m", "of a ball or rod"]
     length: Annotated[float, "m", "of a rod, between the centres of its ends"]
@@ -125,6 +125,21 @@ class Tool:
     max_force: Annotated[float, "N", "of that spring"]
     node: Annotated[Optional[int], "1", "node held by a grasp; None for others"]
     touching: Annotated[bool, "1", "in contact with tissue; always true for a grasp"]
+    orientation: Annotated[NDArray[np.float64], "1", "of the hand of a convex tool, w x y z"]
+    proxy_orientation: Annotated[NDArray[np.float64], "1", "of a convex tool, w x y z"]
+    body_count: Annotated[int, "1", "bodies of a convex tool"]
+    vertex_count: Annotated[int, "1", "vertices of all its bodies"]
+
+
+@with_field_help
+@dataclasses.dataclass(frozen=True)
+class ToolBody:
+    """A body of a convex tool: the hull of vertices in the frame of the hand, rounded by a radius."""
+
+    kind: Annotated[BodyKind, "1", "as it was given"]
+    radius: Annotated[float, "m", "by which the hull is rounded"]
+    vertices: Annotated[NDArray[np.float64], "m", "n x 3, in the frame of the hand"]
+    triangles: Annotated[NDArray[np.uint32], "1", "n x 3: surface of the hull, normals outwards"]
 
 
 @with_field_help

@@ -95,6 +95,18 @@ py::tuple tools(const Snapshot &snapshot) {
   return found;
 }
 
+py::tuple tool_bodies(const Snapshot &snapshot, uint32_t index) {
+  auto state = sized<mvs_tool_state>();
+  must(mvs_snapshot_get_tool(snapshot.get(), index, &state));
+  py::tuple found(state.body_count);
+  for (uint32_t k = 0; k < state.body_count; ++k) {
+    auto body = sized<mvs_tool_body>();
+    must(mvs_snapshot_get_tool_body(snapshot.get(), index, k, &body));
+    found[k] = tool_body_value(body);
+  }
+  return found;
+}
+
 py::tuple history(const Snapshot &snapshot) {
   auto size = sized<mvs_history>();
   must(mvs_snapshot_get_history(snapshot.get(), &size));
@@ -282,6 +294,9 @@ void bind_snapshot(py::module_ &module) {
                              "heads, rings; `index` is the row in the arrays of their kind.");
   type.def_property_readonly("tools", &tools,
                              "The instruments (tuple of mvs.Tool) in the order of their addition.");
+  type.def("tool_bodies", &tool_bodies, "index"_a,
+           "The bodies of the convex tool at an index of `tools` (tuple of mvs.ToolBody); empty for "
+           "others.");
   type.def_property_readonly("history", &history,
                              "The operations on the valve (tuple of mvs.HistoryEntry): the applied "
                              "ones from first to last, then the undone ones in the order of redo.");

@@ -24,6 +24,7 @@ py::object replay_value(const mvs_replay &replay);
 py::object chord_limits_value(double strain, double tension);
 py::object history_value(const mvs_history_entry &entry, bool done);
 py::object tool_value(const mvs_tool_state &tool);
+py::object tool_body_value(const mvs_tool_body &body);
 py::object ensemble_summary_value(const mvs_ensemble_summary &summary);
 py::object ensemble_member_value(const mvs_ensemble_member &member, const mvs_stats &stats,
                                  const mvs_profile &profile);

@@ -1,6 +1,7 @@
 // Packs preconditioner keys into the numbers of a solver cache and checks them on the way back.
 // Layout of version 1, for the active key and then, if there is one, the pending key:
-// node count, tool count, pressure, dt, damping, the tools, the positions.
+// node count, tool count, pressure, dt, damping, the tools, the positions. A convex tool adds the
+// rest of its frame and its bodies.
 #include "solve/dynamic/preconditioner_key.h"
 
 #include <algorithm>
@@ -27,6 +28,14 @@ void append(std::vector<double> &data, const Tool &tool) {
                            static_cast<double>(tool.node), tool.radius, tool.length, tool.stiffness,
                            tool.max_force});
   for (const Vec3 &v : {tool.position, tool.axis, tool.proxy[0], tool.proxy[1]}) append(data, v);
+  if (!tool.shape) return;
+  for (const Vec3 &v : {tool.proxy[2], tool.proxy[3]}) append(data, v);
+  data.push_back(static_cast<double>(tool.shape->bodies().size()));
+  for (const ToolBody &body : tool.shape->bodies()) {
+    data.insert(data.end(), {static_cast<double>(body.kind), body.radius,
+                             static_cast<double>(body.vertices.size())});
+    for (const Vec3 &v : body.vertices.get()) append(data, v);
+  }
 }
 
 void append(std::vector<double> &data, const PreconditionerKey &key) {
@@ -95,8 +104,29 @@ class CacheReader {
       *value = number();
     }
     for (Vec3 *v : {&tool.position, &tool.axis, &tool.proxy[0], &tool.proxy[1]}) *v = vector();
+    if (tool.kind == ToolKind::convex) {
+      for (Vec3 *v : {&tool.proxy[2], &tool.proxy[3]}) *v = vector();
+      tool.shape = shape();
+    }
     must(is_valid(model_, tool));
     return tool;
+  }
+
+  ToolShapePtr shape() {
+    const uint64_t count = whole();
+    must(count <= most_tool_bodies);
+    std::vector<ToolBody> bodies(count);
+    for (ToolBody &body : bodies) {
+      body.kind = static_cast<BodyKind>(index());
+      body.radius = number();
+      const uint64_t size = whole();
+      must(size <= most_tool_vertices);
+      std::vector<Vec3> vertices(size);
+      for (Vec3 &v : vertices) v = vector();
+      body.vertices = std::move(vertices);
+    }
+    must(are_valid(bodies));
+    return ToolShapePtr(std::make_shared<const ToolShape>(std::move(bodies)));
   }
 
   const Model &model_;

@@ -34,7 +34,7 @@ uint32_t tool_points(const std::vector<Tool> &tools) {
 
 const Model &ToolPoints::extend(const Model &model, uint32_t points) {
   if (points == 0) return model;
-  // serials are below 2^48 and points at most 128; a model without a serial has 0
+  // serials are below 2^48 and points at most 256; a model without a serial has 0
   const uint64_t serial = model.serial | uint64_t{points} << 48;
   if (model.serial != 0 && serial == serial_) return model_;
   serial_ = 0;  // until the model is complete

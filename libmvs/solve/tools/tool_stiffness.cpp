@@ -2,6 +2,7 @@
 #include "solve/tools/tool_stiffness.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 
 #include "base/error.h"
@@ -13,7 +14,7 @@ namespace {
 
 // The number of springs between a hand and its tool.
 uint32_t springs_of(const Tool &tool) {
-  return tool.kind == ToolKind::rod ? 2 : 1;
+  return std::max(1u, tool.points());
 }
 
 // The node of spring k of a tool, in a state that has nodes for the points of tools.
@@ -111,8 +112,7 @@ ToolFeel::Springs ToolFeel::springs_at(const Model &valve, const State &valve_st
 }
 
 // The forces against springs whose ends at the hand moved, while the valve follows.
-void ToolFeel::follow(const Springs &springs, const std::array<Vec3, 2> &moved,
-                      std::array<Vec3, 2> &answer) {
+void ToolFeel::follow(const Springs &springs, const SpringVectors &moved, SpringVectors &answer) {
   rows_.assign(system_.matrix.size(), Vec3::Zero());
   for (uint32_t k = 0; k < springs.count; ++k) {
     answer[k] = springs.block[k] * moved[k];
@@ -125,7 +125,7 @@ void ToolFeel::follow(const Springs &springs, const std::array<Vec3, 2> &moved,
 
 Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Tool &tool) {
   const Springs springs = springs_at(valve, valve_state, tool);
-  std::array<Vec3, 2> moved, answer;
+  SpringVectors moved, answer;
   Mat3 sum = Mat3::Zero();
   for (int c = 0; c < 3; ++c) {
     moved.fill(Vec3::Unit(c));
@@ -139,7 +139,7 @@ Mat3 ToolFeel::stiffness(const Model &valve, const State &valve_state, const Too
 ToolStiffness ToolFeel::wrench_stiffness(const Model &valve, const State &valve_state,
                                          const Tool &tool) {
   const Springs springs = springs_at(valve, valve_state, tool);
-  std::array<Vec3, 2> moved, answer;
+  SpringVectors moved, answer;
   Mat3 linear = Mat3::Zero(), coupling = Mat3::Zero(), angular = Mat3::Zero();
   for (int c = 0; c < 6; ++c) {
     const Vec3 unit = Vec3::Unit(c % 3);

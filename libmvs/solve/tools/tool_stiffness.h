@@ -17,6 +17,7 @@
 
 #include "energy/total_energy.h"
 #include "linalg/direct_solver.h"
+#include "model/tool_shape.h"
 #include "solve/tools/tool_points.h"
 
 namespace mvs::core {
@@ -48,15 +49,15 @@ class ToolFeel {
 
  private:
   // The springs of a tool at a factorised state.
+  using SpringVectors = std::array<Vec3, frame_points>;
   struct Springs {
     uint32_t count;
-    std::array<uint32_t, 2> row;
-    std::array<Mat3, 2> block;
-    std::array<Vec3, 2> arm, force;  // from the hand, m; on the hand, N
+    std::array<uint32_t, frame_points> row;
+    std::array<Mat3, frame_points> block;
+    SpringVectors arm, force;  // from the hand, m; on the hand, N
   };
   Springs springs_at(const Model &model, const State &state, const Tool &tool);
-  void follow(const Springs &springs, const std::array<Vec3, 2> &moved,
-              std::array<Vec3, 2> &answer);
+  void follow(const Springs &springs, const SpringVectors &moved, SpringVectors &answer);
   void take_model(const Model &model);
   void factorise(const State &state);
   bool try_factorise(double more_mass);

@@ -3,6 +3,8 @@
 //   bench_step                       scenes S and M, 60 s of simulated time each
 //   bench_step --seconds 2 --scenes S
 //   bench_step --csv FILE            also as a table, one row a scene and phase of the play
+//   bench_step --tool convex         the ball of the play as a convex tool of 200 vertices, beside
+//                                    the play with the ball: ratios of the steps while it pushes
 //
 // The play takes some ten seconds and is repeated: a valve closes under systole and beats; a hand
 // grasps the edge of A2, pulls it 10 mm into the atrium, and releases it; a ball pushes P2 down and
@@ -50,7 +52,7 @@ struct Options {
   std::vector<std::string> scenes = {"S", "M"};
   double seconds = 60;
   uint32_t budget = 0;
-  std::string csv;
+  std::string csv, tool = "ball";
 };
 
 double cpu_now() {
@@ -147,13 +149,13 @@ Row run_phase(mvs::Simulator &sim, const Options &options, const std::string &sc
 }
 
 // A row a phase, over all its repetitions.
-std::vector<Row> run_scene(const Options &options, const std::string &scene) {
+std::vector<Row> run_scene(const Options &options, const std::string &scene, bench::Pusher pusher) {
   mvs::Simulator sim;
   mvs_parametric_desc valve = {};
   valve.shape = MVS_SHAPE_FOUNDING;
   valve.vertices = scene_vertices.at(scene);
   sim.generate(valve);
-  const std::vector<Phase> phases = bench::play();
+  const std::vector<Phase> phases = bench::play(pusher);
   const double times = std::max(1.0, std::round(options.seconds / play_s));
   const double share = options.seconds / (times * static_cast<double>(phases.size()));
   const int steps = std::max(2, static_cast<int>(std::lround(share / dt)));
@@ -253,6 +255,14 @@ void tell(const std::string &scene, const Row &whole) {
       scene.c_str(), 100 * resting / active, 1e3 * founding, 125 * founding / active);
 }
 
+void compare(const std::string &scene, const Row &convex, const Row &ball) {
+  std::printf("%s: pushing with 200 vertices takes p50 %.2f, p99 %.2f, max %.2f times the ball's\n",
+              scene.c_str(), percentile(convex.active, 0.5) / percentile(ball.active, 0.5),
+              percentile(convex.active, 0.99) / percentile(ball.active, 0.99),
+              percentile(convex.active, 1) / percentile(ball.active, 1));
+  print(ball);
+}
+
 void run(const Options &options) {
   std::ofstream csv;
   if (!options.csv.empty()) csv.open(options.csv);
@@ -262,11 +272,20 @@ void run(const Options &options) {
     Row whole;
     whole.scene = scene;
     whole.phase = "all";
-    for (const Row &row : run_scene(options, scene)) {
+    Row pushed, pushed_by_ball;
+    if (options.tool == "convex") {
+      for (const Row &row : run_scene(options, scene, bench::Pusher::ball)) {
+        if (row.phase == bench::push_phase) pushed_by_ball = row;
+      }
+    }
+    const auto pusher = options.tool == "convex" ? bench::Pusher::convex : bench::Pusher::ball;
+    for (const Row &row : run_scene(options, scene, pusher)) {
       print(row);
       write(csv, row);
       whole.add(row);
+      if (row.phase == bench::push_phase) pushed = row;
     }
+    if (options.tool == "convex") compare(scene, pushed, pushed_by_ball);
     print(whole);
     write(csv, whole);
     tell(scene, whole);
@@ -286,6 +305,9 @@ int main(int argc, char **argv) {
     app.add_option("--seconds", options.seconds, "of simulated time, for all phases together")
         ->check(CLI::PositiveNumber);
     app.add_option("--budget", options.budget, "of a step; 0: the default");
+    app.add_option("--tool", options.tool, "that pushes P2")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"ball", "convex"}));
     app.add_option("--csv", options.csv, "write the table there too");
     CLI11_PARSE(app, argc, argv);
     run(options);

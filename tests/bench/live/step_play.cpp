@@ -144,10 +144,33 @@ Done pull(mvs::Simulator &sim, const Hand &hand, double share) {
   return Done::hand_moved;
 }
 
-void lay_ball(mvs::Simulator &sim, Hand &hand) {
+// Points of a Fibonacci lattice on the sphere of the default ball.
+std::vector<Point> sphere() {
+  constexpr int count = 200;
+  constexpr double radius = 2e-3;
+  std::vector<Point> points;
+  for (int k = 0; k < count; ++k) {
+    const double z = 1 - (2.0 * k + 1) / count, angle = M_PI * (3 - std::sqrt(5.0)) * k;
+    const double r = radius * std::sqrt(1 - z * z);
+    points.push_back({r * std::cos(angle), r * std::sin(angle), radius * z});
+  }
+  return points;
+}
+
+void lay_ball(mvs::Simulator &sim, Hand &hand, Pusher pusher) {
   const mvs::Snapshot valve = sim.snapshot();
   mvs_tool_desc desc = mvs::sized<mvs_tool_desc>();
   desc.kind = MVS_TOOL_KIND_BALL;
+  const std::vector<Point> points = sphere();
+  mvs_body_desc hull = {};
+  if (pusher == Pusher::convex) {
+    desc.kind = MVS_TOOL_KIND_CONVEX;
+    hull.kind = MVS_BODY_KIND_HULL;
+    hull.vertices = {points.data(), points.size(), 3, MVS_TYPE_F64, 0};
+    desc.bodies = &hull;
+    desc.body_count = 1;
+    desc.body_stride = sizeof hull;
+  }
   const uint32_t node = middle_one(valve, vertices_of(valve, "P2"));
   hand.up = upwards(valve);
   hand.start = along(place_of(valve, node), above, hand.up);
@@ -163,7 +186,7 @@ Done push(mvs::Simulator &sim, const Hand &hand, double share) {
 
 }  // namespace
 
-std::vector<Phase> play() {
+std::vector<Phase> play(Pusher pusher) {
   const auto hand = std::make_shared<Hand>();
   const auto let_go = [hand](mvs::Simulator &sim) { hand->remove(sim); };
   return {{"load on", [](mvs::Simulator &sim) { sim.set_load(MVS_SYSTOLE_PA); }},
@@ -171,7 +194,7 @@ std::vector<Phase> play() {
           {"grasp A2", [hand](mvs::Simulator &sim) { grasp(sim, *hand); },
            [hand](mvs::Simulator &sim, int, double share) { return pull(sim, *hand, share); }},
           {"let go", let_go},
-          {"push P2", [hand](mvs::Simulator &sim) { lay_ball(sim, *hand); },
+          {push_phase, [hand, pusher](mvs::Simulator &sim) { lay_ball(sim, *hand, pusher); },
            [hand](mvs::Simulator &sim, int, double share) { return push(sim, *hand, share); }},
           {"ball gone", let_go},
           {"chord", shorten},

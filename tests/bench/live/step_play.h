@@ -19,7 +19,11 @@ struct Phase {
   std::function<Done(mvs::Simulator &, int step, double share)> during = {};
 };
 
+// What pushes P2: a ball, or a convex tool of 200 vertices on the same sphere.
+enum class Pusher { ball, convex };
+inline constexpr const char *push_phase = "push P2";
+
 // The play ends in its initial state, so that it can be repeated: every operation undone, no tools.
-std::vector<Phase> play();
+std::vector<Phase> play(Pusher pusher = Pusher::ball);
 
 }  // namespace bench

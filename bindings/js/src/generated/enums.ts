@@ -508,8 +508,27 @@ export const ToolKind = {
   ball: 2,
   /** pushes with a rod with round ends, from its tip along its axis */
   rod: 3,
+  /** pushes with rounded convex bodies */
+  convex: 4,
 } as const;
 export type ToolKind = keyof typeof ToolKind;
+
+/** Kinds of bodies of a convex tool. */
+export const BodyKind = {
+  /** the convex hull of vertices */
+  hull: 1,
+  /** around `position` */
+  ball: 2,
+  /** around the segment from `position` to `end` */
+  capsule: 3,
+  /** around `position`, turned by `orientation` */
+  box: 4,
+  /** from `position` to `end` */
+  cylinder: 5,
+  /** with its base around `position` and its apex at `end` */
+  cone: 6,
+} as const;
+export type BodyKind = keyof typeof BodyKind;
 
 /** File formats. */
 export const Format = {
@@ -840,6 +859,7 @@ export const enums: Record<string, Record<string, number>> = {
   mvs_chord_end: ChordEnd,
   mvs_axes: Axes,
   mvs_tool_kind: ToolKind,
+  mvs_body_kind: BodyKind,
   mvs_format: Format,
   mvs_phase: Phase,
   mvs_skipped_flags: SkippedFlags,

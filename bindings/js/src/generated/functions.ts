@@ -57,6 +57,7 @@ import type {
   SurfaceDesc,
   SurfaceFileInfo,
   SurfaceFileOptions,
+  ToolBody,
   ToolDesc,
   ToolState,
   ValveDesc,
@@ -623,6 +624,16 @@ const signatures: Record<string, Signature> = {
       { name: "axis", nullable: true, how: "inArray", element: "f64", length: 3 },
     ],
   },
+  mvs_move_tool_pose: {
+    name: "mvs_move_tool_pose",
+    returns: "mvs_result",
+    steps: [
+      { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
+      { name: "tool", nullable: false, how: "scalar", of: "mvs_id", element: "u64" },
+      { name: "position", nullable: false, how: "inArray", element: "f64", length: 3 },
+      { name: "orientation", nullable: true, how: "inArray", element: "f64", length: 4 },
+    ],
+  },
   mvs_remove_tool: {
     name: "mvs_remove_tool",
     returns: "mvs_result",
@@ -655,6 +666,16 @@ const signatures: Record<string, Signature> = {
       { name: "snapshot", nullable: false, how: "handle", of: "mvs_snapshot" },
       { name: "index", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
       { name: "state", nullable: false, how: "outStruct", of: "mvs_tool_state" },
+    ],
+  },
+  mvs_snapshot_get_tool_body: {
+    name: "mvs_snapshot_get_tool_body",
+    returns: "mvs_result",
+    steps: [
+      { name: "snapshot", nullable: false, how: "handle", of: "mvs_snapshot" },
+      { name: "index", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
+      { name: "body", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
+      { name: "out", nullable: false, how: "outStruct", of: "mvs_tool_body" },
     ],
   },
   mvs_load_memory: {
@@ -1414,7 +1435,7 @@ export class Functions extends Calls {
   /**
    * Adds a tool to the state; *tool is its id, unique for this valve. The spring of a grasp starts
    * with the present distance of hand and node. MVS_E_ARGUMENT if a value is out of its range or no
-   * node is within reach; MVS_E_STATE if a ball or rod would overlap tissue, or there are
+   * node is within reach; MVS_E_STATE if a tool that pushes would overlap tissue, or there are
    * MVS_MAX_TOOLS.
    */
   mvs_add_tool(sim: SimHandle, desc: ToolDesc): bigint {
@@ -1431,6 +1452,14 @@ export class Functions extends Calls {
    */
   mvs_move_tool(sim: SimHandle, tool: bigint | number, position: ArrayLike<number>, axis?: ArrayLike<number> | null): void {
     return this.invoke(signatures.mvs_move_tool!, [sim, tool, position, axis]) as never;
+  }
+
+  /**
+   * The same with an orientation, w x y z of a quaternion of any length, of a convex tool; a rod
+   * takes the z axis that it turns to, others have none. `orientation` is nullable: unchanged.
+   */
+  mvs_move_tool_pose(sim: SimHandle, tool: bigint | number, position: ArrayLike<number>, orientation?: ArrayLike<number> | null): void {
+    return this.invoke(signatures.mvs_move_tool_pose!, [sim, tool, position, orientation]) as never;
   }
 
   /** Removes a tool from the state; a grasp releases its node. */
@@ -1451,6 +1480,11 @@ export class Functions extends Calls {
   /** The tools of a snapshot in the order of their addition. */
   mvs_snapshot_get_tool(snapshot: SnapshotHandle, index: number): ToolState {
     return this.invoke(signatures.mvs_snapshot_get_tool!, [snapshot, index]) as never;
+  }
+
+  /** Body `body` of tool `index` of a snapshot; its views are valid while the snapshot is held. */
+  mvs_snapshot_get_tool_body(snapshot: SnapshotHandle, index: number, body: number): ToolBody {
+    return this.invoke(signatures.mvs_snapshot_get_tool_body!, [snapshot, index, body]) as never;
   }
 
   /** Loads from `size` bytes of memory; AUTO is MVS_FORMAT_OBJ. */

@@ -6,6 +6,7 @@ import type { Layout } from "../layout.js";
 import type {
   Axes,
   Backend,
+  BodyKind,
   Branching,
   ChordEnd,
   ChordKind,
@@ -906,11 +907,35 @@ export interface Replay {
   same_result: number;
 }
 
+/**
+ * A body of a convex tool, in the frame of the hand: the origin is the hand's `position`, the axes
+ * turn with its `orientation`. Every coordinate is within 0.3 m.
+ */
+export interface BodyDesc {
+  /** MVS_BODY_KIND_* */
+  kind?: BodyKind | number;
+  /** n x 3: m, of a hull, at least 4, not all near one plane */
+  vertices?: ArrayInput;
+  /** m */
+  position?: ArrayLike<number>;
+  /** m */
+  end?: ArrayLike<number>;
+  /** m, edges of a box; size[0]: radius of the circles of a cylinder or cone; 1e-4 to 0.3 */
+  size?: ArrayLike<number>;
+  /** of a box, w x y z of a quaternion of any length; all 0: the hand's */
+  orientation?: ArrayLike<number>;
+  /**
+   * m, of a ball or capsule 1e-4 to 0.02 [2e-3]; of others, by which they are rounded outwards, 0
+   * to 0.02
+   */
+  radius?: number;
+}
+
 /** A new tool; kind and position are required. */
 export interface ToolDesc {
   /** MVS_TOOL_KIND_* */
   kind?: ToolKind | number;
-  /** m, of the hand: centre of the ball, of the tip's round end, of the grip */
+  /** m, of the hand: centre of the ball, of the tip's round end, of the grip, origin of the bodies */
   position?: ArrayLike<number>;
   /** of a rod, from its tip to its handle, any length [0, 0, 1] */
   axis?: ArrayLike<number>;
@@ -918,15 +943,27 @@ export interface ToolDesc {
   radius?: number;
   /** m, of a rod between the centres of its ends; 1e-3 to 0.3 [40e-3] */
   length?: number;
-  /** N/m, of the spring between hand and tool; 1 to 1e5 [200]; a rod has half of it at each end */
+  /**
+   * N/m, of the spring between hand and tool; 1 to 1e5 [200]; a rod has half of it at each end, a
+   * convex tool a quarter at each point of its frame
+   */
   stiffness?: number;
-  /** N, of that spring; 1e-3 to 100 [5]; a rod has half of it at each end */
+  /**
+   * N, of that spring; 1e-3 to 100 [5]; a rod has half of it at each end, a convex tool a quarter
+   * at each point of its frame
+   */
   max_force?: number;
   /** m; a grasp takes the nearest free vertex of a leaflet within it [2e-3] */
   reach?: number;
   /** 1: a grasp takes `node`, a leaflet vertex or branch point, at any distance */
   by_node?: number;
   node?: number;
+  /** of a convex tool, 1 to MVS_MAX_BODIES */
+  bodies?: readonly BodyDesc[];
+  /** of a convex tool, w x y z of a quaternion of any length [1 0 0 0] */
+  orientation?: ArrayLike<number>;
+  /** 1: refuses a hull with vertices that are no corners of it; 0: drops them and logs a warning */
+  strict_hulls?: number;
 }
 
 /** A tool in a snapshot. */
@@ -943,14 +980,16 @@ export interface ToolState {
   proxy_axis: number[];
   /** N, on the hand */
   force: number[];
-  /** N m, on the hand about `position`, of a rod */
+  /** N m, on the hand about `position`, of a rod or convex tool */
   torque: number[];
   /**
-   * m, from the surface of a ball or rod to the mid-surface of the nearest leaflet; infinity
-   * without leaflets, 0 for a grasp
+   * m, from the surface of a tool that pushes to the mid-surface of the nearest leaflet, of a
+   * convex tool also to the surface of a chord; infinity without leaflets, 0 for a grasp
    */
   distance: number;
+  /** m; length of a convex tool: the arm of its frame */
   radius: number;
+  /** m; length of a convex tool: the arm of its frame */
   length: number;
   stiffness: number;
   max_force: number;
@@ -958,6 +997,26 @@ export interface ToolState {
   node: number;
   /** 1: tissue acts on it; always 1 for a grasp */
   touching: number;
+  /** of the hand of a convex tool, w x y z of length 1; 0 for others */
+  orientation: number[];
+  /** of the convex tool, whose origin is `proxy` */
+  proxy_orientation: number[];
+  /** of a convex tool */
+  body_count: number;
+  /** of all its bodies */
+  vertex_count: number;
+}
+
+/** A body of a convex tool: the hull of `vertices`, rounded by `radius`. */
+export interface ToolBody {
+  /** as it was given */
+  kind: BodyKind;
+  /** m */
+  radius: number;
+  /** m, 3 x MVS_TYPE_F64, in the frame of the hand */
+  vertices: ArrayView;
+  /** 3 x MVS_TYPE_U32, of the surface of the hull with outward normals; none for a ball or capsule */
+  triangles: ArrayView;
 }
 
 /** Profile of a settle or step (fields: MVS_STRUCT_PROFILE). */
@@ -1896,8 +1955,21 @@ export const layouts: Record<string, Layout> = {
       { name: "same_result", kind: "u32", at: 12 },
     ],
   },
+  mvs_body_desc: {
+    size: 152,
+    sized: false,
+    fields: [
+      { name: "kind", kind: "enum", of: "mvs_body_kind", at: 0 },
+      { name: "vertices", kind: "array", at: 8, components: 3, element: "F64" },
+      { name: "position", kind: "f64", at: 40, length: 3 },
+      { name: "end", kind: "f64", at: 64, length: 3 },
+      { name: "size", kind: "f64", at: 88, length: 3 },
+      { name: "orientation", kind: "f64", at: 112, length: 4 },
+      { name: "radius", kind: "f64", at: 144 },
+    ],
+  },
   mvs_tool_desc: {
-    size: 104,
+    size: 160,
     sized: true,
     fields: [
       { name: "kind", kind: "enum", of: "mvs_tool_kind", at: 4 },
@@ -1910,10 +1982,13 @@ export const layouts: Record<string, Layout> = {
       { name: "reach", kind: "f64", at: 88 },
       { name: "by_node", kind: "u32", at: 96 },
       { name: "node", kind: "u32", at: 100 },
+      { name: "bodies", kind: "structs", of: "mvs_body_desc", at: 104, count: 108, stride: 112 },
+      { name: "orientation", kind: "f64", at: 120, length: 4 },
+      { name: "strict_hulls", kind: "u32", at: 152 },
     ],
   },
   mvs_tool_state: {
-    size: 208,
+    size: 280,
     sized: true,
     fields: [
       { name: "kind", kind: "enum", of: "mvs_tool_kind", at: 4 },
@@ -1931,6 +2006,20 @@ export const layouts: Record<string, Layout> = {
       { name: "max_force", kind: "f64", at: 192 },
       { name: "node", kind: "u32", at: 200 },
       { name: "touching", kind: "u32", at: 204 },
+      { name: "orientation", kind: "f64", at: 208, length: 4 },
+      { name: "proxy_orientation", kind: "f64", at: 240, length: 4 },
+      { name: "body_count", kind: "u32", at: 272 },
+      { name: "vertex_count", kind: "u32", at: 276 },
+    ],
+  },
+  mvs_tool_body: {
+    size: 80,
+    sized: true,
+    fields: [
+      { name: "kind", kind: "enum", of: "mvs_body_kind", at: 4 },
+      { name: "radius", kind: "f64", at: 8 },
+      { name: "vertices", kind: "view", at: 16 },
+      { name: "triangles", kind: "view", at: 48 },
     ],
   },
   mvs_profile: {

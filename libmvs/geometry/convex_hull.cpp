@@ -1,0 +1,89 @@
+// Inserts points one after the other: removes the faces that a point sees and joins it to their
+// horizon.
+#include "geometry/convex_hull.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "geometry/intersect.h"
+
+namespace mvs::core {
+namespace {
+
+template <typename Measure>
+uint32_t farthest_by(const std::vector<Vec3> &points, Measure measure) {
+  uint32_t best = 0;
+  double most = -1;
+  for (uint32_t k = 0; k < points.size(); ++k) {
+    const double value = measure(points[k]);
+    if (value > most) {
+      most = value;
+      best = k;
+    }
+  }
+  return best;
+}
+
+// Four points far from one plane, positively oriented; null if there are none.
+std::optional<std::array<uint32_t, 4>> first_tetrahedron(const std::vector<Vec3> &p,
+                                                         double thinnest) {
+  if (p.size() < 4) return {};
+  const uint32_t a = farthest_by(p, [&](const Vec3 &q) { return (q - p[0]).squaredNorm(); });
+  const uint32_t b = farthest_by(p, [&](const Vec3 &q) { return (q - p[a]).squaredNorm(); });
+  const Vec3 axis = p[b] - p[a];
+  const uint32_t c =
+      farthest_by(p, [&](const Vec3 &q) { return axis.cross(q - p[a]).squaredNorm(); });
+  const Vec3 n = axis.cross(p[c] - p[a]);
+  const uint32_t d = farthest_by(p, [&](const Vec3 &q) { return std::abs(n.dot(q - p[a])); });
+  const double extent = axis.norm();
+  if (!(n.norm() > thinnest * extent * extent)) return {};
+  if (!(std::abs(n.dot(p[d] - p[a])) > thinnest * extent * n.norm())) return {};
+  if (n.dot(p[d] - p[a]) > 0) return {{a, c, b, d}};
+  return {{a, b, c, d}};
+}
+
+// The face sees a point if the point is strictly on its outer side.
+bool sees(const std::vector<Vec3> &p, const Tri &face, uint32_t k) {
+  return orient3d_sign(p[face[0]], p[face[1]], p[face[2]], p[k]) > 0;
+}
+
+void insert(const std::vector<Vec3> &p, uint32_t k, std::vector<Tri> &faces) {
+  std::set<Edge> sides;  // of the faces that see the point
+  std::vector<Tri> kept;
+  for (const Tri &face : faces) {
+    if (!sees(p, face, k)) {
+      kept.push_back(face);
+      continue;
+    }
+    for (uint32_t s = 0; s < 3; ++s) sides.insert({face[s], face[(s + 1) % 3]});
+  }
+  if (kept.size() == faces.size()) return;
+  for (const auto &[a, b] : sides) {
+    if (!sides.contains({b, a})) kept.push_back({a, b, k});
+  }
+  faces.swap(kept);
+}
+
+}  // namespace
+
+ConvexHull convex_hull(const std::vector<Vec3> &points, double thinnest) {
+  const auto first = first_tetrahedron(points, thinnest);
+  if (!first) return {};
+  const auto &[a, b, c, d] = *first;
+  ConvexHull hull;
+  // d is below a b c, so that the normal of a b c points outwards
+  hull.faces = {{a, b, c}, {a, d, b}, {b, d, c}, {c, d, a}};
+  for (uint32_t k = 0; k < points.size(); ++k) {
+    if (k != a && k != b && k != c && k != d) insert(points, k, hull.faces);
+  }
+  for (const Tri &face : hull.faces) {
+    hull.corners.insert(hull.corners.end(), face.begin(), face.end());
+  }
+  std::sort(hull.corners.begin(), hull.corners.end());
+  hull.corners.erase(std::unique(hull.corners.begin(), hull.corners.end()), hull.corners.end());
+  return hull;
+}
+
+}  // namespace mvs::core

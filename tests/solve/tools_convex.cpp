@@ -1,0 +1,245 @@
+// Convex tools: derivatives, poses, the same forces as a ball, and no crossing.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdlib>
+#include <span>
+
+#include "energy/instrument.h"
+#include "geometry/convex_hull.h"
+#include "geometry/intersect.h"
+#include "solve/tools/tool_points.h"
+#include "solve/tools/tool_stiffness.h"
+#include "tests/model/small_valve.h"
+#include "tests/solve/bench.h"
+#include "tests/solve/convex_tools.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+// The valve with its tool points, all of them free, and an instrument term prepared at x.
+struct Bench {
+  explicit Bench(const Model &valve, const State &state)
+      : model(points.extend(valve, tool_points(state.tools))),
+        x(ToolPoints::extended(state).x.get()),
+        term(model) {
+    for (size_t i = 0; i < model.topology.fixed.size(); ++i) model.topology.fixed[i] = 0;
+    term.bodies().set_tools(state.tools, static_cast<uint32_t>(valve.node_count()));
+    term.bodies().prepare(x, x, 1e-4);
+  }
+  double energy(const Positions &at) {
+    term.collect(at);
+    return term.energy(at);
+  }
+  Positions gradient(const Positions &at) {
+    Positions g(at.size(), Vec3::Zero());
+    term.collect(at);
+    CHECK(term.gradient(at, g) == term.energy(at));
+    return g;
+  }
+
+  ToolPoints points;
+  Model model;
+  Positions x;
+  InstrumentTerm term;
+};
+
+}  // namespace
+
+TEST_CASE("a_convex_tool_has_the_gradient_and_hessian_of_its_energy") {
+  const ModelPtr valve = make_model(small_valve());
+  State state = initial_state(*valve);
+  const double near = 0.08 * valve->valve.contact_thickness;
+  // a corner, an edge and a face of rounded bodies near triangles, and a capsule along a chord
+  const Place at = place_above(*valve, state.x, 40, near);
+  add_tool(*valve, state, convex_at(at.point, {cone_body(at.normal, 4e-3, 2e-3, 0)}));
+  const Place beside = place_above(*valve, state.x, 60, -0.5e-3 - near);
+  add_tool(*valve, state,
+           convex_at(beside.point, {bar_body(beside.along, -beside.normal, 0.5e-3)}));
+  const Chord &chord = valve->valve.chords[3];
+  const Vec3 a = state.x[chord.a], b = state.x[chord.b];
+  const Vec3 across = (b - a).cross(Vec3(1, 2, 3)).normalized();
+  const double off = 0.7e-3 + chord_radius(chord) + near;
+  add_tool(
+      *valve, state,
+      convex_at(0.5 * (a + b) + off * across, {capsule_body(across.cross(b - a), 6e-3, 0.7e-3)}));
+  Bench bench(*valve, state);
+  bench.term.collect(bench.x);
+  REQUIRE(bench.term.convex().contacts().size() >= 4);
+  // the frames stretched, so that their springs act
+  Random random(1);
+  for (size_t i = valve->node_count(); i < bench.x.size(); ++i) bench.x[i] += random.vector(1e-5);
+  const auto energy = [&](const Positions &x) { return bench.energy(x); };
+  const auto gradient = [&](const Positions &x) { return bench.gradient(x); };
+  // the barrier bends within a tenth of the thickness: differences over 1e-5 of that
+  const double h = 1e-9;
+  CHECK(farthest(differences(energy, bench.x, h), gradient(bench.x)) <=
+        1e-5 * largest(gradient(bench.x)));
+  HessianAssembler system;
+  std::vector<Edge> pairs;
+  bench.term.collect(bench.x);
+  bench.term.add_pairs(pairs);
+  system.set_pattern(bench.model, pairs);
+  system.clear();
+  CHECK(bench.term.hessian(bench.x, Curvature::exact, system));
+  const Eigen::MatrixXd found = dense(system), wanted = differences(gradient, bench.x, h);
+  CHECK((found - wanted).norm() <= 1e-5 * wanted.norm());
+}
+
+TEST_CASE("a_pose_is_that_of_its_frame") {
+  Random random(2);
+  for (int k = 0; k < 100; ++k) {
+    const Quaternion q = {random(-1, 1), random(-1, 1), random(-1, 1), random(-1, 1)};
+    const Eigen::Quaterniond wanted = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized();
+    const Vec3 rodrigues = rodrigues_of(q);
+    CHECK(rodrigues.norm() <= 1 + 1e-15);
+    CHECK((rotation_of(rodrigues) - wanted.toRotationMatrix()).norm() <= 1e-14);
+    Tool tool = convex_at(random.vector(1e-2), {ball_body(3e-3)});
+    tool.axis = rodrigues;
+    // a uniform stretch of 2 % does not turn it
+    std::array<Vec3, frame_points> points;
+    for (uint32_t p = 0; p < frame_points; ++p)
+      points[p] = tool.position + 1.02 * (tool.target(p) - tool.position);
+    const FramePose pose = pose_of(points, tool.length);
+    CHECK((pose.position - tool.position).norm() <= 1e-16);
+    CHECK((pose.rotation - wanted.toRotationMatrix()).norm() <= 1e-13);
+    const Quaternion back = quaternion_of(pose.rotation);
+    const double same =
+        back[0] * wanted.w() + back[1] * wanted.x() + back[2] * wanted.y() + back[3] * wanted.z();
+    CHECK(std::abs(same) == about(1, 1e-14));
+  }
+}
+
+TEST_CASE("a_body_of_one_point_feels_as_a_ball_of_its_radius") {
+  const Model disc = clamped_disc(8, 12e-3, [](Valve &) {});
+  SolveOptions options;
+  options.residual = 1e-8;
+  std::array<ToolForce, 2> force;
+  std::array<double, 2> stiffness;
+  for (int k = 0; k < 2; ++k) {
+    State state = initial_state(disc);
+    const Vec3 at(1e-3, 0.5e-3, 4e-3);
+    Tool tool = convex_at(at, {ball_body(3e-3)});
+    if (k == 1) {
+      tool = Tool();
+      tool.kind = ToolKind::ball;
+      tool.position = at;
+      tool.radius = 3e-3;
+      tool.stiffness = 200;
+      tool.max_force = 2;
+    }
+    add_tool(disc, state, tool);
+    state.tools[0].position.z() = -3e-3;
+    const Settled settled = settle(disc, state, options);
+    CHECK(settled.stats.converged);
+    force[k] = force_of(settled.state, settled.state.tools[0]);
+    ToolFeel feel(Backend::fastest);
+    stiffness[k] = feel.stiffness(disc, settled.state, settled.state.tools[0])(2, 2);
+  }
+  CHECK(force[1].force.z() > 0.05);
+  // issue 24 wants 0.1 %; both are the same equilibrium up to the residual of some 200 nodes
+  CHECK((force[0].force - force[1].force).norm() <= 1e-4 * force[1].force.norm());
+  CHECK(stiffness[0] == about(stiffness[1], 1e-3));
+}
+
+TEST_CASE("polyhedral_balls_converge_to_the_ball_at_second_order") {
+  const Model disc = clamped_disc(8, 12e-3, [](Valve &) {});
+  // the mean over a few orientations: whether a corner or a facet is at the front differs by as
+  // much as the error itself
+  const auto lift = [&](const ToolBody &body) {
+    Random random(9);
+    double sum = 0;
+    for (int k = 0; k < 6; ++k) {
+      State state = initial_state(disc);
+      SolveOptions options;
+      options.residual = 1e-8;
+      options.max_iterations = 60;
+      Tool tool = convex_at(Vec3(1e-3, 0.5e-3, 4e-3), {body});
+      tool.axis = random.vector(0.5);
+      add_tool(disc, state, tool);
+      state.tools[0].position.z() = -3e-3;
+      const Settled settled = settle(disc, state, options);
+      const double force = force_of(settled.state, settled.state.tools[0]).force.norm();
+      // the last digits stay out of reach where a facet is parallel to an edge of the sheet
+      // (energy/convex_contact.h); they are a tenth of the error at most
+      CHECK(settled.stats.residual <= 2e-3 * force);
+      sum += force / 6;
+    }
+    return sum;
+  };
+  const double ball = lift(ball_body(3e-3));
+  std::array<double, 3> force;
+  const std::array<uint32_t, 3> counts = {64, 250, 1000};
+  for (int k = 0; k < 3; ++k) {
+    force[k] = lift(polyhedral_ball(3e-3, counts[k]));
+    MESSAGE(counts[k] << " vertices: " << 100 * (force[k] / ball - 1) << " %");
+  }
+  // an error of a / N, with the squared distance of neighbours: differences of 1/64 - 1/250 and
+  // 1/250 - 1/1000, times a
+  const double wanted = (1.0 / 64 - 1.0 / 250) / (1.0 / 250 - 1.0 / 1000);
+  CHECK((force[1] - force[0]) / (force[2] - force[1]) == about(wanted, 0.1));
+  // the limit for N to infinity: that of the ball less 0.1 %, the frame's elasticity where a force
+  // acts on its surface and not at the hand
+  const double limit = force[2] + (force[2] - force[1]) / 3;
+  CHECK(limit == about(ball, 1.5e-3));
+}
+
+TEST_CASE("a_stretched_frame_keeps_its_form_to_a_per_cent") {
+  const Model disc = clamped_disc(8, 12e-3, [](Valve &valve) {
+    valve.leaflets.resize(1);
+    valve.leaflets[0].thickness = 10e-3;
+  });
+  State state = initial_state(disc);
+  // pushes with its end, 10 mm from the hand
+  Tool tool = convex_at(Vec3(0, 0, 14e-3), {capsule_body(Vec3(0, 0, 1), 20e-3, 2e-3)});
+  tool.max_force = 5;
+  tool.stiffness = 5000;
+  add_tool(disc, state, tool);
+  state.tools[0].position.z() = 7e-3;
+  const Settled settled = settle(disc, state);
+  CHECK(settled.stats.converged);
+  const Tool &after = settled.state.tools[0];
+  const double force = force_of(settled.state, after).force.z(), edge = frame_edge(after.length);
+  CHECK(force > 0.5);
+  for (uint32_t k = 1; k < frame_points; ++k) {
+    for (uint32_t l = 0; l < k; ++l) {
+      const double stretch = (after.proxy[k] - after.proxy[l]).norm() / edge - 1;
+      CHECK(std::abs(stretch) <= 0.01 * force / 5);
+    }
+  }
+}
+
+TEST_CASE("steps_with_a_convex_tool_are_the_same_with_a_new_solver_as_with_a_used_one") {
+  const ModelPtr model = make_model(small_valve());
+  State state = initial_state(*model);
+  state.load = {2000, 0};
+  const Place at = place_above(*model, state.x, 40, 3e-3);
+  add_tool(*model, state, convex_at(at.point, {cone_body(at.normal, 4e-3, 2e-3, 0.5e-3)}));
+  Solver used(Backend::fastest);
+  State fresh = state;
+  for (int k = 0; k < 10; ++k) {
+    for (State *s : {&state, &fresh}) {
+      s->tools[0].position *= 0.97;
+      s->tools[0].axis.x() += 0.01;
+    }
+    used.step(*model, state, {});
+    Solver(Backend::fastest).step(*model, fresh, {});
+    REQUIRE(hash_of(*model, state) == hash_of(*model, fresh));
+  }
+}
+
+TEST_CASE("a_convex_tool_is_refused_where_tissue_leaves_no_room") {
+  const ModelPtr model = make_model(small_valve());
+  State state = initial_state(*model);
+  const Place at = place_above(*model, state.x, 40, 1e-3);
+  CHECK_THROWS_WITH(add_tool(*model, state, convex_at(at.point, {ball_body(2e-3)})),
+                    doctest::Contains("would lie in"));
+  const Chord &chord = model->valve.chords[3];
+  const Vec3 middle = 0.5 * (state.x[chord.a] + state.x[chord.b]);
+  CHECK_THROWS_WITH(add_tool(*model, state, convex_at(middle, {ball_body(0.2e-3)})),
+                    doctest::Contains("would lie in"));
+  CHECK(state.tools.empty());
+}
