@@ -128,6 +128,11 @@ describe('planner features', () => {
     const bernoulli = (0.5 * 1060 * (200e-6 / (0.85 * openArea * 1e-6)) ** 2) / 133.322;
     assert.ok(Math.abs(gradient - bernoulli) < 1e-6 * bernoulli, `${gradient}, Bernoulli ${bernoulli}`);
     assert.match(await page.getByText('Mean pressure gradient').locator('..').innerText(), /mmHg/);
+    await openPanel(page, 'Plan');
+    await page.getByRole('button', { name: 'Report' }).click();
+    await page.getByTestId('report').getByText('Before').first().waitFor();
+    assert.match(await page.getByTestId('report').innerText(), /gradient at 200 ml\/s\s+[\d.]+ mmHg/);
+    await page.keyboard.press('Escape');
   });
 
   it('keeps_every_change_in_a_file_of_choice', async () => {

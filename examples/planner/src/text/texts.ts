@@ -582,6 +582,7 @@ export const reportTexts = {
   notes: 'Notes',
   foot: (version: string, hash: string) =>
     `libmvs ${version}, fingerprint ${hash}. Research simulator: not for decisions on treatment.`,
+  gradient: (flow: number) => `Mean pressure gradient at ${number(flow, 0)} ml/s`,
   save: 'Save as HTML',
   print: 'Print',
   verdict: (word: string, place: string) => word + (place ? ` at ${place}` : ''),

@@ -4,7 +4,7 @@ import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
 import { download } from '../store/keep';
 import * as state from '../store/state';
-import { figure, figureNames, grade, reportTexts, say, where } from '../text/texts';
+import { figure, figureNames, grade, reportTexts, say, valveTexts, where } from '../text/texts';
 import type { Figures, Shown } from '../protocol';
 import { view } from './app';
 import { Modal } from './dialogs';
@@ -65,6 +65,20 @@ function verdictOf(figures: Figures): string {
   return reportTexts.verdict(grade(figures.measures.orifice).word, where(figures));
 }
 
+/** Open area and gradient of the present valve, if they were measured. */
+function openingRows(now: Figures): string {
+  const cost = state.cost.value?.hash === now.hash ? state.cost.value.value : null;
+  if (!cost) return '';
+  const row = (label: string, value: string) =>
+    `<tr><th>${escape(label)}</th><td></td><td>${escape(value)}</td></tr>`;
+  return (
+    row(valveTexts.openArea, `${figure(cost.openArea / 100, 2)} cm²`) +
+    (Number.isFinite(cost.gradient)
+      ? row(reportTexts.gradient(state.flow.value ?? 0), `${figure(cost.gradient)} mmHg`)
+      : '')
+  );
+}
+
 /** The report as the body of an HTML page. */
 function reportHtml(pictures: Pictures): string {
   const now = state.main.value!.figures;
@@ -74,6 +88,7 @@ function reportHtml(pictures: Pictures): string {
     .filter((entry) => !entry.undone)
     .map((entry) => `<li>${escape(say(entry.title))}</li>`)
     .join('');
+  const opening = openingRows(now);
   const table = rows
     .map(
       ([label, get, digits, unit]) =>
@@ -84,7 +99,7 @@ function reportHtml(pictures: Pictures): string {
 <div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>
 <section><h2>${reportTexts.after}</h2><p>${escape(verdictOf(now))}</p>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
-<h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}</table>
+<h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table>
 ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
 <p><small>${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;
 }
