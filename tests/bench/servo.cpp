@@ -2,6 +2,7 @@
 //
 //   bench_servo                      scenes S and M, 10 s each
 //   bench_servo --scenes S --seconds 2
+//   bench_servo --tool convex        a convex tool of 200 vertices that dips into the valve
 //
 // A simulated hand (haptic_drivers/hand) holds a Touch at 1 kHz on a thread of the library's,
 // grasps the edge of a closed valve and swings 3 mm at 1 Hz; this thread hands over and steps the
@@ -15,6 +16,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <map>
@@ -62,6 +64,19 @@ std::array<double, 3> highest_edge(mvs_sim *sim) {
   return best;
 }
 
+// 200 points of a Fibonacci lattice on a sphere of 2 mm.
+std::vector<double> sphere() {
+  constexpr int count = 200;
+  constexpr double radius = 2e-3;
+  std::vector<double> points;
+  for (int k = 0; k < count; ++k) {
+    const double z = 1 - (2.0 * k + 1) / count, angle = M_PI * (3 - std::sqrt(5.0)) * k;
+    const double r = radius * std::sqrt(1 - z * z);
+    points.insert(points.end(), {r * std::cos(angle), r * std::sin(angle), radius * z});
+  }
+  return points;
+}
+
 struct Times {
   std::vector<double> body, period, free_sync, free_step, sync, step;
   uint64_t lost = 0;
@@ -69,7 +84,7 @@ struct Times {
 
 class Scene {
  public:
-  explicit Scene(uint32_t vertices) {
+  Scene(uint32_t vertices, bool is_convex) {
     mvs_parametric_desc valve = {};
     valve.shape = MVS_SHAPE_FOUNDING;
     valve.struct_size = sizeof valve;
@@ -79,7 +94,7 @@ class Scene {
     mvs::must(mvs_generate_valve(sim_, &valve));
     mvs::must(mvs_set_load(sim_, &systole));
     mvs::must(mvs_settle(sim_, nullptr, nullptr));
-    open();
+    open(is_convex);
   }
   ~Scene() {
     mvs_device_close(device_);
@@ -111,13 +126,14 @@ class Scene {
   }
 
  private:
-  void open() {
+  void open(bool is_convex) {
     mvs_device_desc desc = {};
     desc.struct_size = sizeof desc;
     desc.driver = "hand";
-    desc.options =
-        "device=touch\namplitude=0.003,0.003,0\nfrequency=1\nfault=stuck_button\n"
-        "fault_at=0.5";
+    desc.options = is_convex
+                       ? "device=touch\namplitude=0.003,0.003,0.003\nfrequency=1"
+                       : "device=touch\namplitude=0.003,0.003,0\nfrequency=1\nfault=stuck_button\n"
+                         "fault_at=0.5";
     mvs_device_view view = {};
     view.struct_size = sizeof view;
     const auto at = highest_edge(sim_);
@@ -126,6 +142,17 @@ class Scene {
     hand.struct_size = sizeof hand;
     hand.mode = MVS_HAND_MODE_GRASP;
     hand.reach = 0.02;
+    const std::vector<double> points = sphere();
+    mvs_body_desc hull = {};
+    if (is_convex) {
+      view.origin[2] += 5e-3;
+      hull.kind = MVS_BODY_KIND_HULL;
+      hull.vertices = {points.data(), points.size() / 3, 3, MVS_TYPE_F64, 0};
+      hand.mode = MVS_HAND_MODE_CONVEX;
+      hand.bodies = &hull;
+      hand.body_count = 1;
+      hand.body_stride = sizeof hull;
+    }
     mvs::must(mvs_device_open(&desc, &device_));
     mvs::must(mvs_device_set_view(device_, &view));
     mvs::must(mvs_device_set_hand(device_, &hand));
@@ -165,14 +192,14 @@ class Scene {
   double last_ = 0;
 };
 
-void run(const std::string &name, double seconds) {
-  Scene scene(scene_vertices.at(name));
+void run(const std::string &name, double seconds, bool is_convex) {
+  Scene scene(scene_vertices.at(name), is_convex);
   Times times = scene.play(seconds);
   print(name.c_str(), "body", times.body);
   print(name.c_str(), "period", times.period);
   print(name.c_str(), "sync", times.sync);
   print(name.c_str(), "step", times.step);
-  std::printf("%-5s %zu turns before the grasp\n", name.c_str(), times.free_step.size());
+  std::printf("%-5s %zu turns before the hand held a tool\n", name.c_str(), times.free_step.size());
   const mvs_device_state state = scene.state();
   std::printf("%-5s fifo %s, late %llu of %llu, not fetched %llu, phase %u, cause %u\n",
               name.c_str(), scene.is_realtime() ? "granted" : "refused",
@@ -185,13 +212,15 @@ int bench(int argc, char **argv) {
   CLI::App app("What the servo costs, and how well it keeps its rate");
   std::vector<std::string> scenes = {"S", "M"};
   double seconds = 10;
+  std::string tool = "grasp";
   app.add_option("--scenes", scenes, "S (425 vertices), M (1,700)")
       ->check(CLI::IsMember({"S", "M"}));
   app.add_option("--seconds", seconds, "of play, each")->check(CLI::Range(0.1, 3600.0));
+  app.add_option("--tool", tool, "of the hand")->check(CLI::IsMember({"grasp", "convex"}));
   CLI11_PARSE(app, argc, argv);
   std::printf("us\n%-5s %-7s %8s %9s %9s %9s %9s %9s\n", "scene", "what", "count", "p50", "p99",
               "p99.9", "p99.99", "max");
-  for (const std::string &name : scenes) run(name, seconds);
+  for (const std::string &name : scenes) run(name, seconds, tool == "convex");
   return 0;
 }
 
