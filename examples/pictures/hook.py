@@ -94,11 +94,10 @@ def pull(sim, position, turn, **tool):
     return hand
 
 
-def rounded(vertices, radius):
-    """Surface of a rounded hull."""
-    ball = pv.Sphere(radius=radius, theta_resolution=16, phi_resolution=12).points
-    points = (np.asarray(vertices)[:, None, :] + ball[None, :, :]).reshape(-1, 3)
-    return pv.PolyData(points).delaunay_3d().extract_surface()
+def capsule(a, b, radius):
+    """Surfaces of a capsule."""
+    return (pv.Tube(pointa=a, pointb=b, radius=radius, n_sides=20), pv.Sphere(radius=radius, center=a),
+            pv.Sphere(radius=radius, center=b))
 
 
 def draw(snapshot, chord, focus, up):
@@ -107,15 +106,18 @@ def draw(snapshot, chord, focus, up):
     plotter.add_mesh(blocks["leaflets"], color="#e8a898", opacity=0.55, smooth_shading=True)
     plotter.add_mesh(blocks["chords"], color="#c8bf9c", line_width=2)
     ends = snapshot.node_position[snapshot.chord_nodes[chord]]
-    plotter.add_mesh(pv.Tube(ends[0], ends[1], radius=0.5e-3), color="#0095d9")
+    plotter.add_mesh(pv.Tube(pointa=ends[0], pointb=ends[1], radius=0.5e-3), color="#0095d9")
     for index, tool in enumerate(snapshot.tools):
         if tool.kind == mvs.ToolKind.BALL:
             plotter.add_mesh(pv.Sphere(radius=tool.radius, center=tool.proxy), color="#7c8794")
         turn = rotation(tool.proxy_orientation)
         for body in snapshot.tool_bodies(index):
-            plotter.add_mesh(rounded(body.vertices @ turn.T + tool.proxy, body.radius), color="#7c8794")
-    side = np.cross(up, ends[1] - ends[0])
-    plotter.camera_position = [focus + 0.055 * side / np.linalg.norm(side) + 0.01 * up, focus, up]
+            a, b = body.vertices @ turn.T + tool.proxy
+            for part in capsule(a, b, body.radius):
+                plotter.add_mesh(part, color="#7c8794", smooth_shading=True)
+    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    away = 0.025 * np.cross(up, along) + 0.03 * along + 0.01 * up
+    plotter.camera_position = [focus + away, focus, up]
     return plotter.screenshot(return_img=True)
 
 

@@ -164,6 +164,31 @@ static void a_ball_pushes_and_is_taken_away_with_its_mode(void) {
   mvs_device_close(device);
 }
 
+/* The same path with a convex tool, which turns with the stylus. */
+static void a_convex_tool_pushes_in_the_hand(void) {
+  mvs_device *device = opened("push_p2.txt", MVS_HAND_MODE_LOOK);
+  const mvs_body_desc body = {
+      .kind = MVS_BODY_KIND_BOX, .size = {3e-3, 3e-3, 1e-3}, .radius = 1e-3};
+  mvs_device_hand hand = {.struct_size = sizeof hand, .mode = MVS_HAND_MODE_CONVEX};
+  MUST_FAIL(mvs_device_set_hand(device, &hand), MVS_E_ARGUMENT, "1 to 16 bodies");
+  hand.bodies = &body;
+  hand.body_count = 1;
+  hand.body_stride = sizeof body;
+  MUST(mvs_device_set_hand(device, &hand));
+  mvs_tool_state state = {.struct_size = sizeof state};
+  double most = 0;
+  for (int k = 0; k < 400; ++k) {
+    const mvs_device_report report = turn(device);
+    most = fmax(most, length(report.force));
+    if (report.tool != 0) MUST(mvs_get_tool(sim, report.tool, &state));
+  }
+  CHECK(state.kind == MVS_TOOL_KIND_CONVEX && state.vertex_count == 8);
+  CHECK(most > 0.05);
+  MUST(mvs_device_get_hand(device, &hand));
+  CHECK(hand.bodies == NULL && hand.body_count == 1);
+  mvs_device_close(device);
+}
+
 static void a_stopped_device_lets_go(void) {
   mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   turn_until(device, MVS_EVENT_GRASPED, 400);
@@ -384,6 +409,7 @@ int main(void) {
   an_undo_while_something_is_held_lets_it_go();
   another_valve_under_the_hand_is_another_hand();
   a_ball_pushes_and_is_taken_away_with_its_mode();
+  a_convex_tool_pushes_in_the_hand();
   a_stopped_device_lets_go();
   a_chord_is_felt_as_it_pulls();
   a_chord_is_dragged_to_a_new_length();

@@ -3,6 +3,7 @@
 //   bench_servo                      scenes S and M, 10 s each
 //   bench_servo --scenes S --seconds 2
 //   bench_servo --tool rod --device premium6
+//   bench_servo --tool convex        a convex tool of 200 vertices that dips into the valve
 //
 // A simulated hand (haptic_drivers/hand) holds a Touch at 1 kHz on a thread of the library's,
 // grasps the edge of a closed valve and swings 3 mm at 1 Hz; this thread hands over and steps the
@@ -69,6 +70,19 @@ std::array<double, 3> highest_edge(mvs_sim *sim) {
   return best;
 }
 
+// 200 points of a Fibonacci lattice on a sphere of 2 mm.
+std::vector<double> sphere() {
+  constexpr int count = 200;
+  constexpr double radius = 2e-3;
+  std::vector<double> points;
+  for (int k = 0; k < count; ++k) {
+    const double z = 1 - (2.0 * k + 1) / count, angle = M_PI * (3 - std::sqrt(5.0)) * k;
+    const double r = radius * std::sqrt(1 - z * z);
+    points.insert(points.end(), {r * std::cos(angle), r * std::sin(angle), radius * z});
+  }
+  return points;
+}
+
 struct Times {
   double torque = 0, force = 0;  // largest of a sample, N m, N
   std::vector<double> body, period, free_sync, free_step, sync, step;
@@ -127,10 +141,12 @@ class Scene {
     mvs_device_desc desc = {};
     desc.struct_size = sizeof desc;
     desc.driver = "hand";
-    const bool rod = choice_.tool == "rod";
-    std::string options =
-        "device=" + choice_.device + "\nfrequency=1\nfault=stuck_button\nfault_at=0.5";
-    options += rod ? "\namplitude=0.003,0.003,0.006" : "\namplitude=0.003,0.003,0";
+    const bool rod = choice_.tool == "rod", is_convex = choice_.tool == "convex";
+    std::string options = "device=" + choice_.device + "\nfrequency=1";
+    options += rod         ? "\namplitude=0.003,0.003,0.006"
+               : is_convex ? "\namplitude=0.003,0.003,0.003"
+                           : "\namplitude=0.003,0.003,0";
+    if (!is_convex) options += "\nfault=stuck_button\nfault_at=0.5";
     if (choice_.device == "premium6") options += "\nturn_amplitude=0.1,0,0";
     desc.options = options.c_str();
     mvs_device_view view = {};
@@ -142,6 +158,17 @@ class Scene {
     hand.struct_size = sizeof hand;
     hand.mode = rod ? MVS_HAND_MODE_ROD : MVS_HAND_MODE_GRASP;
     hand.reach = 0.02;
+    const std::vector<double> points = sphere();
+    mvs_body_desc hull = {};
+    if (is_convex) {
+      view.origin[2] += 5e-3;
+      hull.kind = MVS_BODY_KIND_HULL;
+      hull.vertices = {points.data(), points.size() / 3, 3, MVS_TYPE_F64, 0};
+      hand.mode = MVS_HAND_MODE_CONVEX;
+      hand.bodies = &hull;
+      hand.body_count = 1;
+      hand.body_stride = sizeof hull;
+    }
     mvs::must(mvs_device_open(&desc, &device_));
     mvs::must(mvs_device_set_view(device_, &view));
     mvs::must(mvs_device_set_hand(device_, &hand));
@@ -191,7 +218,7 @@ void run(const std::string &name, double seconds, const Choice &choice) {
   print(name.c_str(), "period", times.period);
   print(name.c_str(), "sync", times.sync);
   print(name.c_str(), "step", times.step);
-  std::printf("%-5s %zu turns before the grasp\n", name.c_str(), times.free_step.size());
+  std::printf("%-5s %zu turns before the hand held a tool\n", name.c_str(), times.free_step.size());
   std::printf("%-5s largest force %.3g N, torque %.3g N m\n", name.c_str(), times.force,
               times.torque);
   const mvs_device_state state = scene.state();
@@ -206,11 +233,13 @@ int bench(int argc, char **argv) {
   CLI::App app("What the servo costs, and how well it keeps its rate");
   std::vector<std::string> scenes = {"S", "M"};
   double seconds = 10;
+  std::string tool = "grasp";
   app.add_option("--scenes", scenes, "S (425 vertices), M (1,700)")
       ->check(CLI::IsMember({"S", "M"}));
   app.add_option("--seconds", seconds, "of play, each")->check(CLI::Range(0.1, 3600.0));
   Choice choice;
-  app.add_option("--tool", choice.tool, "of the hand")->check(CLI::IsMember({"grasp", "rod"}));
+  app.add_option("--tool", choice.tool, "of the hand")
+      ->check(CLI::IsMember({"grasp", "rod", "convex"}));
   app.add_option("--device", choice.device, "that is simulated")
       ->check(CLI::IsMember({"touch", "premium6"}));
   CLI11_PARSE(app, argc, argv);
