@@ -317,9 +317,20 @@ def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
     assert "0.35 mm" in rows["edge_error"]["sentence"] and "1.40 mm" in rows["edge_lost"]["sentence"]
     assert "1.8 mm farther out" in rows["leak_interval"]["sentence"]
     again = [*call, "--with", str(tmp_path / "a.import.json"), "-o", str(tmp_path / "b.h5"), "--quiet"]
+    with mvs.Simulator() as sim:
+        sim.load(tmp_path / "a.h5")
+        sim.apply("annulus_scale", factor=0.9)
+        sim.snapshot().save_plan(tmp_path / "plan.json")
+    page = tmp_path / "page.html"
+    again += ["--plan", str(tmp_path / "plan.json"), "--report", str(page)]
     assert main(again) == 0
     output = capsys.readouterr()
-    assert json.loads(output.out)["hash"] == made["hash"] and output.err == ""
+    second = json.loads(output.out)
+    assert second["hash"] == made["hash"] and output.err == ""
+    assert second["repair"]["operations"] == 1 and second["repair"]["converged"]
+    text = page.read_text(encoding="utf-8")
+    assert "The repaired valve" in text and "Repaired, closed, from the atrium" in text
+    assert "Interval: " in text and "farther out" in text
     assert main([str(tmp_path / "none.nrrd"), "-o", str(tmp_path / "c.h5"), "--quiet"]) == 1
     assert "no such file" in capsys.readouterr().err
 

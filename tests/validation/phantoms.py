@@ -63,7 +63,7 @@ HEADINGS = {
 
 def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder: Path,
              unfitted: bool = True) -> Row:
-    """Makes a phantom, recovers it from its files, and compares; `unfitted`: also without the loaded image."""
+    """Makes a phantom, recovers it from its files, compares; `unfitted`: also without the loaded image."""
     row, start = Row(name), time.process_time()
     made = phantom.make(valve, settings)
     phantom.save(made, folder)
