@@ -134,7 +134,12 @@ ToolShapePtr read_shape(const Json &json) {
 // Keeps a recorded unit axis bit for bit and normalises any other axis.
 void read_hand(const Json &json, Tool &tool) {
   tool.position = vector_at(json, "position_m");
-  if (json.has("rodrigues")) tool.axis = vector_at(json, "rodrigues");
+  if (json.has("rodrigues")) {
+    tool.axis = vector_at(json, "rodrigues");
+    MVS_MUST(
+        tool.axis.norm() <= 1 + 1e-9, MVS_E_FORMAT, "plan",
+        "rodrigues is longer than 1: it has to be q_v / (1 + q_w) of a quaternion of length 1");
+  }
   if (!json.has("axis")) return;
   tool.axis = vector_at(json, "axis");
   const double length = tool.axis.norm();

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "geometry/bvh.h"
 #include "geometry/convex_distance.h"
 #include "geometry/distance.h"
 #include "geometry/intersect.h"
@@ -20,6 +21,9 @@ namespace {
 // Least clearance of a new tool as a share of its range: a smaller one would start with a large
 // force.
 constexpr double least_room = 0.01;
+
+// Modified Rodrigues parameters are 1 long at most, up to rounding.
+constexpr double most_rodrigues = 1 + 1e-9;
 
 bool is(const Tool &tool, Id id) {
   return tool.id == id;
@@ -61,8 +65,14 @@ struct NearestTissue {
   double gap = std::numeric_limits<double>::infinity();  // m
   Vec3 away = Vec3::Zero();
 
-  void take(std::span<const Vec3> body, std::span<const Vec3> part, double radius) {
+  // `box` is that of the body.
+  void take(std::span<const Vec3> body, const Aabb &box, std::span<const Vec3> part,
+            double radius) {
     const double cutoff = std::max(0.0, gap + radius);
+    Aabb of_part;
+    for (const Vec3 &p : part) of_part.add(p);
+    if (((of_part.low - box.high).array() > cutoff).any()) return;
+    if (((box.low - of_part.high).array() > cutoff).any()) return;
     const ConvexDistance found = convex_distance(body, part, cutoff);
     if (found.is_beyond || found.distance - radius >= gap) return;
     gap = found.distance - radius;
@@ -76,13 +86,15 @@ Room room_of_convex(const Model &model, const std::vector<Vec3> &x, const Tool &
   for (size_t b = 0; b < tool.shape->bodies().size(); ++b) {
     place_body(*tool.shape, b, tool.proxy, body);
     const double radius = tool.shape->bodies()[b].radius;
+    Aabb box;
+    for (const Vec3 &v : body) box.add(v);
     for (const Tri &t : model.valve.triangles) {
       const std::array<Vec3, 3> part = {x[t[0]], x[t[1]], x[t[2]]};
-      nearest.take(body, part, radius);
+      nearest.take(body, box, part, radius);
     }
     for (const Chord &chord : model.valve.chords) {
       const std::array<Vec3, 2> part = {x[chord.a], x[chord.b]};
-      nearest.take(body, part, radius + chord_radius(chord));
+      nearest.take(body, box, part, radius + chord_radius(chord));
     }
   }
   return {nearest.gap, nearest.away};
@@ -161,7 +173,7 @@ bool is_valid(const Model &model, const Tool &tool) {
   const bool pushes =
       (tool.kind == ToolKind::ball || tool.kind == ToolKind::rod) && tool.node == none;
   const bool has_shape = tool.kind == ToolKind::convex && tool.node == none && tool.shape &&
-                         tool.length == tool.shape->arm();
+                         tool.length == tool.shape->arm() && tool.axis.norm() <= most_rodrigues;
   return (holds || has_shape || (pushes && !tool.shape)) && tool.stiffness > 0 &&
          tool.max_force > 0;
 }

@@ -357,6 +357,34 @@ static void a_plan_does_with_a_hook_what_was_done(void) {
   free(text);
 }
 
+static void must_refuse_plan(const char *step, const char *word) {
+  char plan[1024];
+  mvs_replay replay = {.struct_size = sizeof replay};
+  const int size = snprintf(plan, sizeof plan,
+                            "{\"format\": \"mvs-plan\", \"version\": 1, \"steps\": [%s]}", step);
+  MUST_FAIL(mvs_replay_plan(sim, plan, (uint64_t)size, &replay), MVS_E_FORMAT, word);
+}
+
+static void a_plan_with_wrong_bodies_is_refused(void) {
+#define ADDED(bodies, turn)                                                                        \
+  "{\"do\": \"tool_add\", \"tool\": 281474976710656, \"kind\": \"convex\", "                       \
+  "\"position_m\": [0, 0, 0.03], \"stiffness_N/m\": 200, \"max_force_N\": 5, \"rodrigues\": " turn \
+  ", \"bodies\": " bodies "}"
+#define BODY(kind, radius, vertices) \
+  "[{\"kind\": \"" kind "\", \"radius_m\": " radius ", \"vertices_m\": \"" vertices "\"}]"
+  start();
+  const hash128 before = sim_hash(sim);
+  must_refuse_plan(ADDED("[]", "[0, 0, 0]"), "1 to 16 bodies");
+  must_refuse_plan(ADDED(BODY("ball", "0.001", ""), "[0, 0, 0]"), "1 to 16 bodies");
+  must_refuse_plan(ADDED(BODY("torus", "0.001", "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"), "[0, 0, 0]"),
+                   "1 to 16 bodies");
+  must_refuse_plan(ADDED(BODY("ball", "1", "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"), "[0, 0, 0]"),
+                   "1 to 16 bodies");
+  must_refuse_plan(ADDED(BODY("ball", "0.001", "AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA"), "[0, 2, 0]"),
+                   "longer than 1");
+  CHECK(same_hash(before, sim_hash(sim)));
+}
+
 int main(void) {
   mvs_sim_desc desc = {.struct_size = sizeof desc, .log = count_warnings};
   MUST(mvs_create(&desc, &sim));
@@ -370,6 +398,7 @@ int main(void) {
   a_tool_of_the_same_id_has_its_own_shape();
   a_session_keeps_a_hook_and_the_steps_to_come();
   a_plan_does_with_a_hook_what_was_done();
+  a_plan_with_wrong_bodies_is_refused();
   mvs_destroy(sim);
   return finish("bodies");
 }
