@@ -124,11 +124,19 @@ const Tables &mvs_snapshot::tables() const {
 const AnnulusMeasures &mvs_snapshot::annulus() const {
   return annulus_.get([this] { return measure_annulus(*model, state.x); });
 }
+const AtrialSide &mvs_snapshot::atrial_side() const {
+  return atrial_side_.get([this] {
+    AtrialSide side;
+    side.surface = mvs::core::atrial_surface(*model, state.x);
+    side.tenting_billow = measure_tenting_billow(side.surface);
+    return side;
+  });
+}
 const AtrialSurface &mvs_snapshot::atrial_surface() const {
-  return atrial_surface_.get([this] { return mvs::core::atrial_surface(*model, state.x); });
+  return atrial_side().surface;
 }
 const TentingBillow &mvs_snapshot::tenting_billow() const {
-  return tenting_billow_.get([this] { return measure_tenting_billow(atrial_surface()); });
+  return atrial_side().tenting_billow;
 }
 uint32_t mvs_snapshot::crossings() const {
   return crossings_.get([this] {
@@ -156,7 +164,7 @@ mvs_measure_group_flags mvs_snapshot::computed_groups() const {
   if (crossings_.is_computed()) groups |= MVS_MEASURE_GROUP_CROSSINGS;
   if (orifice_.is_computed()) groups |= MVS_MEASURE_GROUP_ORIFICE;
   if (coaptation_.is_computed()) groups |= MVS_MEASURE_GROUP_COAPTATION;
-  if (tenting_billow_.is_computed()) groups |= MVS_MEASURE_GROUP_TENTING;
+  if (atrial_side_.is_computed()) groups |= MVS_MEASURE_GROUP_TENTING;
   if (annulus_.is_computed()) groups |= MVS_MEASURE_GROUP_ANNULUS;
   if (chords_.is_computed()) groups |= MVS_MEASURE_GROUP_CHORDS;
   if (strain_.is_computed()) groups |= MVS_MEASURE_GROUP_LEAFLETS;

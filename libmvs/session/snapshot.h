@@ -64,6 +64,12 @@ struct BoundaryForces {
   std::vector<mvs::core::Vec3> annulus;
 };
 
+// The leaflets seen from the atrium, with their tenting and billow.
+struct AtrialSide {
+  mvs::core::AtrialSurface surface;
+  mvs::core::TentingBillow tenting_billow;
+};
+
 struct mvs_snapshot {
   explicit mvs_snapshot(mvs::core::Snapshot value_in)
       : value(std::move(value_in)), model(value.current.model), state(value.current.state) {}
@@ -103,6 +109,7 @@ struct mvs_snapshot {
  private:
   ~mvs_snapshot() = default;
   const BoundaryForces &boundary_forces() const;
+  const AtrialSide &atrial_side() const;
 
   mutable std::atomic<uint32_t> references_{1};
   mvs::core::Lazy<BoundaryForces> forces_;
@@ -118,8 +125,7 @@ struct mvs_snapshot {
   mvs::core::Lazy<mvs::core::Stability> stability_;
   mvs::core::Lazy<mvs::core::Tables> tables_;
   mvs::core::Lazy<mvs::core::AnnulusMeasures> annulus_;
-  mvs::core::Lazy<mvs::core::AtrialSurface> atrial_surface_;
-  mvs::core::Lazy<mvs::core::TentingBillow> tenting_billow_;
+  mvs::core::Lazy<AtrialSide> atrial_side_;
   mvs::core::Lazy<uint32_t> crossings_;
   mvs::core::Lazy<mvs_measures> measures_;
 };

@@ -136,26 +136,29 @@ py::object tool_by_id(Simulator &self, mvs_id tool) {
 }  // namespace
 
 void bind_tools(py::class_<Simulator> &type) {
-  type.def("add_tool", &add_tool, "kind"_a, "position"_a, py::kw_only(), "axis"_a = py::none(),
-           "radius"_a = py::none(), "length"_a = py::none(), "stiffness"_a = py::none(),
-           "max_force"_a = py::none(), "reach"_a = py::none(), "node"_a = py::none(),
-           "bodies"_a = py::tuple(), "orientation"_a = py::none(), "strict_hulls"_a = false,
-           "Adds an instrument and returns its id.\n\nkind: \"grasp\" holds a node, \"ball\", "
-           "\"rod\" and \"convex\" push tissue and never pass through a leaflet\nposition: m, of the hand\naxis: "
-           "of a rod, from tip to handle\nradius: m [2e-3]\nlength: m, of a rod "
-           "[40e-3]\nstiffness: N/m, of the spring between hand and tool [200]\nmax_force: N, of "
-           "that spring [5]\nreach: m; a grasp takes the nearest free leaflet vertex within it "
-           "[2e-3]\nnode: index of the node to grasp, at any distance\nbodies: of a convex "
-           "tool, 1 to 16 dictionaries in the frame of the hand, with kind \"hull\" (vertices, n x "
-           "3), \"ball\" (position), \"capsule\" (position, end), \"box\" (position, size, "
-           "orientation), \"cylinder\" or \"cone\" (position, end, size: radius of the circle), and "
-           "radius: of a ball or capsule, or by which it is rounded; all in m\norientation: of a "
-           "convex tool, w x y z of a quaternion\nstrict_hulls: refuses a hull whose vertices are "
-           "not convex, instead of hulling them with a warning\nArgumentError: no node "
-           "within reach. StateError: the tool would intersect tissue.");
-  type.def("move_tool", &move_tool, "tool"_a, "position"_a, "axis"_a = py::none(),
-           py::kw_only(), "orientation"_a = py::none(),
-           "Moves the hand of a tool, and turns a convex tool (w x y z of a quaternion); the next settle or step uses it. Allowed in any thread at "
+  type.def(
+      "add_tool", &add_tool, "kind"_a, "position"_a, py::kw_only(), "axis"_a = py::none(),
+      "radius"_a = py::none(), "length"_a = py::none(), "stiffness"_a = py::none(),
+      "max_force"_a = py::none(), "reach"_a = py::none(), "node"_a = py::none(),
+      "bodies"_a = py::tuple(), "orientation"_a = py::none(), "strict_hulls"_a = false,
+      "Adds an instrument and returns its id.\n\nkind: \"grasp\" holds a node, \"ball\", "
+      "\"rod\" and \"convex\" push tissue and never pass through a leaflet\nposition: m, of the "
+      "hand\naxis: "
+      "of a rod, from tip to handle\nradius: m [2e-3]\nlength: m, of a rod "
+      "[40e-3]\nstiffness: N/m, of the spring between hand and tool [200]\nmax_force: N, of "
+      "that spring [5]\nreach: m; a grasp takes the nearest free leaflet vertex within it "
+      "[2e-3]\nnode: index of the node to grasp, at any distance\nbodies: of a convex "
+      "tool, 1 to 16 dictionaries in the frame of the hand, with kind \"hull\" (vertices, n x "
+      "3), \"ball\" (position), \"capsule\" (position, end), \"box\" (position, size, "
+      "orientation), \"cylinder\" or \"cone\" (position, end, size: radius of the circle), and "
+      "radius: of a ball or capsule, or by which it is rounded; all in m\norientation: of a "
+      "convex tool, w x y z of a quaternion\nstrict_hulls: refuses a hull whose vertices are "
+      "not convex, instead of hulling them with a warning\nArgumentError: no node "
+      "within reach. StateError: the tool would intersect tissue.");
+  type.def("move_tool", &move_tool, "tool"_a, "position"_a, "axis"_a = py::none(), py::kw_only(),
+           "orientation"_a = py::none(),
+           "Moves the hand of a tool, and turns a convex tool (w x y z of a quaternion); the next "
+           "settle or step uses it. Allowed in any thread at "
            "any time. IdError for an unknown tool.");
   type.def("remove_tool", &remove_tool, "tool"_a,
            "Removes a tool; it releases the node that it holds.");

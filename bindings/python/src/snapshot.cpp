@@ -294,9 +294,10 @@ void bind_snapshot(py::module_ &module) {
                              "heads, rings; `index` is the row in the arrays of their kind.");
   type.def_property_readonly("tools", &tools,
                              "The instruments (tuple of mvs.Tool) in the order of their addition.");
-  type.def("tool_bodies", &tool_bodies, "index"_a,
-           "The bodies of the convex tool at an index of `tools` (tuple of mvs.ToolBody); empty for "
-           "others.");
+  type.def(
+      "tool_bodies", &tool_bodies, "index"_a,
+      "The bodies of the convex tool at an index of `tools` (tuple of mvs.ToolBody); empty for "
+      "others.");
   type.def_property_readonly("history", &history,
                              "The operations on the valve (tuple of mvs.HistoryEntry): the applied "
                              "ones from first to last, then the undone ones in the order of redo.");

@@ -138,17 +138,16 @@ py::object history_value(const mvs_history_entry &s, bool done) {
 
 py::object tool_value(const mvs_tool_state &s) {
   const auto vector = [](const double v[3]) { return py::array_t<double>(3, v); };
-  return make_value("Tool", FIELD(id),
-                    "kind"_a = py::module_::import("mvs.kinds").attr("ToolKind")(s.kind),
-                    "position"_a = vector(s.position), "axis"_a = vector(s.axis),
-                    "proxy"_a = vector(s.proxy), "proxy_axis"_a = vector(s.proxy_axis),
-                    "force"_a = vector(s.force), "torque"_a = vector(s.torque), FIELD(distance),
-                    FIELD(radius), FIELD(length), FIELD(stiffness), FIELD(max_force),
-                    "node"_a = s.node == UINT32_MAX ? py::object(py::none()) : py::int_(s.node),
-                    "touching"_a = s.touching != 0,
-                    "orientation"_a = py::array_t<double>(4, s.orientation),
-                    "proxy_orientation"_a = py::array_t<double>(4, s.proxy_orientation),
-                    FIELD(body_count), FIELD(vertex_count));
+  return make_value(
+      "Tool", FIELD(id), "kind"_a = py::module_::import("mvs.kinds").attr("ToolKind")(s.kind),
+      "position"_a = vector(s.position), "axis"_a = vector(s.axis), "proxy"_a = vector(s.proxy),
+      "proxy_axis"_a = vector(s.proxy_axis), "force"_a = vector(s.force),
+      "torque"_a = vector(s.torque), FIELD(distance), FIELD(radius), FIELD(length),
+      FIELD(stiffness), FIELD(max_force),
+      "node"_a = s.node == UINT32_MAX ? py::object(py::none()) : py::int_(s.node),
+      "touching"_a = s.touching != 0, "orientation"_a = py::array_t<double>(4, s.orientation),
+      "proxy_orientation"_a = py::array_t<double>(4, s.proxy_orientation), FIELD(body_count),
+      FIELD(vertex_count));
 }
 
 // The arrays are copies.
@@ -157,12 +156,11 @@ py::object tool_body_value(const mvs_tool_body &s) {
   py::array_t<uint32_t> triangles({rows(s.triangles), py::ssize_t{3}});
   const auto *const corners = static_cast<const uint32_t *>(s.triangles.data);
   std::copy(corners, corners + 3 * s.triangles.count, triangles.mutable_data());
-  return make_value("ToolBody",
-                    "kind"_a = py::module_::import("mvs.kinds").attr("BodyKind")(s.kind),
-                    FIELD(radius),
-                    "vertices"_a = matrix(static_cast<const double *>(s.vertices.data),
-                                          rows(s.vertices), 3),
-                    "triangles"_a = triangles);
+  return make_value(
+      "ToolBody", "kind"_a = py::module_::import("mvs.kinds").attr("BodyKind")(s.kind),
+      FIELD(radius),
+      "vertices"_a = matrix(static_cast<const double *>(s.vertices.data), rows(s.vertices), 3),
+      "triangles"_a = triangles);
 }
 
 py::object ensemble_summary_value(const mvs_ensemble_summary &s) {
