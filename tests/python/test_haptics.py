@@ -50,6 +50,14 @@ def test_settings_can_be_read_back(device):
     assert (device.view.origin[0], device.view.scale, device.view.force_scale) == (1e-3, 0.5, 2)
     device.set_hand("ball", radius=3e-3)
     assert (device.hand.mode, device.hand.radius) == (HandMode.BALL, 3e-3)
+    bar = {"kind": "capsule", "position": (0, 0, 0), "end": (0, 0, 0.02), "radius": 1e-3}
+    device.set_hand("convex", bodies=[bar, {"kind": "ball", "radius": 2e-3}])
+    assert (device.hand.mode, device.hand.body_count) == (HandMode.CONVEX, 2)
+    with pytest.raises(mvs.ArgumentError, match="bodies"):
+        device.set_hand("convex")
+    with pytest.raises(mvs.ArgumentError, match="colour"):
+        device.set_hand("convex", bodies=[{"kind": "ball", "colour": 1}])
+    assert device.hand.body_count == 2
     with pytest.raises(mvs.ArgumentError, match="drag"):
         device.set_hand("squeeze")
     with pytest.raises(mvs.ArgumentError, match="ramp_s"):

@@ -548,7 +548,7 @@ class Device:
     ) -> None: ...
     def set_hand(
         self,
-        mode: Literal["look", "grasp", "ball", "rod", "feel", "drag"],
+        mode: Literal["look", "grasp", "ball", "rod", "feel", "drag", "convex"],
         *,
         chord: Optional[int] = None,
         button: int = 0,
@@ -558,6 +558,7 @@ class Device:
         stiffness: Optional[float] = None,
         max_force: Optional[float] = None,
         gain: Optional[float] = None,
+        bodies: Sequence[dict[str, Any]] = (),
     ) -> None: ...
     def start(self) -> None: ...
     def stop(self) -> None: ...

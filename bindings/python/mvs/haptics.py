@@ -33,6 +33,7 @@ class HandMode(IntEnum):
     ROD = 3
     FEEL = 4
     DRAG = 5
+    CONVEX = 6
 
 
 class Phase(IntEnum):
@@ -204,6 +205,7 @@ class Hand:
     stiffness: Annotated[float, "N/m", "of the spring between hand and tool, in the scene"]
     max_force: Annotated[float, "N", "of that spring, in the scene"]
     gain: Annotated[float, "1", "factor on the tension of a felt chord"]
+    body_count: Annotated[int, "1", "bodies of a convex tool"]
 
 
 @with_field_help

@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "bodies.h"
 #include "device.h"
 #include "device_values.h"
 
@@ -130,19 +131,24 @@ void set_view(Device &self, const std::array<double, 3> &origin,
 }
 
 uint32_t mode_of(const std::string &name) {
-  static constexpr const char *names[] = {"look", "grasp", "ball", "rod", "feel", "drag"};
+  static constexpr const char *names[] = {"look", "grasp", "ball", "rod", "feel", "drag", "convex"};
   for (uint32_t k = 0; k < std::size(names); ++k) {
     if (name == names[k]) return k;
   }
   refuse(MVS_E_ARGUMENT, "mode",
-         "mode: \"look\", \"grasp\", \"ball\", \"rod\", \"feel\" or \"drag\" is needed, not \"" +
+         "mode: \"look\", \"grasp\", \"ball\", \"rod\", \"feel\", \"drag\" or \"convex\" is "
+         "needed, not \"" +
              name + "\"");
 }
 
 void set_hand(Device &self, const std::string &mode, std::optional<mvs_id> chord, uint32_t button,
               Number reach, Number radius, Number length, Number stiffness, Number max_force,
-              Number gain) {
+              Number gain, const std::vector<py::dict> &given) {
+  const Bodies bodies(given);
   mvs_device_hand hand{};
+  hand.bodies = bodies.descs.data();
+  hand.body_count = static_cast<uint32_t>(bodies.descs.size());
+  hand.body_stride = sizeof(mvs_body_desc);
   hand.mode = mode_of(mode);
   hand.chord = chord.value_or(0);
   hand.button = button;
@@ -183,14 +189,17 @@ void bind_settings(py::class_<Device> &type) {
   type.def(
       "set_hand", &set_hand, "mode"_a, py::kw_only(), "chord"_a = none, "button"_a = 0,
       "reach"_a = none, "radius"_a = none, "length"_a = none, "stiffness"_a = none,
-      "max_force"_a = none, "gain"_a = none,
+      "max_force"_a = none, "gain"_a = none, "bodies"_a = py::tuple(),
       "Gives the hand a tool; the next sync releases the node that it holds.\n\nmode: \"look\"; "
       "\"grasp\": the button takes the nearest node; \"ball\", \"rod\": push; \"feel\": the "
-      "tension of a chord; \"drag\": the button takes a chord's leaflet end\nchord: id of the "
+      "tension of a chord; \"drag\": the button takes a chord's leaflet end; \"convex\": pushes "
+      "with "
+      "`bodies`, which turn with the stylus\nchord: id of the "
       "chord to feel or drag [the nearest when the button is pressed]\nbutton: index of the "
       "grasping button\nreach: m, in the scene, of the button [5e-3]\nradius: m, of a ball or rod "
       "[2e-3]\nlength: m, of a rod [40e-3]\nstiffness: N/m, of the spring between hand and tool "
-      "[200]\nmax_force: N, of that spring [5]\ngain: factor on the tension of a felt chord [1]");
+      "[200]\nmax_force: N, of that spring [5]\ngain: factor on the tension of a felt chord "
+      "[1]\nbodies: of \"convex\", as Simulator.add_tool has them");
 }
 
 void bind_views(py::class_<Device> &type) {

@@ -1,7 +1,7 @@
 // Instruments of mvs.Simulator; values.cpp has those of a snapshot.
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include "bodies.h"
 #include "simulator.h"
 #include "values.h"
 
@@ -13,7 +13,6 @@ using namespace py::literals;
 using Number = std::optional<double>;
 using Place = std::array<double, 3>;
 using Turn = std::array<double, 4>;  // w x y z
-using Points = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 uint32_t kind_of(const std::string &name) {
   if (name == "grasp") return MVS_TOOL_KIND_GRASP;
@@ -22,61 +21,6 @@ uint32_t kind_of(const std::string &name) {
   if (name == "convex") return MVS_TOOL_KIND_CONVEX;
   refuse(MVS_E_ARGUMENT, "kind",
          "kind: \"grasp\", \"ball\", \"rod\" or \"convex\" is needed, not \"" + name + "\"");
-}
-
-uint32_t body_kind_of(const std::string &name) {
-  const char *const names[] = {"hull", "ball", "capsule", "box", "cylinder", "cone"};
-  for (uint32_t k = 0; k < std::size(names); ++k) {
-    if (name == names[k]) return MVS_BODY_KIND_HULL + k;
-  }
-  refuse(MVS_E_ARGUMENT, "bodies",
-         "bodies: kind \"hull\", \"ball\", \"capsule\", \"box\", \"cylinder\" or \"cone\" is "
-         "needed, not \"" +
-             name + "\"");
-}
-
-template <size_t Size>
-void copy_numbers(const py::handle &from, double (&to)[Size]) {
-  const auto numbers = py::cast<std::array<double, Size>>(from);
-  std::copy(numbers.begin(), numbers.end(), to);
-}
-
-// Bodies with the vertices that they point to.
-struct Bodies {
-  std::vector<mvs_body_desc> descs;
-  std::vector<Points> vertices;
-
-  void set(mvs_body_desc &desc, const std::string &key, const py::handle &value);
-  void add(const py::dict &given) {
-    mvs_body_desc desc{};
-    for (const auto &[key, value] : given) set(desc, py::cast<std::string>(key), value);
-    descs.push_back(desc);
-  }
-};
-
-void Bodies::set(mvs_body_desc &desc, const std::string &key, const py::handle &value) {
-  if (key == "kind") {
-    desc.kind = body_kind_of(py::cast<std::string>(value));
-  } else if (key == "position") {
-    copy_numbers(value, desc.position);
-  } else if (key == "end") {
-    copy_numbers(value, desc.end);
-  } else if (key == "size" && py::isinstance<py::float_>(value)) {
-    desc.size[0] = py::cast<double>(value);
-  } else if (key == "size") {
-    copy_numbers(value, desc.size);
-  } else if (key == "orientation") {
-    copy_numbers(value, desc.orientation);
-  } else if (key == "radius") {
-    desc.radius = py::cast<double>(value);
-  } else if (key == "vertices") {
-    const auto &points = vertices.emplace_back(py::cast<Points>(value));
-    const bool is_table = points.ndim() == 2 && points.shape(1) == 3;
-    if (!is_table) refuse(MVS_E_ARGUMENT, "bodies", "bodies: vertices have to be n x 3 numbers");
-    desc.vertices = {points.data(), static_cast<uint64_t>(points.shape(0)), 3, MVS_TYPE_F64, 0};
-  } else {
-    refuse(MVS_E_ARGUMENT, "bodies", "bodies: a body has no \"" + key + "\"");
-  }
 }
 
 mvs_id add_tool(Simulator &self, const std::string &kind, const Place &position,
@@ -95,8 +39,7 @@ mvs_id add_tool(Simulator &self, const std::string &kind, const Place &position,
   desc.reach = reach.value_or(0);
   desc.by_node = node ? 1 : 0;
   desc.node = node.value_or(0);
-  Bodies bodies;
-  for (const py::dict &body : given) bodies.add(body);
+  const Bodies bodies(given);
   desc.bodies = bodies.descs.data();
   desc.body_count = static_cast<uint32_t>(bodies.descs.size());
   desc.body_stride = sizeof(mvs_body_desc);

@@ -64,7 +64,7 @@ py::object device_view_value(const mvs_device_view &s) {
 py::object device_hand_value(const mvs_device_hand &s) {
   return make_haptic("Hand", "mode"_a = number("HandMode", s.mode), "chord"_a = id_or_none(s.chord),
                      FIELD(button), FIELD(reach), FIELD(radius), FIELD(length), FIELD(stiffness),
-                     FIELD(max_force), FIELD(gain));
+                     FIELD(max_force), FIELD(gain), FIELD(body_count));
 }
 
 py::object device_report_value(const mvs_device_report &s) {
