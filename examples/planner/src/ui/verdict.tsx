@@ -1,7 +1,7 @@
 // The verdict in large letters over all panels: sealed or leaking, where and how much; dots stand for what is still to
 // come.
 import * as state from '../store/state';
-import { figure, grade, verdictTexts, where } from '../text/texts';
+import { barTexts, figure, grade, verdictTexts, where } from '../text/texts';
 import type { Figures } from '../protocol';
 
 export function Verdict() {
@@ -32,12 +32,19 @@ export function Verdict() {
       <Leak figures={figures} graded={graded} />
       {!graded && !shape && <div class="verdict-where">{words.notFinal}</div>}
       {m.chordsOver > 0 && (
-        <div class="verdict-warn">
+        <div class={m.chordsOver > usual() ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
           {words.chordsOver(m.chordsOver, state.tour.value?.founding?.healthy.measures.chordsOver)}
         </div>
       )}
     </div>
   );
+}
+
+/** Chordae beyond their limit in the healthy valve, where this valve began from it: no more of them is no warning. */
+function usual(): number {
+  const { tour, title, first } = state;
+  if (tour.value) return tour.value.founding?.healthy.measures.chordsOver ?? Infinity;
+  return title.value === barTexts.healthy ? (first.value?.figures.measures.chordsOver ?? 0) : 0;
 }
 
 /** The size of the leak and its place, or how far the leaflets meet; dots stand for what is still to come. */
