@@ -197,9 +197,7 @@ export const tourTexts = {
   present: (k: number) => `Valve ${k} of the tour`,
   finished: 'All goals reached',
   finishedOf: (count: number) =>
-    count < 3
-      ? `${count} of 3 valves are sealed.`
-      : 'Three of three valves are sealed: the tour is finished.',
+    count < 3 ? `${count} of 3 valves sealed.` : 'Three of three valves are sealed: the tour is finished.',
   study: 'What the study’s surgeon did',
   columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Healthy' },
   rows: {

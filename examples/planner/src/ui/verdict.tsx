@@ -1,7 +1,7 @@
 // The verdict in large letters over all panels: sealed or leaking, where and how much; dots stand for what is still to
 // come.
 import * as state from '../store/state';
-import { barTexts, figure, grade, verdictTexts, where } from '../text/texts';
+import { figure, grade, verdictTexts, where } from '../text/texts';
 import type { Figures } from '../protocol';
 
 export function Verdict() {
@@ -40,11 +40,10 @@ export function Verdict() {
   );
 }
 
-/** Chordae beyond their limit in the healthy valve, where this valve began from it: no more of them is no warning. */
+/** Chordae beyond their limit in the healthy valve of the tour, as soon as it is known: no more of them is no warning. */
 function usual(): number {
-  const { tour, title, first } = state;
-  if (tour.value) return tour.value.founding?.healthy.measures.chordsOver ?? Infinity;
-  return title.value === barTexts.healthy ? (first.value?.figures.measures.chordsOver ?? 0) : 0;
+  const tour = state.tour.value;
+  return tour ? (tour.founding?.healthy.measures.chordsOver ?? Infinity) : 0;
 }
 
 /** The size of the leak and its place, or how far the leaflets meet; dots stand for what is still to come. */
