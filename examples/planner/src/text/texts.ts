@@ -330,7 +330,7 @@ export const verdictTexts = {
     `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit` +
     (healthy ? ` (healthy valve: ${healthy})` : ''),
   limitHelp:
-    'Working limit: the stretch and pull that a chord of its kind is known to bear. A chord beyond it may lengthen or tear in time. A healthy valve may have a few such chordae.',
+    'Working limit: the largest stretch and pull at which chordae of this kind work. They tear beyond it, so such a chord deserves a look. A healthy valve may have a few of them.',
 };
 
 export const leaveTexts = {
