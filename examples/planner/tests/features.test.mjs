@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, beforeEach, describe, it } from 'node:test';
 import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, open, openPanel } from './person.mjs';
+import { apply, begin, cameraRests, chordNames, chordPlace, open, openPanel, save } from './person.mjs';
 
 /** Pixel in the window of a place in mm. */
 function pixel(page, at) {
@@ -181,6 +181,49 @@ describe('planner features', () => {
       page.evaluate((name) => document.querySelector(`path.plot-${name}`).getTotalLength(), style);
     // the healthy valve is another shape of the same tissue
     assert.ok((await length('healthy')) > 20 && (await length('healthy')) !== (await length('now')));
+  });
+
+  it('shows_a_chord_that_answers_the_form_as_one_that_was_chosen_before', async () => {
+    await page.keyboard.press('2');
+    await cameraRests(page);
+    await page.evaluate(() => (window.planner.state.choice.value = null));
+    await begin(page, 'chord_length');
+    const answer = () => page.evaluate(() => window.planner.state.draft.value.fields.chord);
+    for (const name of await chordNames(page)) {
+      await page.mouse.click(...Object.values((await chordPlace(page, name)).middle));
+      if (await answer()) break;
+    }
+    await closed(page);
+    assert.ok(await answer(), 'a chord is picked');
+    const look = async () => ({
+      card: await page.getByTestId('chosen').innerText(),
+      tag: await page.locator('.label-chord').innerText(),
+      length: await page.locator('#f-length').inputValue(),
+    });
+    const picked = await look();
+    assert.ok(picked.card.includes(`${picked.length} mm`) && picked.tag.includes(picked.length), picked.card);
+    await page.keyboard.press('Escape');
+    await begin(page, 'chord_length');
+    assert.deepEqual(await look(), picked);
+    await page.keyboard.press('Escape');
+  });
+
+  it('has_tables_no_wider_than_the_panel', async () => {
+    await openPanel(page, 'Valve');
+    await page.locator('summary', { hasText: /^Chordae/ }).click();
+    for (const table of ['scallops', 'chords'])
+      assert.ok(
+        await page
+          .getByTestId(table)
+          .evaluate((element) => element.offsetWidth <= element.parentElement.clientWidth),
+        table,
+      );
+  });
+
+  it('says_what_was_saved', async () => {
+    await save(page);
+    assert.match(await page.getByTestId('notice').innerText(), /^Saved as .*\.mvsplan in your downloads\./);
+    assert.match(await page.getByTestId('status').innerText(), /^Saved as/);
   });
 
   it('takes_clicked_papillary_tips_at_import', async () => {

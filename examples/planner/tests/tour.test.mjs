@@ -75,7 +75,20 @@ describe('tour', () => {
         assert.equal((await figures(page)).measures.orifice, 0);
         await openPanel(page, 'Learn');
         await page.getByTestId('score').getByText('Study surgeon').waitFor({ timeout: 30_000 });
-        await page.getByText('All goals reached.').waitFor({ timeout: 30_000 });
+        await page.getByText('All goals reached. 1 of 3 valves sealed.').waitFor({ timeout: 30_000 });
+        const button = page.getByRole('button', { name: `Valve ${number}` });
+        assert.equal(await button.locator('svg').count(), 1, 'a tick');
+        if (number === 1) {
+          // the repaired plan is not lost by going on
+          await page.getByRole('button', { name: 'Next valve' }).click();
+          await page.getByRole('button', { name: 'Return to it' }).waitFor({ timeout: 30_000 });
+          assert.equal(await page.getByTestId('present').innerText(), 'Valve 2 of the tour');
+          assert.equal(await button.locator('svg').count(), 1, 'the tick stays');
+        }
+        if (number === 3) {
+          await page.evaluate(() => (window.planner.state.finished.value = [1, 2, 3]));
+          await page.getByText('Three of three valves are sealed').waitFor();
+        }
         assert.deepEqual(errors, []);
       } finally {
         await context.close();

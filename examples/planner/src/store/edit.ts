@@ -34,6 +34,13 @@ export const replacements: Record<string, { points: string; instead: string[] }>
   ring: { points: 'curve', instead: ['size', 'ap_ratio', 'saddle'] },
 };
 
+/** Length without pull of a chord of the plan, mm: where a change of it begins. */
+export function presentLength(id: string): number {
+  const chord = state.main.value!.figures.chords.find((item) => item.id === id)!;
+  return +chord.rest.toFixed(1);
+}
+
+/** Sets a field; a chord that answers the form is chosen in the picture as well, and its length is the present one. */
 export function setField(name: string, value: FieldValue | undefined): void {
   const now = state.draft.value;
   if (!now) return;
@@ -44,6 +51,10 @@ export function setField(name: string, value: FieldValue | undefined): void {
   if (value === undefined) delete fields[name];
   else fields[name] = value;
   if (state.picking.value === name) state.picking.value = null;
+  if (name === 'chord' && typeof value === 'string') {
+    state.choice.value = { kind: 'chord', id: value };
+    if (now.kind === 'chord_length' && fields.factor === undefined) fields.length = presentLength(value);
+  }
   edit(now.kind, fields);
 }
 

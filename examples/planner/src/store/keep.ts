@@ -20,8 +20,20 @@ export function download(bytes: Uint8Array | string, name: string, type: string)
   link.href = url;
   link.download = name;
   link.click();
+  announce(t.saved(name));
   // browsers read the blob after the click
   setTimeout(() => URL.revokeObjectURL(url), 60_000);
+}
+
+/** Says what was saved, to the eye and to a screen reader; an offered way back stays. */
+function announce(text: string): void {
+  const offer = state.notice.value?.action && state.notice.value;
+  state.notice.value = {
+    kind: 'info',
+    text: [text, offer?.text].filter(Boolean).join(' '),
+    action: offer && offer.action,
+  };
+  state.status.value = text;
 }
 
 function fileName(): string {

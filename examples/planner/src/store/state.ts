@@ -85,6 +85,8 @@ export const cost = signal<{ hash: string; value: Cost } | null>(null);
 export const flow = signal<number | null>(null);
 export const spread = signal<{ hash: string; value: Spread } | null>(null);
 export const tour = signal<{ number: number; founding: FoundingResult | null } | null>(null);
+/** Valves of the tour whose goals were all reached since the page was opened. */
+export const finished = signal<number[]>([]);
 /** A surface that a valve is to be built from, the clicked points, and the findings. */
 export interface Imported {
   name: string;

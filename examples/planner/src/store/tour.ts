@@ -20,8 +20,31 @@ export async function startValve(number: number): Promise<void> {
   }
 }
 
+/** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */
+export function reached(): Record<'sealed' | 'chords' | 'open', boolean | null> {
+  const founding = state.tour.value?.founding;
+  const { hash, measures } = state.main.value!.figures;
+  const cost = state.cost.value?.hash === hash ? state.cost.value.value : null;
+  return {
+    sealed: measures.atRest && measures.orifice === 0,
+    chords: founding ? measures.chordsOver <= founding.healthy.measures.chordsOver : null,
+    open: cost && founding ? cost.openArea >= 0.9 * founding.healthy.openArea : null,
+  };
+}
+
+/** Remembers the valves whose goals are reached. */
+function watchGoals(): void {
+  effect(() => {
+    const number = state.tour.value?.number;
+    if (!number || !state.main.value || !Object.values(reached()).every(Boolean)) return;
+    const { finished } = state;
+    if (!finished.value.includes(number)) finished.value = [...finished.value, number];
+  });
+}
+
 /** Measures the opening of each sealed valve of the tour as soon as nothing else is under way. */
 export function watchTour(): void {
+  watchGoals();
   effect(() => {
     const figures = state.main.value?.figures;
     const idle = state.tour.value?.founding && figures && !state.draft.value && !state.busy.value;

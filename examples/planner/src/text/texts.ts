@@ -12,18 +12,19 @@ export function grade(orifice: number): { level: number; word: string } {
   return { level: 4, word: 'Severe leak' };
 }
 
-/** Where a valve leaks, by scallops or commissures. */
+/** Smallest share of a leak that is named. */
+const leastShare = 0.1;
+
+/** Where a valve leaks: the regions of the table, the largest share first; dots until they are known. */
 export function where(figures: Figures): string {
-  if (!figures.orificeParts.length) return '';
-  const union = (get: (part: Figures['orificeParts'][number]) => string) =>
-    [...new Set(figures.orificeParts.flatMap((part) => get(part).split('+')))]
-      .filter(Boolean)
-      .sort()
-      .join(', ');
-  const leaflets = [union((part) => part.anterior), union((part) => part.posterior)]
-    .filter(Boolean)
-    .join(' and ');
-  const places = leaflets || `commissure ${union((part) => part.commissures)}`;
+  if (figures.known !== 'all') return '…';
+  const leaking = figures.regions.filter((region) => region.orifice > 0);
+  const total = leaking.reduce((sum, region) => sum + region.orifice, 0);
+  const names = leaking
+    .filter((region) => region.orifice >= leastShare * total)
+    .sort((a, b) => b.orifice - a.orifice)
+    .map((region) => (region.commissure ? `commissure ${region.name}` : region.name));
+  const places = [names.slice(0, -1).join(', '), ...names.slice(-1)].filter(Boolean).join(' and ');
   const count = figures.orificeParts.length;
   return count > 1 ? `${places}, in ${count} places` : places;
 }
@@ -159,6 +160,7 @@ export const t = {
   undoing: 'Going back…',
   redoing: 'Repeating…',
   saving: 'Saving…',
+  saved: (name: string) => `Saved as ${name} in your downloads.`,
   measuring: 'Measuring…',
   spreading: 'Closing it eight times…',
   replaying: 'Repeating the plan…',
@@ -192,6 +194,10 @@ export const tourTexts = {
   goal: (number: number) => `Goals of valve ${number}`,
   repair: 'Repair this valve',
   next: 'Next valve',
+  present: (k: number) => `Valve ${k} of the tour`,
+  finished: 'All goals reached',
+  finishedOf: (count: number) =>
+    count < 3 ? `${count} of 3 valves sealed.` : 'Three of three valves are sealed: the tour is finished.',
   study: 'What the study’s surgeon did',
   columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Healthy' },
   rows: {
@@ -241,7 +247,7 @@ export const tourTexts = {
 export const help = {
   picture: 'Arrow keys turn the valve, Shift and arrow keys move it, plus and minus zoom.',
   keys: [
-    ['1 2 3 4', 'Views: surgeon, ventricle, commissure, section'],
+    ['1 2 3 4', 'Views: surgeon, ventricle, side, section'],
     ['Arrows, + −', 'Turn, zoom (in the picture)'],
     ['V R P L', 'Panels: Valve, Repair, Plan, Learn'],
     ['O', 'Open and close the valve'],
@@ -323,6 +329,8 @@ export const verdictTexts = {
   chordsOver: (count: number, healthy: number | undefined) =>
     `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit` +
     (healthy ? ` (healthy valve: ${healthy})` : ''),
+  limitHelp:
+    'Working limit: the largest stretch and pull at which chordae of this kind work. They tear beyond it, so such a chord deserves a look. A healthy valve may have a few of them.',
 };
 
 export const leaveTexts = {
@@ -358,6 +366,8 @@ export const barTexts = {
   undo: 'Undo',
   redo: 'Redo',
   healthy: 'Healthy valve',
+  startHealthy: 'Start from a healthy valve',
+  present: 'Present valve',
   help: 'Keys and help',
   view: 'View',
   viewOf: (name: string) => `View: ${name}`,
@@ -367,6 +377,8 @@ export const barTexts = {
   opening: 'Open or closed',
   show: 'Show',
   cut: 'Cut at the section plane',
+  // short words below the icons; each begins the name of its button
+  words: { cut: 'Cut', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
   pointer: 'Pointer',
@@ -428,18 +440,17 @@ export const valveTexts = {
 export const tableTexts = {
   scallops: 'Scallop by scallop',
   scallop: 'Scallop',
-  coaptation: 'Coaptation',
-  leak: 'Leak',
-  prolapse: 'Prolapse',
+  coaptation: 'Coaptation, mm',
+  leak: 'Leak, mm²',
+  prolapse: 'Prolapse, mm',
   commissure: (name: string) => `Commissure ${name}`,
   was: (value: string) => ` was ${value}`,
   chordae: (count: number) => `Chordae (${count})`,
   chordaeHint: 'The most loaded first. Choose one to shorten, lengthen or cut it.',
   chord: 'Chord',
-  kind: 'Kind',
-  length: 'Length',
-  pull: 'Pull',
-  ofLimit: 'Of limit',
+  length: 'Length without pull, mm',
+  pull: 'Pull, N',
+  ofLimit: '% of limit',
   slack: 'slack',
 };
 
@@ -454,8 +465,8 @@ export const deviceTexts = {
     `${number(cc)} mm wide, ${number(ap)} mm front to back, ${number(round, 0)} mm around`,
   band: (length: number) => `${number(length, 0)} mm long`,
   clip: (stitches: number, pull: number) => `${stitches} stitches, strongest pull ${number(pull, 2)} N`,
-  neochord: (chord: { length: number; tension: number; heads: string; scallops: string }) =>
-    `${chord.heads} to ${chord.scallops}, ${number(chord.length)} mm, ${chord.tension > 0 ? `pull ${number(chord.tension, 2)} N` : 'slack'}`,
+  neochord: (chord: { rest: number; tension: number; heads: string; scallops: string }) =>
+    `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${number(chord.tension, 2)} N` : 'slack'}`,
 };
 
 export const formTexts = {
@@ -470,7 +481,11 @@ export const formTexts = {
     points: 'Click along the cut on the leaflet, from free edge to free edge.',
   } as Record<string, string>,
   change: (was: number, now: number) =>
-    `was ${number(was)} mm, ${now < was ? 'shorter' : 'longer'} by ${number(Math.abs(now - was))} mm`,
+    Math.abs(now - was) < 0.06
+      ? 'as at present'
+      : `was ${number(was)} mm, ${now < was ? 'shorter' : 'longer'} by ${number(Math.abs(now - was))} mm`,
+  sizeFrom: (cc: number) =>
+    `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
   leftEmpty: (fallback: string) => `left empty: ${fallback}`,
   auto: 'auto',
   choose: 'choose…',
@@ -614,5 +629,5 @@ export const sectionTexts = {
 
 export const gestureTexts = {
   chord: (name: string, length: number, tension: number) =>
-    `${name}: ${number(length)} mm, pull ${number(tension, 2)} N`,
+    `${name}: ${number(length)} mm without pull, pull ${number(tension, 2)} N`,
 };

@@ -117,6 +117,9 @@ function NumberField(props: FieldProps) {
         />
         <span class="unit">{unit}</span>
       </div>
+      {kind === 'ring' && field.name === 'size' && (
+        <small>{formTexts.sizeFrom(state.main.value?.figures.measures.annulusCc ?? NaN)}</small>
+      )}
       {rest !== null && value !== undefined && <small>{formTexts.change(rest, value)}</small>}
       {value === undefined && field.fallback && !rest && !Number.isFinite(field.fallbackValue) && (
         <small>{formTexts.leftEmpty(field.fallback)}</small>

@@ -5,6 +5,7 @@ import { apply, complete, discard, replacements } from '../store/edit';
 import * as state from '../store/state';
 import { appTexts, formTexts, t, wordsOf } from '../text/texts';
 import type { FieldInfo } from '../protocol';
+import { ChordFacts } from './chord';
 import { Field } from './fields';
 import { Button, Section } from './parts';
 
@@ -39,6 +40,8 @@ export function OperationForm() {
     .map((name) => usable.find((field) => field.name === name))
     .filter((f): f is FieldInfo => !!f && !hidden.includes(f.name));
   const more = usable.filter((field) => !first.includes(field.name) && !hidden.includes(field.name));
+  // of the valve before the operation
+  const chord = state.main.value?.figures.chords.find((item) => item.id === draft.fields.chord);
   const ready = complete(draft.kind, draft.fields);
   return (
     <form
@@ -56,6 +59,11 @@ export function OperationForm() {
           <Crosshair size={16} aria-hidden="true" />{' '}
           {question(info.fields.find((field) => field.name === picking)!)}
         </p>
+      )}
+      {chord && (
+        <div class="chosen-card" data-testid="chosen">
+          <ChordFacts chord={chord} />
+        </div>
       )}
       {shown.map((field) => (
         <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />

@@ -15,10 +15,11 @@ import {
   Square,
   Triangle,
 } from 'lucide-preact';
-import { edit } from '../store/edit';
+import { edit, presentLength } from '../store/edit';
 import * as state from '../store/state';
-import { appTexts, figure, kinds, repairTexts, wordsOf } from '../text/texts';
+import { appTexts, figure, repairTexts, wordsOf } from '../text/texts';
 import type { FieldValue } from '../protocol';
+import { ChordFacts } from './chord';
 import { OperationForm } from './form';
 import { Goals } from './goals';
 import { Button, Section } from './parts';
@@ -54,7 +55,7 @@ const order = [
 ];
 const often = 8;
 
-/** The first values of a form: those with which a preview says something. */
+/** The first values of a form: those with which a preview says something; a chord begins with its present length. */
 export function firstFields(kind: string): Record<string, FieldValue> {
   const figures = state.main.value?.figures;
   const choice = state.choice.value;
@@ -63,8 +64,7 @@ export function firstFields(kind: string): Record<string, FieldValue> {
     return { size: Math.min(40, Math.max(24, 2 * Math.round((figures?.measures.annulusCc ?? 34) / 2))) };
   if (kind === 'band') return { factor: 0.9 };
   if (kind === 'annulus_scale') return { factor: 0.95 };
-  if (kind === 'chord_length')
-    return chord ? { chord: chord.id, length: +(0.9 * chord.rest).toFixed(1) } : {};
+  if (kind === 'chord_length') return chord ? { chord: chord.id, length: presentLength(chord.id) } : {};
   if (kind === 'chord_remove' || kind === 'chord_transfer') return chord ? { chord: chord.id } : {};
   if (kind === 'head_move')
     return choice?.kind === 'head'
@@ -139,19 +139,9 @@ function Chosen() {
   if (choice.kind === 'chord') {
     const chord = figures.chords.find((item) => item.id === choice.id);
     if (!chord) return null;
-    const share = Math.max(chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
     return (
       <div class="chosen-card" data-testid="chosen">
-        <h3>{repairTexts.chord(chord.name)}</h3>
-        <p>{repairTexts.between(kinds[chord.kind], chord.heads, chord.scallops)}</p>
-        <dl>
-          <dt>{repairTexts.rest}</dt>
-          <dd>{figure(chord.rest)} mm</dd>
-          <dt>{repairTexts.pull}</dt>
-          <dd>{figure(chord.tension, 2)} N</dd>
-          <dt>{repairTexts.stretch}</dt>
-          <dd>{chord.strain <= 0 ? repairTexts.slack : repairTexts.ofLimit(chord.strain, share)}</dd>
-        </dl>
+        <ChordFacts chord={chord} />
         <div class="row">
           <Button kind="main" icon={<ArrowUpDown size={16} />} onClick={() => begin('chord_length')}>
             {repairTexts.changeLength}

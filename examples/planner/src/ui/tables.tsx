@@ -2,6 +2,7 @@
 import * as state from '../store/state';
 import { figure, kinds, tableTexts } from '../text/texts';
 import type { Figures } from '../protocol';
+import { shareOfLimit } from './chord';
 import { Section } from './parts';
 
 export function Scallops({ figures }: { figures: Figures }) {
@@ -28,13 +29,13 @@ export function Scallops({ figures }: { figures: Figures }) {
               <tr class={!waiting && region.orifice > 0 ? 'leaking' : ''}>
                 <th scope="row">{region.commissure ? tableTexts.commissure(region.name) : region.name}</th>
                 <td>
-                  {dots(`${figure(region.coaptationMean)} mm`)}
+                  {dots(figure(region.coaptationMean))}
                   {was && !waiting && Math.abs(was.coaptationMean - region.coaptationMean) >= 0.05 && (
                     <small>{tableTexts.was(figure(was.coaptationMean))}</small>
                   )}
                 </td>
-                <td>{dots(region.orifice > 0 ? `${figure(region.orifice)} mm²` : '–')}</td>
-                <td>{dots(region.billow > 0 ? `${figure(region.billow)} mm` : '–')}</td>
+                <td>{dots(region.orifice > 0 ? figure(region.orifice) : '–')}</td>
+                <td>{dots(region.billow > 0 ? figure(region.billow) : '–')}</td>
               </tr>
             );
           })}
@@ -46,7 +47,9 @@ export function Scallops({ figures }: { figures: Figures }) {
 
 export function Chordae({ figures }: { figures: Figures }) {
   const chosen = state.choice.value;
-  const rows = [...figures.chords].sort((a, b) => b.strain / b.strainLimit - a.strain / a.strainLimit);
+  const rows = figures.chords
+    .map((chord) => ({ chord, share: shareOfLimit(chord) }))
+    .sort((a, b) => b.share - a.share);
   return (
     <Section title={tableTexts.chordae(figures.chords.length)}>
       <p class="hint">{tableTexts.chordaeHint}</p>
@@ -55,15 +58,13 @@ export function Chordae({ figures }: { figures: Figures }) {
           <thead>
             <tr>
               <th>{tableTexts.chord}</th>
-              <th>{tableTexts.kind}</th>
-              <th>{tableTexts.length}</th>
-              <th>{tableTexts.pull}</th>
               <th>{tableTexts.ofLimit}</th>
+              <th>{tableTexts.pull}</th>
+              <th>{tableTexts.length}</th>
             </tr>
           </thead>
           <tbody>
-            {rows.map((chord) => {
-              const share = Math.max(chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
+            {rows.map(({ chord, share }) => {
               return (
                 <tr class={`${chord.over ? 'over' : ''} ${chosen?.id === chord.id ? 'chosen' : ''}`}>
                   <th scope="row">
@@ -76,12 +77,12 @@ export function Chordae({ figures }: { figures: Figures }) {
                       )}
                     >
                       {chord.name}
-                    </button>
+                    </button>{' '}
+                    <small>{kinds[chord.kind]}</small>
                   </th>
-                  <td>{kinds[chord.kind]}</td>
-                  <td>{figure(chord.length)} mm</td>
-                  <td>{figure(chord.tension, 2)} N</td>
                   <td>{chord.strain <= 0 ? tableTexts.slack : `${Math.round(100 * share)} %`}</td>
+                  <td>{figure(chord.tension, 2)}</td>
+                  <td>{figure(chord.rest)}</td>
                 </tr>
               );
             })}

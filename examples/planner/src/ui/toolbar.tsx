@@ -4,7 +4,7 @@ import { openFile, openShipped } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { barTexts, mapWords, t } from '../text/texts';
+import { barTexts, mapWords, t, tourTexts } from '../text/texts';
 import { gradient, maps, type MapName } from '../view/colours';
 import type { Preset } from '../view/camera';
 import { Button } from './parts';
@@ -18,6 +18,7 @@ export function TopBar() {
         <strong>{t.product}</strong>
         <small>{t.research}</small>
       </div>
+      <PresentValve />
       <div class="row">
         <input
           id="file"
@@ -57,8 +58,9 @@ export function TopBar() {
           disabled={!state.canRedo.value}
           onClick={() => void redo()}
         />
-        <Button kind="quiet" onClick={() => void openShipped('healthy', barTexts.healthy)}>
-          {barTexts.healthy}
+        <Button label={barTexts.startHealthy} onClick={() => void openShipped('healthy', barTexts.healthy)}>
+          <span class="wide">{barTexts.startHealthy}</span>
+          <span class="narrow">{barTexts.healthy}</span>
         </Button>
         <Button
           kind="quiet"
@@ -69,6 +71,22 @@ export function TopBar() {
         />
       </div>
     </header>
+  );
+}
+
+/** What is shown: a file, a valve of the tour, the shipped valve. */
+function PresentValve() {
+  const { tour, imported, title } = state;
+  const surface = imported.value && !imported.value.findings.length;
+  const name = surface
+    ? imported.value!.name
+    : tour.value
+      ? tourTexts.present(tour.value.number)
+      : title.value || state.figures.value?.valve;
+  return (
+    <div class="present" data-testid="present" title={`${barTexts.present}: ${name ?? ''}`}>
+      {name}
+    </div>
   );
 }
 
@@ -105,7 +123,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         />
         <span>{barTexts.closed}</span>
       </label>
-      <div class="group" role="group" aria-label={barTexts.show}>
+      <div class="group tools" role="group" aria-label={barTexts.show}>
         <Button
           kind="quiet"
           icon={<Slice size={18} />}
@@ -113,7 +131,9 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           keys="X"
           pressed={state.sectionOn.value}
           onClick={() => (state.sectionOn.value = !state.sectionOn.value)}
-        />
+        >
+          {barTexts.words.cut}
+        </Button>
         <Button
           kind="quiet"
           icon={<Workflow size={18} />}
@@ -121,7 +141,9 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           keys="C"
           pressed={state.chordsOn.value}
           onClick={() => (state.chordsOn.value = !state.chordsOn.value)}
-        />
+        >
+          {barTexts.words.chordae}
+        </Button>
         <Button
           kind="quiet"
           icon={<Tag size={18} />}
@@ -129,16 +151,20 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           keys="N"
           pressed={state.labelsOn.value}
           onClick={() => (state.labelsOn.value = !state.labelsOn.value)}
-        />
+        >
+          {barTexts.words.names}
+        </Button>
       </div>
-      <div class="group" role="group" aria-label={barTexts.pointer}>
+      <div class="group tools" role="group" aria-label={barTexts.pointer}>
         <Button
           kind="quiet"
           icon={<Eye size={18} />}
           label={barTexts.look}
           pressed={state.tool.value === 'look'}
           onClick={() => (state.tool.value = 'look')}
-        />
+        >
+          {barTexts.words.look}
+        </Button>
         <Button
           kind="quiet"
           icon={<Hand size={18} />}
@@ -147,7 +173,9 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           pressed={state.tool.value === 'grasp'}
           disabled={!!state.draft.value}
           onClick={() => (state.tool.value = 'grasp')}
-        />
+        >
+          {barTexts.words.grasp}
+        </Button>
         <Button
           kind="quiet"
           icon={<span class="ball" />}
@@ -156,7 +184,9 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           pressed={state.tool.value === 'push'}
           disabled={!!state.draft.value}
           onClick={() => (state.tool.value = 'push')}
-        />
+        >
+          {barTexts.words.push}
+        </Button>
       </div>
       <label class="colours">
         <select

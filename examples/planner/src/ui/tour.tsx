@@ -1,6 +1,6 @@
 // The tour: the three leaking valves of the founding study, a goal, and a score beside the healthy valve and the
 // founding surgeon's repair.
-import { Wrench } from 'lucide-preact';
+import { Check, Wrench } from 'lucide-preact';
 import * as state from '../store/state';
 import { startValve } from '../store/tour';
 import { figure, say, tourTexts } from '../text/texts';
@@ -24,6 +24,8 @@ export function TourPanel() {
           <Button
             kind={tour?.number === k + 1 ? 'main' : 'plain'}
             pressed={tour?.number === k + 1}
+            icon={state.finished.value.includes(k + 1) ? <Check size={16} /> : undefined}
+            title={state.finished.value.includes(k + 1) ? tourTexts.finished : undefined}
             onClick={() => void startValve(k + 1)}
           >
             {tourTexts.valveOf(k + 1)}

@@ -32,12 +32,18 @@ export function Verdict() {
       <Leak figures={figures} graded={graded} />
       {!graded && !shape && <div class="verdict-where">{words.notFinal}</div>}
       {m.chordsOver > 0 && (
-        <div class="verdict-warn">
+        <div class={m.chordsOver > usual() ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
           {words.chordsOver(m.chordsOver, state.tour.value?.founding?.healthy.measures.chordsOver)}
         </div>
       )}
     </div>
   );
+}
+
+/** Chordae beyond their limit in the healthy valve of the tour, as soon as it is known: no more of them is no warning. */
+function usual(): number {
+  const tour = state.tour.value;
+  return tour ? (tour.founding?.healthy.measures.chordsOver ?? Infinity) : 0;
 }
 
 /** The size of the leak and its place, or how far the leaflets meet; dots stand for what is still to come. */

@@ -109,7 +109,7 @@ export class Gestures {
           : 'crosshair';
     if (!hit || !picture || !figures) return;
     const chord = hit.chord >= 0 ? figures.chords[hit.chord] : null;
-    canvas.title = chord ? gestureTexts.chord(chord.name, chord.length, chord.tension) : '';
+    canvas.title = chord ? gestureTexts.chord(chord.name, chord.rest, chord.tension) : '';
   }
 
   private pinch(id: number, p: Place): void {

@@ -1,0 +1,27 @@
+// What is known of a chord: the card of a chosen chord, also in a form that changes it.
+import { figure, kinds, repairTexts } from '../text/texts';
+import type { Chord } from '../protocol';
+
+/** The larger share of the working limit, of stretch or pull. */
+export function shareOfLimit(chord: Chord): number {
+  return Math.max(chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
+}
+
+export function ChordFacts({ chord }: { chord: Chord }) {
+  return (
+    <>
+      <h3>{repairTexts.chord(chord.name)}</h3>
+      <p>{repairTexts.between(kinds[chord.kind], chord.heads, chord.scallops)}</p>
+      <dl>
+        <dt>{repairTexts.rest}</dt>
+        <dd>{figure(chord.rest)} mm</dd>
+        <dt>{repairTexts.pull}</dt>
+        <dd>{figure(chord.tension, 2)} N</dd>
+        <dt>{repairTexts.stretch}</dt>
+        <dd>
+          {chord.strain <= 0 ? repairTexts.slack : repairTexts.ofLimit(chord.strain, shareOfLimit(chord))}
+        </dd>
+      </dl>
+    </>
+  );
+}
