@@ -109,6 +109,7 @@ std::vector<Vec3> BodyReader::hull() const {
            "%s is a hull with %zu vertices: a tool has at most %u", name.c_str(), given.size(),
            most_tool_vertices);
   std::vector<Vec3> points;
+  points.reserve(given.size());
   for (const Vec3 &v : given) points.push_back(place(v.data(), "vertices"));
   const ConvexHull hull = convex_hull(points);
   MVS_MUST(!hull.faces.empty(), MVS_E_ARGUMENT, name.c_str(),

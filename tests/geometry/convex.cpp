@@ -66,6 +66,7 @@ bool cross(const std::vector<Vec3> &a, const std::array<Vec3, 3> &t) {
 // those of another.
 std::vector<Vec3> box(const Vec3 &centre, const Vec3 &half) {
   std::vector<Vec3> corners;
+  corners.reserve(8);
   for (int k = 0; k < 8; ++k)
     corners.push_back(centre +
                       half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));

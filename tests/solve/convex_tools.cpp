@@ -64,6 +64,7 @@ ToolBody polyhedral_ball(double radius, uint32_t vertices) {
 
 ToolBody box_body(const Vec3 &half, double radius) {
   std::vector<Vec3> points;
+  points.reserve(8);
   for (int k = 0; k < 8; ++k)
     points.push_back(half.cwiseProduct(Vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
   return {BodyKind::box, radius, std::move(points)};
