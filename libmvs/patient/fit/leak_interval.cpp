@@ -31,7 +31,8 @@ struct Closed {
 };
 Closed close_with(const Valve &valve, const std::vector<double> &factor, const EdgeRange &edge,
                   double by) {
-  Valve changed = by != 0 ? with_edge_moved(valve, *edge.geometry, by) : valve;
+  const bool moves = edge.geometry && by != 0;
+  Valve changed = moves ? with_edge_moved(valve, *edge.geometry, by) : valve;
   for (size_t c = 0; c < factor.size(); ++c) changed.chords[c].rest_length *= factor[c];
   Solver solver(Backend::fastest);
   try {
