@@ -33,8 +33,9 @@ double nearest_on_axis(const Model &model, const std::vector<Vec3> &x, const Too
   return share;
 }
 
-// Returns the orientation of a hand that lay along the axis of the tool when the tool moved last:
-// the present one, turned by the shortest way. Rotation about the axis changes nothing.
+// Returns the orientation of the hand when the tool moved last. A convex tool keeps it; of a rod it
+// is the present one, turned to the rod's axis by the shortest way: rotation about the axis changes
+// nothing.
 Eigen::Quaterniond orientation_of(const Tool &tool, const Eigen::Quaterniond &hand) {
   if (tool.kind == ToolKind::convex) {
     const Quaternion q = quaternion_of(tool.axis);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "saved.h"
 
 static mvs_sim *sim;
 static int warnings;
@@ -11,12 +12,6 @@ static int warnings;
 static void count_warnings(void *user, mvs_log_level level, const char *line) {
   (void)user;
   if (level == MVS_LOG_WARNING && strstr(line, "no corners of their convex hull")) ++warnings;
-}
-
-static const mvs_snapshot *present(mvs_sim *of) {
-  const mvs_snapshot *snapshot = NULL;
-  MUST(mvs_get_snapshot(of, &snapshot));
-  return snapshot;
 }
 
 static void start(void) {
@@ -313,18 +308,8 @@ static void a_tool_of_the_same_id_has_its_own_shape(void) {
 }
 
 static void a_session_keeps_a_hook_and_the_steps_to_come(void) {
-  uint64_t size = 0;
-  mvs_sim *other = NULL;
   const mvs_id tool = make_work();
-  const mvs_snapshot *snapshot = present(sim);
-  MUST(mvs_save_memory(snapshot, MVS_FORMAT_H5, NULL, 0, &size));
-  char *bytes = malloc(size);
-  if (!bytes) exit(2);
-  MUST(mvs_save_memory(snapshot, MVS_FORMAT_H5, bytes, size, &size));
-  MUST(mvs_create(NULL, &other));
-  MUST(mvs_load_memory(other, bytes, size, MVS_FORMAT_H5));
-  mvs_snapshot_release(snapshot);
-  free(bytes);
+  mvs_sim *other = saved_and_loaded(sim, MVS_FORMAT_H5);
   CHECK(same_hash(sim_hash(sim), sim_hash(other)));
   for (int k = 0; k < 20; ++k) {
     MUST(mvs_step(sim, NULL));

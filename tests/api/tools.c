@@ -5,14 +5,9 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "saved.h"
 
 static mvs_sim *sim;
-
-static const mvs_snapshot *present(mvs_sim *of) {
-  const mvs_snapshot *snapshot = NULL;
-  MUST(mvs_get_snapshot(of, &snapshot));
-  return snapshot;
-}
 
 static void steps(mvs_sim *of, int count) {
   for (int k = 0; k < count; ++k) MUST(mvs_step(of, NULL));
@@ -194,26 +189,11 @@ static void undo_and_restore_bring_tools_back(void) {
   mvs_snapshot_release(then);
 }
 
-static mvs_sim *saved_and_loaded(uint32_t format) {
-  uint64_t size = 0;
-  mvs_sim *other = NULL;
-  const mvs_snapshot *snapshot = present(sim);
-  MUST(mvs_save_memory(snapshot, format, NULL, 0, &size));
-  char *bytes = malloc(size);
-  if (!bytes) exit(2);
-  MUST(mvs_save_memory(snapshot, format, bytes, size, &size));
-  MUST(mvs_create(NULL, &other));
-  MUST(mvs_load_memory(other, bytes, size, format));
-  mvs_snapshot_release(snapshot);
-  free(bytes);
-  return other;
-}
-
 static void an_obj_file_is_without_tools(void) {
   mvs_id tools[2];
   uint32_t count = 9;
   make_work(tools);
-  mvs_sim *other = saved_and_loaded(MVS_FORMAT_OBJ);
+  mvs_sim *other = saved_and_loaded(sim, MVS_FORMAT_OBJ);
   const mvs_snapshot *snapshot = present(other);
   MUST(mvs_snapshot_get_tool_count(snapshot, &count));
   CHECK(count == 0);
@@ -224,7 +204,7 @@ static void an_obj_file_is_without_tools(void) {
 static void a_session_keeps_tools_and_the_steps_to_come(void) {
   mvs_id tools[2];
   make_work(tools);
-  mvs_sim *other = saved_and_loaded(MVS_FORMAT_H5);
+  mvs_sim *other = saved_and_loaded(sim, MVS_FORMAT_H5);
   CHECK(same_hash(sim_hash(sim), sim_hash(other)));
   steps(sim, 50);
   steps(other, 50);

@@ -234,46 +234,43 @@ Tool small_ball(double radius) {
   return tool;
 }
 
-}  // namespace
-
-TEST_CASE("a_hook_takes_a_chord_along_that_a_ball_in_it_misses") {
+// How far a tool, its chord at `inside`, and a ball there take a chord along that is pulled 5 mm; a
+// capsule around the tool has to be refused for lack of room.
+struct Carried {
+  double by_tool, by_ball;  // m; along the pull, in any direction
+};
+Carried carry(const std::vector<ToolBody> &bodies, double ball_radius, const Vec3 &inside) {
   const ModelPtr model = make_model(small_valve());
   const State start = pressed(*model);
-  const Vec3 inside(1.5e-3, 0, 1.2e-3);
-  const Tool hook = convex_at(Vec3::Zero(), hook_bodies(0.4e-3));
-  const ChordPull work(*model, start, hook, inside);
-  const Vec3 hooked = work.pull(work.placed(hook, inside), 5e-3);
-  const Vec3 missed = work.pull(work.placed(small_ball(0.4e-3), inside), 5e-3);
-  MESSAGE("chord moved by " << 1e3 * hooked.dot(work.along) << " mm with the hook, "
+  const Tool tool = convex_at(Vec3::Zero(), bodies);
+  const ChordPull work(*model, start, tool, inside);
+  const Vec3 carried = work.pull(work.placed(tool, inside), 5e-3);
+  const Vec3 missed = work.pull(work.placed(small_ball(ball_radius), inside), 5e-3);
+  MESSAGE("chord moved by " << 1e3 * carried.dot(work.along) << " mm with the tool, "
                             << 1e3 * missed.norm() << " mm with the ball");
-  CHECK(hooked.dot(work.along) > 1e-3);
-  CHECK(missed.norm() < 1e-6);
-  // the capsule around all of the hook lies where the chord is: it cannot be there at all
   State state = start;
-  CHECK_THROWS_WITH(
-      add_tool(*model, state, work.placed(bounding_capsule(hook_bodies(0.4e-3)), inside)),
-      doctest::Contains("would lie in"));
+  CHECK_THROWS_WITH(add_tool(*model, state, work.placed(bounding_capsule(bodies), inside)),
+                    doctest::Contains("would lie in"));
+  return {carried.dot(work.along), missed.norm()};
 }
 
+}  // namespace
+
+// The capsule around all of the hook lies where the chord is: it cannot be there at all.
+TEST_CASE("a_hook_takes_a_chord_along_that_a_ball_in_it_misses") {
+  const Carried chord = carry(hook_bodies(0.4e-3), 0.4e-3, Vec3(1.5e-3, 0, 1.2e-3));
+  CHECK(chord.by_tool > 1e-3);
+  CHECK(chord.by_ball < 1e-6);
+}
+
+// A spatula, 5 mm across the chord, 3 mm along it, 0.6 mm thick, 0.2 mm before the chord. The
+// capsule around it is 3 mm thick: there is no room for it.
 TEST_CASE("a_thin_plate_takes_a_chord_along_that_a_ball_in_it_misses") {
-  const ModelPtr model = make_model(small_valve());
-  const State start = pressed(*model);
-  // a spatula, 5 mm across the chord, 3 mm along it, 0.6 mm thick, 0.2 mm before the chord
   const std::vector<ToolBody> plate = {box_body(Vec3(2.5e-3, 1.5e-3, 0.2e-3), 0.1e-3)};
-  const Vec3 before(0, 0, 1e-3);
-  const Tool spatula = convex_at(Vec3::Zero(), plate);
-  const ChordPull work(*model, start, spatula, before);
-  const Vec3 carried = work.pull(work.placed(spatula, before), 5e-3);
-  const Vec3 missed = work.pull(work.placed(small_ball(0.3e-3), before), 5e-3);
-  MESSAGE("chord moved by " << 1e3 * carried.dot(work.along) << " mm with the plate, "
-                            << 1e3 * missed.norm() << " mm with the ball");
-  CHECK(carried.dot(work.along) > 0.5e-3);
+  const Carried chord = carry(plate, 0.3e-3, Vec3(0, 0, 1e-3));
+  CHECK(chord.by_tool > 0.5e-3);
   // the ball touches a leaflet on its way
-  CHECK(missed.norm() < 0.05e-3);
-  // the capsule around the plate is 3 mm thick: there is no room for it
-  State state = start;
-  CHECK_THROWS_WITH(add_tool(*model, state, work.placed(bounding_capsule(plate), before)),
-                    doctest::Contains("would lie in"));
+  CHECK(chord.by_ball < 0.05e-3);
 }
 
 TEST_CASE("a_hand_that_holds_still_gives_no_energy") {

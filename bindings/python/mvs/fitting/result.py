@@ -87,7 +87,7 @@ class Fit:
 
     @property
     def singular_values(self) -> Array:
-        """Of the Jacobian in standard deviations of data and prior: directions above 1 are determined
+        """Singular values of the Jacobian in standard deviations of data and prior: directions above 1 are determined
         better by the data than by the prior."""
         return np.linalg.svd(self.jacobian, compute_uv=False)
 
@@ -110,7 +110,7 @@ class Fit:
 
     @property
     def condition(self) -> float:
-        """Of the least-squares problem, priors included."""
+        """Condition number of the least-squares problem, priors included."""
         s = np.linalg.svd(np.vstack([self.jacobian, np.eye(len(self.z))]) if self.with_prior
                           else self.jacobian, compute_uv=False)
         return float(s[0] / s[-1]) if s[-1] > 0 else float("inf")
