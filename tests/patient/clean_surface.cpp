@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
+#include "tests/patient/cleaned.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 #include "tests/patient/voxel_skin.h"
@@ -17,11 +18,6 @@ namespace {
 
 LeafletSheet cleaned(const Surface &s, Findings &findings) {
   return clean_surface(s.x, s.triangles, {}, {}, findings);
-}
-
-LeafletSheet cleaned(const Surface &s) {
-  Findings findings;
-  return cleaned(s, findings);
 }
 
 double area_of(const std::vector<Vec3> &x, const std::vector<Tri> &triangles) {

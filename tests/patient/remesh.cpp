@@ -56,7 +56,7 @@ void check_sheet(const RemeshedSheet &made, const LeafletSheet &from, const Shee
   size_t edges = 0;
   for_each_edge(sides, [&](size_t, size_t) { ++edges; });
   CHECK(sheet.x.size() + sheet.triangles.size() == edges);
-  const auto loops = boundary_loops(sheet);
+  const auto loops = loops_by_length(sheet);
   REQUIRE(loops.size() == 2);
   const bool in_order = same_loop(loops[0], made.rims.annulus);
   CHECK(same_loop(loops[in_order ? 0 : 1], made.rims.annulus));

@@ -19,7 +19,7 @@ struct SheetWithRims {
 };
 
 // Boundary loops in the order in which the triangles pass along them, the longest first.
-inline std::vector<std::vector<uint32_t>> boundary_loops(const LeafletSheet &sheet) {
+inline std::vector<std::vector<uint32_t>> loops_by_length(const LeafletSheet &sheet) {
   std::map<uint32_t, uint32_t> next;
   const std::vector<Side> sides = sorted_sides(sheet.triangles);
   for_each_edge(sides, [&](size_t first, size_t last) {
@@ -205,7 +205,7 @@ inline SheetWithRims real_sheet() {
     made.sheet.triangles.push_back(t);
   }
   made.sheet.label.assign(made.sheet.triangles.size(), LeafletLabel::unknown);
-  const auto loops = boundary_loops(made.sheet);
+  const auto loops = loops_by_length(made.sheet);
   const bool first = loop_length(made.sheet, loops[0]) > loop_length(made.sheet, loops[1]);
   made.rims = {loops[first ? 0 : 1], loops[first ? 1 : 0]};
   return made;
