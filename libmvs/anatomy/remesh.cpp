@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "anatomy/delaunay.h"
 #include "model/sides.h"
@@ -207,12 +208,15 @@ class Remesher {
   void move(uint32_t vertex, const Place &to) {
     const Place old_place = s_.place[vertex];
     const Vec3 old_x = s_.x[vertex];
-    const double before = worst_around(vertex);
     s_.place[vertex] = to;
     s_.x[vertex] = shape_.open(to);
-    if (worst_around(vertex) >= std::min(before, good)) return;
-    s_.place[vertex] = old_place;
-    s_.x[vertex] = old_x;
+    const double after = worst_around(vertex);
+    if (after >= good) return;
+    const Place new_place = std::exchange(s_.place[vertex], old_place);
+    const Vec3 new_x = std::exchange(s_.x[vertex], old_x);
+    if (after < worst_around(vertex)) return;
+    s_.place[vertex] = new_place;
+    s_.x[vertex] = new_x;
   }
 
   // Area-weighted mean of the centroids of the surrounding triangles: large triangles attract the

@@ -34,13 +34,6 @@ double square(double a) {
   return a * a;
 }
 
-// Returns inward and downward distance at share v along a leaflet of unit length that turns evenly
-// from tilt a to tilt b.
-std::array<double, 2> generator(double a, double b, double v) {
-  const double here = a + (b - a) * v;
-  return {(math::cos(a) - math::cos(here)) / (b - a), (math::sin(here) - math::sin(a)) / (b - a)};
-}
-
 }  // namespace
 
 // The closed target: width of the coaptation line as a share of the annulus, length of a loaded
@@ -57,6 +50,17 @@ const Shape::Closed &Shape::target() const {
   return healthy() ? healthy_target : founding;
 }
 
+Shape::Turn Shape::turn_by(double angle) {
+  return {math::sin(angle), math::cos(angle)};
+}
+
+// Inward and downward distance at share v along a leaflet of unit length that turns evenly from
+// tilt a to tilt b; `at_a` is the turn by a.
+std::array<double, 2> Shape::generator(double a, const Turn &at_a, double b, double v) {
+  const Turn here = turn_by(a + (b - a) * v);
+  return {(at_a.cos - here.cos) / (b - a), (here.sin - at_a.sin) / (b - a)};
+}
+
 Shape::Shape(const Dimensions &dimensions) : d_(dimensions) {
   constexpr int samples = 720;
   double length = 0;
@@ -69,9 +73,16 @@ Shape::Shape(const Dimensions &dimensions) : d_(dimensions) {
   centroid_ = sum / length;
   centroid_.x() = 0;
   share_ = healthy() ? balanced_share() : coaptation_share;
-  if (healthy()) return;
-  const double lean = generator(tilt_annulus, tilt_edge, 1)[0] * (height(0) + height(pi));
+  if (healthy()) {
+    reach_a_ = reach(0);
+    reach_commissure_ = reach(commissure);
+    reach_p_ = reach(pi);
+    return;
+  }
+  const double inwards = generator(tilt_annulus, turn_by(tilt_annulus), tilt_edge, 1)[0];
+  const double lean = inwards * (height(0) + height(pi));
   tilt_scale_ = std::min(1.0, greatest_lean * d_.annulus_ap / lean);
+  tilt_ = turn_by(tilt_scale_ * tilt_annulus);
 }
 
 double Shape::cleft_theta() {
@@ -79,7 +90,11 @@ double Shape::cleft_theta() {
 }
 
 Vec3 Shape::annulus(double theta) const {
-  const double c = math::cos(theta), s = math::sin(theta);
+  return annulus(turn_by(theta));
+}
+
+Vec3 Shape::annulus(const Turn &theta) const {
+  const double c = theta.cos, s = theta.sin;
   return Vec3(0.5 * d_.annulus_cc * s, 0.5 * d_.annulus_ap * (c + flatness * s * s),
               0.5 * d_.saddle_height * (c * c - s * s)) -
          centroid_;
@@ -87,7 +102,7 @@ Vec3 Shape::annulus(double theta) const {
 
 double Shape::height(double theta) const {
   const double angle = std::abs(theta);
-  return healthy() ? healthy_height(angle) : founding_height(angle);
+  return healthy() ? healthy_height(angle, turn_by(angle), reach(angle)) : founding_height(angle);
 }
 
 Vec3 Shape::open(const Place &place) const {
@@ -110,25 +125,27 @@ double Shape::founding_height(double angle) const {
 }
 
 Vec3 Shape::founding_open(const Place &place) const {
-  const Vec3 base = annulus(place.theta);
-  Vec3 inward = coaptation(place.theta) - base;
+  const Turn turn = turn_by(place.theta);
+  const Vec3 base = annulus(turn);
+  Vec3 inward = coaptation(turn) - base;
   inward.x() = -inward_pull * base.x();
   inward.z() = 0;
   inward.normalize();
-  const auto run = generator(tilt_scale_ * tilt_annulus, tilt_scale_ * tilt_edge, place.v);
+  const auto run = generator(tilt_scale_ * tilt_annulus, tilt_, tilt_scale_ * tilt_edge, place.v);
   const double h = height(place.theta);
   return base + h * run[0] * inward - Vec3(0, 0, h * run[1]);
 }
 
-Vec3 Shape::coaptation(double theta) const {
-  const double s = math::sin(theta), c = std::abs(math::cos(theta));
+Vec3 Shape::coaptation(const Turn &theta) const {
+  const double s = theta.sin, c = std::abs(theta.cos);
   const double y = 0.5 * d_.annulus_ap * (flatness * s * s + (2 * share_ - 1) * c);
   return {target().span * 0.5 * d_.annulus_cc * s, y - centroid_.y(), -d_.coaptation_depth};
 }
 
 Vec3 Shape::closed(const Place &place) const {
-  const Vec3 base = d_.annulus_contraction * annulus(place.theta);
-  const Vec3 line = coaptation(place.theta);
+  const Turn turn = turn_by(place.theta);
+  const Vec3 base = d_.annulus_contraction * annulus(turn);
+  const Vec3 line = coaptation(turn);
   const double run = target().stretch * height(place.theta) * place.v;
   const double reach = (line - base).norm();
   if (run >= reach) return line - Vec3(0, 0, run - reach);
@@ -138,7 +155,8 @@ Vec3 Shape::closed(const Place &place) const {
 }
 
 double Shape::reach(double theta) const {
-  return (coaptation(theta) - annulus(theta)).norm();
+  const Turn turn = turn_by(theta);
+  return (coaptation(turn) - annulus(turn)).norm();
 }
 
 double Shape::balanced_share() const {
@@ -156,14 +174,14 @@ double Shape::balanced_share() const {
 // The heights at A2, P2 and the commissures are given; in between the overlap of the stretched
 // leaflet beyond the coaptation line goes from one to the other as cos^2, so that the free edges of
 // both leaflets meet all along the line.
-double Shape::healthy_height(double angle) const {
+double Shape::healthy_height(double angle, const Turn &turn, double reach) const {
   const bool anterior = angle < commissure;
   const double middle = anterior ? d_.anterior_height : d_.posterior_height;
-  const double w = square(math::cos(angle)), s = target().stretch;
+  const double w = square(turn.cos), s = target().stretch;
   const double between = (1 - w) * d_.commissure_height + w * middle;
-  const double chord = (1 - w) * reach(commissure) + w * reach(anterior ? 0 : pi);
+  const double chord = (1 - w) * reach_commissure_ + w * (anterior ? reach_a_ : reach_p_);
   // at most 30 %, for combinations of dimensions far from any anatomy
-  const double more = std::clamp((reach(angle) - chord) / s, -0.3 * between, 0.3 * between);
+  const double more = std::clamp((reach - chord) / s, -0.3 * between, 0.3 * between);
   return between + more - (anterior ? 0 : cleft_dip((pi - angle) / (pi - commissure)));
 }
 
@@ -171,10 +189,12 @@ double Shape::healthy_height(double angle) const {
 // share of the way everywhere: the open orifice is that line, widened, and ends in points at the
 // commissures, where the leaflets have to fold.
 Vec3 Shape::healthy_open(const Place &place) const {
-  const Vec3 base = annulus(place.theta);
-  Vec3 way = coaptation(place.theta) - base;
+  const Turn turn = turn_by(place.theta);
+  const Vec3 base = annulus(turn);
+  Vec3 way = coaptation(turn) - base;
+  const double h = healthy_height(std::abs(place.theta), turn, way.norm());
   way.z() = 0;
-  const double h = height(place.theta), distance = way.norm();
+  const double distance = way.norm();
   const double lean = std::min(open_lean * distance / h, greatest_tilt);
   // the tilt goes evenly from 2 m at the annulus to 0, m on average
   const double m = math::atan2(lean, std::sqrt(1 - lean * lean));

@@ -1,6 +1,7 @@
 // Smooth surface of a parametric valve, open and in its closed target shape.
 #pragma once
 
+#include <array>
 #include <numbers>
 #include <vector>
 
@@ -40,14 +41,21 @@ class Shape {
 
  private:
   struct Closed;
+  struct Turn {
+    double sin, cos;
+  };
+  static Turn turn_by(double angle);
+  static std::array<double, 2> generator(double a, const Turn &at_a, double b, double v);
   bool healthy() const { return d_.shape == ParametricShape::healthy; }
   const Closed &target() const;
-  Vec3 coaptation(double theta) const;
+  Vec3 annulus(const Turn &theta) const;
+  Vec3 coaptation(const Turn &theta) const;
   // Distance from the annulus to the coaptation line.
   double reach(double theta) const;
   double cleft_dip(double t) const;
   double founding_height(double angle) const;
-  double healthy_height(double angle) const;
+  // `reach` is that at the angle.
+  double healthy_height(double angle, const Turn &turn, double reach) const;
   Vec3 founding_open(const Place &place) const;
   Vec3 healthy_open(const Place &place) const;
   // The share at which both leaflets overlap by the same length at A2 and P2.
@@ -57,6 +65,9 @@ class Shape {
   double share_ = 0;  // position of the coaptation line from posterior to anterior annulus
   Vec3 centroid_ = Vec3::Zero();
   double tilt_scale_ = 1;
+  Turn tilt_ = {0, 1};  // of the founding shape at the annulus
+  // reach(), which every height of the healthy shape takes: at the A point, commissure, P point
+  double reach_a_ = 0, reach_commissure_ = 0, reach_p_ = 0;
 };
 
 // Arc length along the curve v = const of the open surface, and its inverse.

@@ -24,6 +24,10 @@ BlockVector combination(const std::vector<BlockVector> &basis, const std::vector
   return sum;
 }
 
+bool is_zero(const BlockVector &v) {
+  return std::all_of(v.begin(), v.end(), [](const Vec3 &row) { return row.isZero(0); });
+}
+
 double weighted_dot(const std::vector<double> &weight, const BlockVector &a, const BlockVector &b) {
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) sum += weight[i] * a[i].dot(b[i]);
@@ -151,6 +155,7 @@ Eigenpair leftmost_eigenvalue(const LinearMap &multiply, const LinearMap &solve,
     ++found.iterations;
     bool grows = false;
     for (const BlockVector &part : residual) {
+      if (is_zero(part)) continue;  // the imaginary part of a real pair
       BlockVector correction;
       solve(part, correction);
       grows = space.add_vector(std::move(correction)) || grows;
