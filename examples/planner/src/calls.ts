@@ -6,6 +6,7 @@ import type {
   Finding,
   FoundingResult,
   Hand,
+  Known,
   Motion,
   Operation,
   OperationInfo,
@@ -23,13 +24,13 @@ export interface Calls {
   open_shipped: { argument: { name: string; vertices: number }; result: Shown };
   open_file: { argument: { name: string; bytes: Uint8Array }; result: Shown };
   preview: { argument: Operation; result: Shown };
-  accept: { argument: null; result: { hash: string } };
+  /** null: the page has all figures of the preview. */
+  accept: { argument: { has: Known }; result: Shown | null };
   discard: { argument: null; result: null };
   check: { argument: Operation; result: null };
   undo: { argument: null; result: Shown };
   redo: { argument: null; result: Shown };
   open_to: { argument: { share: number }; result: Motion };
-  close_again: { argument: null; result: Shown };
   cost: { argument: { which: 'main' | 'preview'; flow: number }; result: Cost };
   section: { argument: SectionRequest; result: Section };
   hand_begin: { argument: Hand; result: null };
@@ -44,7 +45,7 @@ export interface Calls {
   founding_healthy: { argument: { vertices: number }; result: FoundingResult['healthy'] };
   founding_repair: {
     argument: { number: number; vertices: number };
-    result: FoundingResult['repaired'];
+    result: Required<FoundingResult>['repaired'];
   };
   spread: { argument: { members: number }; result: Spread };
   read_surface: { argument: { name: string; bytes: Uint8Array; unit: string }; result: Surface };

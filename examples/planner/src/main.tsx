@@ -5,6 +5,7 @@ import { openShipped } from './store/files';
 import { connect, fail, request } from './store/requests';
 import { findCopy, keepCopy, visited, writeKeptFile } from './store/keep';
 import * as state from './store/state';
+import { watchOpening } from './store/opening';
 import { watchTour } from './store/tour';
 import { barTexts } from './text/texts';
 import './style.css';
@@ -25,6 +26,7 @@ async function start(): Promise<void> {
     fail(error);
   }
   watchTour();
+  watchOpening();
   await findCopy();
   // the copy and the chosen file follow every change of the plan
   let kept = state.main.value;

@@ -125,8 +125,8 @@ export interface HistoryEntry {
 }
 
 /**
- * How much of a snapshot is known: its shape, also its orifice, or all. The shape is calculated first and the
- * regions last; numbers that are still to come are NaN, their lists are empty and their fields null.
+ * How much of a snapshot is known: its shape, also its orifice and coaptation, or all. The shape is calculated first
+ * and the regions last; numbers that are still to come are NaN, their lists are empty and their fields null.
  */
 export type Known = 'shape' | 'orifice' | 'all';
 
@@ -236,7 +236,8 @@ export interface SessionOpened {
 /** Figures of the healthy valve and of the founding paper's repair, for the score of the tour. */
 export interface FoundingResult {
   healthy: { measures: Measures; openArea: number };
-  repaired: { measures: Measures; openArea: number; operations: string[] };
+  /** Calculated after the other. */
+  repaired?: { measures: Measures; openArea: number; operations: string[] };
 }
 
 export interface SpreadRow {

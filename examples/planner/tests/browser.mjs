@@ -60,7 +60,8 @@ export async function closed(page, limit = 60_000) {
   for (;;) {
     const idle = await page.evaluate(() => {
       const { state } = window.planner ?? {};
-      return !!state?.main.value && !state.busy.value && !(state.draft.value && state.pending.value);
+      const known = state?.main.value?.figures.known === 'all';
+      return known && !state.busy.value && !(state.draft.value && state.pending.value);
     });
     if (idle) return;
     if (Date.now() > end) throw new Error(`the page is busy for more than ${limit / 1000} s`);

@@ -8,16 +8,6 @@ import { after, before, beforeEach, describe, it } from 'node:test';
 import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
 import { apply, begin, cameraRests, chordNames, chordPlace, open, openPanel, save } from './person.mjs';
 
-/** Pixel in the window of a place in mm. */
-function pixel(page, at) {
-  return page.evaluate((place) => {
-    const { viewport } = window.planner;
-    const box = viewport.renderer.canvas.getBoundingClientRect();
-    const [x, y] = viewport.camera.project(...place, viewport.width, viewport.height);
-    return { x: box.left + x, y: box.top + y };
-  }, at);
-}
-
 describe('planner features', () => {
   let context, page, errors;
   before(async () => {
@@ -67,17 +57,16 @@ describe('planner features', () => {
     await closed(page);
   });
 
+  /** Middle of the label that begins with a text, in the window. */
+  const labelled = async (text) => {
+    const { x, y, height } = await page.locator('.label-handle', { hasText: text }).boundingBox();
+    // the ball stands before its name
+    return { x: x - 24, y: y + height / 2 };
+  };
+
   it('slides_a_clip_by_its_ball', async () => {
     await begin(page, 'clip');
-    const ball = await page.evaluate(() => {
-      const { viewport } = window.planner;
-      const mesh = viewport.scene().meshes.at(-1);
-      let sum = [0, 0, 0];
-      for (let i = 0; i < mesh.positions.length; ++i)
-        sum[i % 3] += (3 * mesh.positions[i]) / mesh.positions.length;
-      return sum;
-    });
-    const { x, y } = await pixel(page, ball);
+    const { x, y } = await labelled('Clip');
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + 45, y, { steps: 6 });
@@ -91,6 +80,43 @@ describe('planner features', () => {
     await page.keyboard.press('Control+z');
     await page.waitForTimeout(50);
     await closed(page);
+  });
+
+  it('names_the_section_plane_and_marks_the_cut', async () => {
+    await page.keyboard.press('4');
+    await cameraRests(page);
+    const name = page.locator('.label-handle', { hasText: 'Section plane' });
+    await name.waitFor();
+    // a mesh in the plane, of the line of the cut and of the frame of the plane
+    const away = await page.evaluate(() => {
+      const { viewport } = window.planner;
+      const { normal, offset } = viewport.plane();
+      const spread = ({ positions: x }) => {
+        let most = 0;
+        for (let i = 0; i < x.length; i += 3)
+          most = Math.max(
+            most,
+            Math.abs(x[i] * normal[0] + x[i + 1] * normal[1] + x[i + 2] * normal[2] - offset),
+          );
+        return most;
+      };
+      return Math.min(
+        ...viewport
+          .scene()
+          .meshes.filter((mesh) => !mesh.overlay && mesh.index.length > 300)
+          .map(spread),
+      );
+    });
+    assert.ok(away < 0.5, `${away} mm`);
+    await page.keyboard.press('x');
+    await name.waitFor({ state: 'detached' });
+  });
+
+  it('says_what_the_colours_of_contact_mean', async () => {
+    await page.locator('.colours select').selectOption('coaptation');
+    const legend = await page.locator('.scale').innerText();
+    for (const word of ['touching', 'apart', 'no leaflet faces it']) assert.ok(legend.includes(word), legend);
+    await page.locator('.colours select').selectOption('tissue');
   });
 
   it('sews_in_a_ring_from_a_file', async () => {
@@ -181,6 +207,54 @@ describe('planner features', () => {
       page.evaluate((name) => document.querySelector(`path.plot-${name}`).getTotalLength(), style);
     // the healthy valve is another shape of the same tissue
     assert.ok((await length('healthy')) > 20 && (await length('healthy')) !== (await length('now')));
+  });
+
+  it('compares_with_the_healthy_valve_from_the_first_moment_of_the_next_tour_valve', async () => {
+    // both the verdict and the goal name what is compared with
+    await openPanel(page, 'Learn');
+    const note = /beyond the working limit\s+\(before its illness: \d+\)/;
+    await page.evaluate(() => {
+      window.notes = [];
+      window.planner.state.main.subscribe(() =>
+        setTimeout(() => window.notes.push(document.querySelector('[data-testid=verdict]').innerText)),
+      );
+    });
+    await page.getByRole('button', { name: 'Valve 3' }).click();
+    await page.getByTestId('score').getByText('Study surgeon').waitFor({ timeout: 60_000 });
+    await closed(page);
+    const notes = (await page.evaluate(() => window.notes)).filter((text) => /working limit/.test(text));
+    assert.ok(notes.length && notes.every((text) => note.test(text)), notes.join('\n'));
+    assert.match(await page.locator('.panel').innerText(), /Healthy: this same valve before its illness/);
+  });
+
+  it('shows_the_chord_of_the_hint_through_what_hides_it', async () => {
+    await page.getByText('A hint').click();
+    await page.getByRole('button', { name: 'Show the chord A2/4' }).click();
+    await cameraRests(page);
+    assert.match(await page.locator('.label-chord').innerText(), /A2\/4/);
+    const overlays = await page.evaluate(
+      () =>
+        window.planner.viewport.scene().meshes.filter((mesh) => mesh.overlay && mesh.opacity < 0.6).length,
+    );
+    assert.equal(overlays, 1);
+  });
+
+  it('shows_how_far_the_valve_opens_while_a_ring_is_chosen', async () => {
+    await begin(page, 'ring');
+    const opens = async () => {
+      const line = page.getByTestId('opening');
+      await line.getByText(/Opens to \d/).waitFor({ timeout: 30_000 });
+      const [, area, goal] = /Opens to ([\d.]+) cm².*goal ([\d.]+)/.exec(await line.innerText());
+      return { area: +area, goal: +goal };
+    };
+    const large = await opens();
+    await page.locator('#f-size').fill('26');
+    await page.keyboard.press('Tab');
+    await page.waitForTimeout(50);
+    await closed(page);
+    const small = await opens();
+    assert.ok(small.area < 0.9 * large.area && small.goal === large.goal, JSON.stringify({ large, small }));
+    await page.keyboard.press('Escape');
   });
 
   it('shows_a_chord_that_answers_the_form_as_one_that_was_chosen_before', async () => {

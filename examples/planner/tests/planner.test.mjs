@@ -135,6 +135,42 @@ describe('planner', () => {
     await page.keyboard.press('Escape');
   });
 
+  it('applies_as_soon_as_the_shape_is_there_and_adds_the_figures', async () => {
+    await page.evaluate(() => {
+      window.applied = [];
+      const { state } = window.planner;
+      const begin = state.main.value.figures.hash;
+      window.unsubscribe = state.main.subscribe((main) => {
+        const { known, hash, measures } = main.figures;
+        if (hash !== begin)
+          window.applied.push({ known, coaptation: measures.coaptationMean, form: !!state.draft.value });
+      });
+    });
+    await begin(page, 'annulus_scale');
+    await page.locator('#f-factor').fill('94');
+    await page.keyboard.press('Enter');
+    await page.getByTestId('form').waitFor({ state: 'detached' });
+    await closed(page);
+    const applied = await page.evaluate(() => (window.unsubscribe(), window.applied));
+    const last = applied.at(-1);
+    assert.equal(applied[0].known, 'shape');
+    assert.equal(last.known, 'all');
+    // coaptation comes with the orifice, before the rest, and with its last value
+    const early = applied.find(({ known }) => known === 'orifice');
+    assert.equal(early.coaptation, last.coaptation);
+    // the same figures as those of a valve that is measured at once
+    const { hash, measures } = await figures(page);
+    for (const key of ['Control+z', 'Control+y']) {
+      await page.keyboard.press(key);
+      await page.waitForTimeout(50);
+      await closed(page);
+    }
+    assert.deepEqual(await figures(page).then((found) => [found.hash, found.measures]), [hash, measures]);
+    await page.keyboard.press('Control+z');
+    await page.waitForTimeout(50);
+    await closed(page);
+  });
+
   it('applies_the_value_that_is_typed_last', async () => {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill('93');

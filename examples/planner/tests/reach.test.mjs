@@ -55,6 +55,41 @@ describe('planner for everybody', () => {
     });
   });
 
+  it('resects_along_an_outline_drawn_with_the_keyboard_alone', async () => {
+    await on({}, async ({ page }) => {
+      await page.keyboard.press('r');
+      await tabTo(page, /resect/);
+      await page.keyboard.press('Enter');
+      await page.waitForTimeout(150);
+      await closed(page);
+      await tabTo(page, /Draw the cut/);
+      await page.keyboard.press('Enter');
+      const press = async (key, times = 1) => {
+        for (let k = 0; k < times; ++k) await page.keyboard.press(key);
+      };
+      // from the middle of P2: two points towards the annulus, two at the edge
+      await press('ArrowLeft', 4);
+      await press('ArrowUp', 1);
+      await press('Space');
+      await press('ArrowDown', 4);
+      await press('Space');
+      await press('ArrowRight', 7);
+      await press('Space');
+      await press('Space');
+      await press('Backspace');
+      await press('ArrowUp', 4);
+      await press('Space');
+      assert.match(await page.getByTestId('status').innerText(), /On P2. 4 points/);
+      await press('Enter');
+      await page.waitForTimeout(100);
+      await closed(page);
+      await press('Enter');
+      await page.getByTestId('form').waitFor({ state: 'detached' });
+      await closed(page);
+      assert.match((await figures(page)).history.at(-1).title, /P2 along an outline/);
+    });
+  });
+
   for (const hash of ['#software', '#webgl']) {
     it(`draws_by_${hash.slice(1)}`, async () => {
       await on({ hash }, async ({ page }) => {

@@ -42,11 +42,16 @@ function installClocks(page) {
   return page.evaluate(() => {
     const frames = (window.frameTimes = []);
     addEventListener('input', () => performance.mark('changed'), true);
-    window.planner.state.preview.subscribe((preview) => {
-      const { known = 'all' } = preview?.figures ?? {};
-      // drawn at the end of the next frame
-      if (preview) requestAnimationFrame(() => requestAnimationFrame(() => performance.mark(known)));
-    });
+    addEventListener('keydown', ({ key }) => key === 'Enter' && performance.mark('pressed'), true);
+    for (const [valve, prefix] of [
+      ['preview', ''],
+      ['main', 'applied '],
+    ])
+      window.planner.state[valve].subscribe((shown) => {
+        const { known = 'all' } = shown?.figures ?? {};
+        // drawn at the end of the next frame
+        if (shown) requestAnimationFrame(() => requestAnimationFrame(() => performance.mark(prefix + known)));
+      });
     let last = 0;
     const frame = (now) => {
       if (last) frames.push(now - last);
@@ -67,33 +72,50 @@ async function changeForm(page) {
   }
 }
 
-/** Times from each change to the first mark of a name: by the clock, and CPU of page and worker. */
-function timesTo(name, { main, worker, marks }) {
-  const changes = marks.filter((mark) => mark.name === 'changed').map((mark) => mark.time);
+/** Types a value and applies it by Enter, again and again on the valve that it makes. */
+async function applyTyped(page) {
+  for (let k = 0; k < rounds; ++k) {
+    await begin(page, 'annulus_scale');
+    await page.locator('#f-factor').fill(String(k % 2 ? 104 : 97));
+    await page.keyboard.press('Enter');
+    await page.getByTestId('form').waitFor({ state: 'detached' });
+    await closed(page);
+    await page.waitForTimeout(150);
+  }
+}
+
+/** Times from each mark `from` to the first mark of a name: by the clock, and CPU of page and worker. */
+function timesTo(from, name, { main, worker, marks }) {
+  const changes = marks.filter((mark) => mark.name === from).map((mark) => mark.time);
   const found = [];
-  changes.forEach((from, k) => {
-    const end = marks.find((m) => m.name === name && m.time > from && m.time < (changes[k + 1] ?? Infinity));
+  changes.forEach((begin, k) => {
+    const end = marks.find((m) => m.name === name && m.time > begin && m.time < (changes[k + 1] ?? Infinity));
     if (end)
       found.push({
-        wall: end.time - from,
-        cpu: cpuBetween(main, from, end.time) + cpuBetween(worker, from, end.time),
+        wall: end.time - begin,
+        cpu: cpuBetween(main, begin, end.time) + cpuBetween(worker, begin, end.time),
       });
   });
   return found;
 }
 
-function report(trace, frames) {
-  for (const [title, name] of [
-    ['change to shape', 'shape'],
-    ['change to leak', 'orifice'],
-    ['change to all figures', 'all'],
+/** Prints the times of the stages after marks of one name. */
+function reportStages(title, from, prefix, trace) {
+  for (const [stage, name] of [
+    ['shape', 'shape'],
+    ['leak, coaptation', 'orifice'],
+    ['all figures', 'all'],
   ]) {
-    const times = timesTo(name, trace);
+    const times = timesTo(from, prefix + name, trace);
     const [cpu, wall] = [times.map((t) => t.cpu), times.map((t) => t.wall)];
     console.log(
-      `  ${title.padEnd(32)} CPU ${ms(quantile(cpu, 0.5))}, clock ${ms(quantile(wall, 0.5))}, worst ${ms(quantile(wall, 1))} (${times.length})`,
+      `  ${`${title} to ${stage}`.padEnd(32)} CPU ${ms(quantile(cpu, 0.5))}, clock ${ms(quantile(wall, 0.5))}, worst ${ms(quantile(wall, 1))} (${times.length})`,
     );
   }
+}
+
+function report(trace, frames) {
+  reportStages('change', 'changed', '', trace);
   const cpu = trace.main.map((task) => task.cpu);
   console.log(
     `  longest task of the main thread  CPU ${ms(Math.max(...cpu))}, clock ${ms(Math.max(...trace.main.map((task) => task.wall)))}`,
@@ -126,6 +148,8 @@ async function measure(vertices) {
     console.log(`${vertices} vertices, ${faces} faces`);
     console.log(`  first picture of the page            ${ms(first)}`);
     report(trace, await page.evaluate(() => window.frameTimes));
+    await page.keyboard.press('Escape');
+    reportStages('Enter', 'pressed', 'applied ', await traced(page, () => applyTyped(page)));
   } finally {
     await context.close();
   }

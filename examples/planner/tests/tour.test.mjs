@@ -84,6 +84,8 @@ describe('tour', () => {
           await page.getByRole('button', { name: 'Return to it' }).waitFor({ timeout: 30_000 });
           assert.equal(await page.getByTestId('present').innerText(), 'Valve 2 of the tour');
           assert.equal(await button.locator('svg').count(), 1, 'the tick stays');
+          const next = page.getByRole('button', { name: 'Valve 2' });
+          assert.equal(await next.locator('svg').count(), 0, 'the goals are not judged on the valve before');
         }
         if (number === 3) {
           await page.evaluate(() => (window.planner.state.finished.value = [1, 2, 3]));

@@ -3,7 +3,7 @@
 import { batch } from '@preact/signals';
 import { t } from '../text/texts';
 import type { FieldValue, Shown } from '../protocol';
-import { cancel, fail, isCancelled, request, run, sentenceOf, show } from './requests';
+import { cancel, complete as addFigures, fail, isCancelled, request, sentenceOf, show } from './requests';
 import * as state from './state';
 
 /** ms for which a newer value waits for the shape of an older one. */
@@ -121,6 +121,7 @@ async function calculate(draft: state.Draft): Promise<void> {
       under.shaped = true;
       reveal(draft, shown);
       if (timer) next();
+      else if (applyNext) void apply();
     },
   });
   under = { id: call.id, draft, shaped: false };
@@ -170,23 +171,35 @@ function refuse(draft: state.Draft, sentence: string): void {
   });
 }
 
-/** Applies the operation of the form, if need be as soon as its preview is there. */
+/**
+ * Applies the operation of the form, as soon as the shape of its preview is there; figures that are still to come
+ * follow on the valve of the plan.
+ */
 export async function apply(): Promise<void> {
   const draft = state.draft.value;
   if (!draft || state.draftMessage.value) return;
   const shown = state.preview.value;
-  if (state.pending.value || !shown) {
+  if (!shown || state.outdated.value) {
     if (!state.pending.value) refresh();
     applyNext = state.pending.value;
     return;
   }
   applyNext = false;
-  const accepted = await run(t.applying, 'accept', null);
-  if (!accepted) return;
-  const valve = accepted.hash === shown.figures.hash ? shown : await run(t.measuring, 'close_again', null);
-  if (!valve) return;
-  show(valve, false);
-  state.changed.value = true;
+  if (under) cancel(under.id);
+  under = null;
+  const accepted = request('accept', { has: shown.figures.known }, { stage: addFigures });
+  batch(() => {
+    state.pending.value = false;
+    state.busy.value = null;
+    show(shown, false);
+    state.changed.value = true;
+  });
+  try {
+    const last = await accepted;
+    if (last) addFigures(last);
+  } catch (error) {
+    fail(error);
+  }
 }
 
 /** Leaves the form without a change. */

@@ -63,7 +63,8 @@ export async function openShipped(
   tour: typeof state.tour.value = null,
 ): Promise<void> {
   const left = await leave();
-  state.tour.value = tour;
+  // goals are judged as soon as there is something to compare with: not on the valve that is still shown
+  state.tour.value = tour && { ...tour, founding: null };
   const shown = await run(
     t.closing,
     'open_shipped',
@@ -75,7 +76,10 @@ export async function openShipped(
       },
     },
   );
-  begun(shown, title, left);
+  batch(() => {
+    begun(shown, title, left);
+    if (shown) state.tour.value = tour;
+  });
 }
 
 export async function openFile(file: File): Promise<void> {

@@ -1,21 +1,19 @@
 // Undo and redo, and the slider that opens and closes the valve.
 import { t } from '../text/texts';
 import { discard } from './edit';
-import { fail, request, run, show } from './requests';
+import { change, fail, request } from './requests';
 import * as state from './state';
 
 export async function undo(): Promise<void> {
   if (state.draft.value) return discard();
   if (!state.canUndo.value) return;
-  const shown = await run(t.undoing, 'undo', null);
-  if (shown) show(shown, false);
+  await change(t.undoing, 'undo', null);
   state.changed.value = true;
 }
 
 export async function redo(): Promise<void> {
   if (!state.canRedo.value) return;
-  const shown = await run(t.redoing, 'redo', null);
-  if (shown) show(shown, false);
+  await change(t.redoing, 'redo', null);
   state.changed.value = true;
 }
 

@@ -1,5 +1,5 @@
 // Checkpoints, and figures that are calculated on request.
-import { run, show } from './requests';
+import { change, run } from './requests';
 import * as state from './state';
 import { t } from '../text/texts';
 
@@ -9,8 +9,7 @@ export async function saveCheckpoint(name: string): Promise<void> {
 }
 
 export async function restoreCheckpoint(name: string): Promise<void> {
-  const shown = await run(t.undoing, 'restore', { name });
-  if (shown) show(shown, false);
+  await change(t.undoing, 'restore', { name });
 }
 
 export async function compareCheckpoint(name: string | null): Promise<void> {

@@ -57,6 +57,38 @@ export function fail(error: unknown): void {
   if (!isCancelled(error)) state.notice.value = { kind: 'error', text: sentenceOf(error) };
 }
 
+/**
+ * More figures of the valve of the plan, or its last ones. The picture changes only where the orifice becomes known:
+ * the last figures come with it again.
+ */
+export function complete(shown: Shown): void {
+  state.receive(shown.picture);
+  const { value } = state.main;
+  if (value?.figures.hash !== shown.figures.hash) return;
+  const same = value.figures.known !== 'shape';
+  batch(() => {
+    state.main.value = same ? { ...shown, picture: value.picture } : shown;
+    if (shown.figures.known === 'all' && !state.preview.value)
+      if (shown.figures.known === 'all') state.status.value = t.statusLine(shown.figures);
+  });
+}
+
+/** Runs a request that changes the valve of the plan, and shows it in stages. */
+export async function change<Name extends 'undo' | 'redo' | 'restore'>(
+  text: string,
+  name: Name,
+  argument: Calls[Name]['argument'],
+): Promise<void> {
+  let begun = false;
+  const stage = (shown: Shown) => {
+    if (begun) return complete(shown);
+    begun = true;
+    show(shown, false);
+  };
+  const shown = await run(text, name, argument, { stage });
+  if (shown) stage(shown as Shown);
+}
+
 /** Shows a valve as that of the plan; `fresh` where it begins another plan. */
 export function show(shown: Shown, fresh: boolean): void {
   state.receive(shown.picture);

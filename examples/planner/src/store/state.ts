@@ -81,6 +81,10 @@ export const title = signal('');
 export const notes = signal('');
 export const changed = signal(false);
 export const cost = signal<{ hash: string; value: Cost } | null>(null);
+/** A view that something other than the picture asks for. */
+export const wantedView = signal<{ preset: 'surgeon' | 'ventricle' } | null>(null);
+/** Openings of previews and of the valves before them, by hash. */
+export const openings = signal<Map<string, Cost>>(new Map());
 /** ml/s through the open valve, where it is known. */
 export const flow = signal<number | null>(null);
 export const spread = signal<{ hash: string; value: Spread } | null>(null);

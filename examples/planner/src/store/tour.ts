@@ -1,34 +1,63 @@
 // The tour: opening its valves, and measuring how far a sealed valve opens, which is one of the goals.
 import { effect } from '@preact/signals';
 import { tourTexts } from '../text/texts';
+import type { FoundingResult } from '../protocol';
 import { openShipped, shippedVertices } from './files';
 import { measureCost } from './measure';
+import { openingOf } from './opening';
 import { fail, request } from './requests';
 import * as state from './state';
 
+/** The healthy valve of the tour, the same for all its valves: known from the first moment of the second one. */
+let healthyValve: FoundingResult['healthy'] | null = null;
+
+/** Chooses a chord and shows it from the ventricle. */
+export function showChord(name: string): void {
+  const chord = state.main.value?.figures.chords.find((item) => item.name === name);
+  if (!chord) return;
+  state.chordsOn.value = true;
+  state.choice.value = { kind: 'chord', id: chord.id };
+  state.wantedView.value = { preset: 'ventricle' };
+}
+
 export async function startValve(number: number): Promise<void> {
-  await openShipped(`founding${number}`, tourTexts.valves[number - 1].title, { number, founding: null });
+  const founding = healthyValve ? { healthy: healthyValve } : null;
+  await openShipped(`founding${number}`, tourTexts.valves[number - 1].title, { number, founding });
   state.panel.value = 'tour';
   // two requests, between which a preview has its turn
   try {
     const healthy = await request('founding_healthy', { vertices: shippedVertices });
-    const repaired = await request('founding_repair', { number, vertices: shippedVertices });
-    if (state.tour.value?.number === number)
-      state.tour.value = { ...state.tour.value, founding: { healthy, repaired } };
+    healthyValve = healthy;
+    learn(number, { healthy });
+    learn(number, {
+      healthy,
+      repaired: await request('founding_repair', { number, vertices: shippedVertices }),
+    });
   } catch (error) {
     fail(error);
   }
 }
 
+function learn(number: number, founding: FoundingResult): void {
+  if (state.tour.value?.number === number) state.tour.value = { ...state.tour.value, founding };
+}
+
+/** The least open area that the tour asks for, mm2; null where it is not known. */
+export function leastOpening(): number | null {
+  const healthy = state.tour.value?.founding?.healthy;
+  return healthy ? 0.9 * healthy.openArea : null;
+}
+
 /** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */
 export function reached(): Record<'sealed' | 'chords' | 'open', boolean | null> {
   const founding = state.tour.value?.founding;
-  const { hash, measures } = state.main.value!.figures;
-  const cost = state.cost.value?.hash === hash ? state.cost.value.value : null;
+  const { hash, known, measures } = state.main.value!.figures;
+  const cost = openingOf(hash);
+  const least = leastOpening();
   return {
-    sealed: measures.atRest && measures.orifice === 0,
+    sealed: known === 'shape' ? null : measures.atRest && measures.orifice === 0,
     chords: founding ? measures.chordsOver <= founding.healthy.measures.chordsOver : null,
-    open: cost && founding ? cost.openArea >= 0.9 * founding.healthy.openArea : null,
+    open: cost && least !== null ? cost.openArea >= least : null,
   };
 }
 
@@ -48,8 +77,8 @@ export function watchTour(): void {
   effect(() => {
     const figures = state.main.value?.figures;
     const idle = state.tour.value?.founding && figures && !state.draft.value && !state.busy.value;
-    if (!idle || figures.measures.orifice > 0 || !figures.measures.atRest) return;
-    if (state.cost.value?.hash !== figures.hash && measured !== figures.hash) {
+    if (!idle || figures.known !== 'all' || figures.measures.orifice > 0 || !figures.measures.atRest) return;
+    if (!openingOf(figures.hash) && measured !== figures.hash) {
       measured = figures.hash;
       void measureCost();
     }

@@ -101,11 +101,12 @@ export const operationWords: Record<string, Words> = {
   },
   clip: {
     title: 'Clip',
-    short: 'Join A2 and P2 edge to edge; drag the blue ball along the edge',
+    short: 'Join A2 and P2 edge to edge; drag the ball “Clip” along the edge, and turn it by the ball “Turn”',
     fields: {
       anterior: 'Anterior scallop',
       posterior: 'Posterior scallop',
-      position: 'Position along the edge',
+      position: 'Position along the edge (A, D)',
+      angle: 'Turn, seen from the atrium (Q, E)',
       width: 'Width',
       reach: 'Depth of the grasp',
       name: 'Name',
@@ -156,7 +157,6 @@ export const t = {
   starting: 'Starting…',
   closing: 'Closing the valve…',
   previewing: 'Trying it…',
-  applying: 'Applying…',
   undoing: 'Going back…',
   redoing: 'Repeating…',
   saving: 'Saving…',
@@ -199,6 +199,10 @@ export const tourTexts = {
   finishedOf: (count: number) =>
     count < 3 ? `${count} of 3 valves sealed.` : 'Three of three valves are sealed: the tour is finished.',
   study: 'What the study’s surgeon did',
+  show: (chord: string) => `Show the chord ${chord}`,
+  columnsHelp:
+    'Healthy: this same valve before its illness, with its annulus and chordae as they were. Study surgeon: the repair of 2011, repeated here.',
+  whenSealed: '(measured once it is sealed)',
   columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Healthy' },
   rows: {
     leak: 'Leak, mm²',
@@ -218,17 +222,20 @@ export const tourTexts = {
       title: 'Valve 1: dilated, and a long strut chord',
       story:
         'The annulus is 15 % too large, and a strut chord of the anterior leaflet is 25 % too long. The leaflets do not meet.',
+      chord: 'A1/11',
       hint: 'Make the annulus smaller first: a ring, or “Annulus size”. If a leak remains, hold the middle of A2 with artificial chordae.',
     },
     {
       title: 'Valve 2: a short chord',
       story:
         'A chord to A2 is 30 % too short. It holds the leaflet back, so that it cannot reach its partner.',
+      chord: 'A2/4',
       hint: 'Look for the chord with the strongest pull under A2, turn the valve to see it from below, and lengthen it or cut it.',
     },
     {
       title: 'Valve 3: dilated, and a short chord',
       story: 'The annulus is 10 % too large, and a chord to A2 is 33 % too short.',
+      chord: 'A2/4',
       hint: 'Two faults need two steps: free the leaflet from the short chord, then bring the annulus back to its size.',
     },
   ],
@@ -237,8 +244,8 @@ export const tourTexts = {
     chords: (healthy: number | undefined) =>
       healthy === 0
         ? 'No chord beyond its working limit'
-        : `No more chordae beyond their limit than in the healthy valve${healthy ? ` (${healthy})` : ''}`,
-    open: 'Opens to at least 90 % of the healthy area',
+        : `No more chordae beyond their limit than before its illness${healthy ? ` (${healthy})` : ''}`,
+    open: 'Opens to at least 90 % of its area before its illness',
   },
   shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens' },
   won: 'All goals reached.',
@@ -256,6 +263,8 @@ export const help = {
     ['N', 'Names on and off'],
     ['M', 'Next colour map'],
     ['G, B', 'Grasp, push with a ball'],
+    ['A D, Q E', 'Slide, turn the clip of the form'],
+    ['Arrows, Space', 'Move a cross and click with it, while a place in the picture is asked for'],
     ['Enter, Esc', 'Apply, discard the operation'],
     ['Ctrl Z, Ctrl Y', 'Undo, redo'],
     ['Ctrl S', 'Save the session'],
@@ -264,9 +273,18 @@ export const help = {
   ] as [string, string][],
 };
 
-export const mapWords: Record<string, { title: string; scale: string }> = {
+export const mapWords: Record<
+  string,
+  { title: string; scale: string; low?: string; high?: string; none?: string }
+> = {
   tissue: { title: 'Tissue', scale: '' },
-  coaptation: { title: 'Contact', scale: 'Distance to the facing leaflet' },
+  coaptation: {
+    title: 'Contact',
+    scale: 'Distance to the facing leaflet',
+    low: 'touching',
+    high: 'apart',
+    none: 'no leaflet faces it',
+  },
   height: { title: 'Height', scale: 'Above (+) or below the annulus plane' },
   stretch: { title: 'Stretch', scale: 'Stretch of the leaflets' },
   load: { title: 'Chord load', scale: 'Chord load, of its limit' },
@@ -326,9 +344,9 @@ export const verdictTexts = {
   was: (orifice: number) => ` was ${number(orifice)}`,
   at: (place: string) => `at ${place}`,
   meet: (length: string) => `leaflets meet over ${length} mm`,
-  chordsOver: (count: number, healthy: number | undefined) =>
+  chordsOver: (count: number, healthy: string) =>
     `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit` +
-    (healthy ? ` (healthy valve: ${healthy})` : ''),
+    (healthy ? ` (before its illness: ${healthy})` : ''),
   limitHelp:
     'Working limit: the largest stretch and pull at which chordae of this kind work. They tear beyond it, so such a chord deserves a look. A healthy valve may have a few of them.',
 };
@@ -499,7 +517,32 @@ export const formTexts = {
   axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
 };
 
+/** Names in the picture of what can be dragged. */
+export const markTexts = {
+  plane: 'Section plane: drag',
+  clip: 'Clip: drag',
+  turn: (angle: number) => (angle ? `Turn: ${number(angle, 0)}°` : 'Turn: drag'),
+};
+
+export const openingTexts = {
+  opens: (area: number | undefined) =>
+    `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
+  beside: (before: number | undefined, least: number | null) =>
+    [
+      before === undefined ? '' : `was ${number(before / 100, 2)}`,
+      least === null ? '' : `goal ${number(least / 100, 2)} or more`,
+    ]
+      .filter(Boolean)
+      .join(', '),
+  help: 'Smallest opening of the valve at 5 mmHg after this operation; a ring or clip narrows it.',
+};
+
 export const pointTexts = {
+  keys: 'Keyboard: arrows move a cross (Shift: finely), Space sets a point, Backspace removes it, Enter uses the cut. Control and arrows turn the valve.',
+  under: (what: string, count: number | null) =>
+    [what ? `On ${what}.` : 'Beside the valve.', count === null ? '' : `${count} points.`]
+      .filter(Boolean)
+      .join(' '),
   draw: 'Draw the cut in the picture',
   drawAgain: 'Draw it again',
   outlined: 'Cut as drawn.',

@@ -1,11 +1,12 @@
 // The page: bar, picture, panels, dialogs, keys.
 import { useEffect, useRef } from 'preact/hooks';
-import { apply, discard } from '../store/edit';
+import { apply, discard, pickField } from '../store/edit';
 import { openFile } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
 import { appTexts, help, t } from '../text/texts';
+import { clipKey } from '../view/clip';
 import type { MapName } from '../view/colours';
 import { maps } from '../view/colours';
 import type { Preset } from '../view/camera';
@@ -155,11 +156,13 @@ function onKey(event: KeyboardEvent): void {
     event.preventDefault();
     return;
   }
+  if (event.key === 'Escape' && state.picking.value === 'outline') return pickField(null);
   if (event.key === 'Escape' && state.draft.value) return discard();
   if (typing || control || event.altKey) return;
   if (
     event.key === 'Enter' &&
     state.draft.value &&
+    state.picking.value !== 'outline' &&
     target.tagName !== 'BUTTON' &&
     target.tagName !== 'SUMMARY'
   )
@@ -169,6 +172,7 @@ function onKey(event: KeyboardEvent): void {
     if (key === '4') state.sectionOn.value = true;
     return go(views[key]);
   }
+  if (clipKey(key)) return;
   const panel = panels.find(([, , letter]) => letter.toLowerCase() === key);
   if (panel) state.panel.value = panel[0];
   else if (key === 'o' && state.main.value && !state.draft.value)

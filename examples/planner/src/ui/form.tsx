@@ -7,6 +7,7 @@ import { appTexts, formTexts, t, wordsOf } from '../text/texts';
 import type { FieldInfo } from '../protocol';
 import { ChordFacts } from './chord';
 import { Field } from './fields';
+import { Opening } from './opening';
 import { Button, Section } from './parts';
 
 /** Fields that are asked for although the library does not require them. */
@@ -20,7 +21,7 @@ const prominent: Record<string, string[]> = {
   chord_remove: ['chord'],
   chord_transfer: ['chord', 'end', 'site', 'head'],
   head_move: ['head', 'by'],
-  clip: ['position', 'width', 'anterior', 'posterior'],
+  clip: ['position', 'angle', 'width', 'anterior', 'posterior'],
   resect: ['outline', 'scallop', 'position', 'width', 'depth'],
   patch: ['site', 'width', 'height'],
 };
@@ -80,6 +81,7 @@ export function OperationForm() {
           {state.draftMessage.value}
         </p>
       )}
+      <Opening kind={draft.kind} />
       <div class="form-foot">
         <button
           type="submit"

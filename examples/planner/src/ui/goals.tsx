@@ -10,6 +10,8 @@ interface Check {
   short: string;
   /** null: not known yet. */
   done: boolean | null;
+  /** When it becomes known. */
+  later?: string;
 }
 
 function checks(): Check[] {
@@ -19,7 +21,7 @@ function checks(): Check[] {
   return [
     { text: goals.sealed, short: shortGoals.sealed, done: sealed },
     { text: goals.chords(healthyOver), short: shortGoals.chords, done: chords },
-    { text: goals.open, short: shortGoals.open, done: open },
+    { text: goals.open, short: shortGoals.open, done: open, later: tourTexts.whenSealed },
   ];
 }
 
@@ -36,7 +38,10 @@ export function Goals({ number, short }: { number: number; short?: boolean }) {
         {found.map((check) => (
           <li class={check.done === null ? 'open' : check.done ? 'done' : 'missed'}>
             {icon(check)}
-            <span title={short ? check.text : undefined}>{short ? check.short : check.text}</span>
+            <span title={short ? check.text : undefined}>
+              {short ? check.short : check.text}
+              {!short && check.later && check.done === null && <small> {check.later}</small>}
+            </span>
           </li>
         ))}
       </ul>

@@ -15,7 +15,7 @@ export function Figure(props: {
   warn?: boolean;
 }) {
   const digits = props.digits ?? 1;
-  const waiting = Number.isNaN(props.value) && state.pending.value;
+  const waiting = Number.isNaN(props.value) && state.figures.value?.known !== 'all';
   const differs = props.before !== undefined && Math.abs(props.before - props.value) >= 0.5 * 10 ** -digits;
   const better = differs && props.good ? (props.good === 'low') === props.value < props.before! : null;
   return (

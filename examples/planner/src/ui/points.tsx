@@ -5,7 +5,7 @@ import { setField } from '../store/edit';
 import * as state from '../store/state';
 import { fewestPoints, pointTexts } from '../text/texts';
 import type { FieldInfo } from '../protocol';
-import { beginOutline, useOutline } from '../view/outline';
+import { beginOutline, removeOutlinePoint, useOutline } from '../view/outline';
 import { Button } from './parts';
 
 /** Rows of three numbers of a text file, whatever stands around them: xyz, csv, the vertices of an OBJ. */
@@ -49,11 +49,12 @@ function Outline() {
         <Button kind="main" disabled={count < 2} onClick={useOutline}>
           {pointTexts.use}
         </Button>
-        <Button disabled={!count} onClick={() => (state.outline.value = state.outline.value.slice(0, -1))}>
+        <Button disabled={!count} onClick={removeOutlinePoint}>
           {pointTexts.back}
         </Button>
       </div>
       <small>{pointTexts.count(count)}</small>
+      <small>{pointTexts.keys}</small>
     </div>
   );
 }

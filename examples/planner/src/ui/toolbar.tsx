@@ -229,9 +229,10 @@ export function Scale() {
     );
   }
   const map = maps[name];
+  const words = mapWords[name];
   return (
     <div class="scale">
-      <span>{mapWords[name].scale}</span>
+      <span>{words.scale}</span>
       <span class="bar">
         <em>{map.low}</em>
         <i style={{ background: gradient(map) }} />
@@ -239,6 +240,17 @@ export function Scale() {
           {map.high} {map.unit}
         </em>
       </span>
+      {words.low && (
+        <span class="bar-words">
+          <em>{words.low}</em>
+          <em>{words.high}</em>
+        </span>
+      )}
+      {words.none && (
+        <span>
+          <i class="key key-none" /> {words.none}
+        </span>
+      )}
     </div>
   );
 }

@@ -1,8 +1,9 @@
 // The tour: the three leaking valves of the founding study, a goal, and a score beside the healthy valve and the
 // founding surgeon's repair.
-import { Check, Wrench } from 'lucide-preact';
+import { Check, Eye, Wrench } from 'lucide-preact';
 import * as state from '../store/state';
-import { startValve } from '../store/tour';
+import { openingOf } from '../store/opening';
+import { showChord, startValve } from '../store/tour';
 import { figure, say, tourTexts } from '../text/texts';
 import { Goals } from './goals';
 import { Button } from './parts';
@@ -49,6 +50,9 @@ function Goal() {
         <summary>{tourTexts.hint}</summary>
         <div class="section-body">
           <p>{texts.hint}</p>
+          <Button icon={<Eye size={16} />} onClick={() => showChord(texts.chord)}>
+            {tourTexts.show(texts.chord)}
+          </Button>
         </div>
       </details>
       <Goals number={tour.number} />
@@ -64,10 +68,10 @@ function Score() {
   const tour = state.tour.value!;
   const figures = state.main.value!.figures;
   const founding = tour.founding;
-  const cost = state.cost.value?.hash === figures.hash ? state.cost.value.value : null;
+  const cost = openingOf(figures.hash);
   const columns = [
     { name: tourTexts.columns.yours, m: figures.measures, area: cost?.openArea },
-    ...(founding
+    ...(founding?.repaired
       ? [
           { name: tourTexts.columns.study, m: founding.repaired.measures, area: founding.repaired.openArea },
           { name: tourTexts.columns.healthy, m: founding.healthy.measures, area: founding.healthy.openArea },
@@ -101,7 +105,8 @@ function Score() {
           {row(tourTexts.rows.ap, (c) => figure(c.m.annulusAp, 1))}
         </tbody>
       </table>
-      {founding && (
+      {founding?.repaired && <p class="hint">{tourTexts.columnsHelp}</p>}
+      {founding?.repaired && (
         <details class="section">
           <summary>{tourTexts.study}</summary>
           <div class="section-body">

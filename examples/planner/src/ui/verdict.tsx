@@ -33,7 +33,7 @@ export function Verdict() {
       {!graded && !shape && <div class="verdict-where">{words.notFinal}</div>}
       {m.chordsOver > 0 && (
         <div class={m.chordsOver > usual() ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
-          {words.chordsOver(m.chordsOver, state.tour.value?.founding?.healthy.measures.chordsOver)}
+          {words.chordsOver(m.chordsOver, comparison())}
         </div>
       )}
     </div>
@@ -46,12 +46,17 @@ function usual(): number {
   return tour ? (tour.founding?.healthy.measures.chordsOver ?? Infinity) : 0;
 }
 
+/** That number in words; '…' while it is measured, nothing outside of the tour. */
+function comparison(): string {
+  const { value } = state.tour;
+  return value ? String(value.founding?.healthy.measures.chordsOver ?? '…') : '';
+}
+
 /** The size of the leak and its place, or how far the leaflets meet; dots stand for what is still to come. */
 function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
   const words = verdictTexts;
   const { orifice, coaptationMean } = figures.measures;
   const before = state.before.value;
-  const all = figures.known === 'all';
   return (
     <>
       <div class="verdict-figure">
@@ -66,7 +71,7 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
       </div>
       {graded && (
         <div class="verdict-where">
-          {orifice > 0 ? words.at(where(figures)) : words.meet(all ? figure(coaptationMean) : '…')}
+          {orifice > 0 ? words.at(where(figures)) : words.meet(figure(coaptationMean))}
         </div>
       )}
     </>

@@ -1,6 +1,8 @@
-// The place of the clip of the form in the picture: on the free edge of its two scallops, at its position between
-// their ends. Positions grow along the CC axis, as in the library.
+// The clip of the form in the picture: its place on the free edge of its two scallops, at its position between their
+// ends, and its turn. Positions grow along the CC axis and angles are anticlockwise as seen from the atrium, as in the
+// library.
 import * as state from '../store/state';
+import { edit } from '../store/edit';
 import type { Topology } from '../protocol';
 
 export interface ClipPlace {
@@ -8,7 +10,20 @@ export interface ClipPlace {
   position: number;
   /** Half the width of the scallops along the CC axis, mm. */
   half: number;
+  /** Degrees. */
+  angle: number;
+  /** Unit vector along its arms, to the anterior side. */
+  arm: number[];
+  /** Where its turn is held, mm. */
+  handle: number[];
 }
+
+/** mm from the middle of the clip to the handle of its turn, and to the ends of its arms. */
+const handleAway = 10;
+export const armLength = 5;
+/** Steps of drags and keys. */
+const positionStep = 0.05;
+const angleStep = 5;
 
 /** The free edge of a scallop: nodes and their coordinates along the CC axis. */
 function edgeOf(topology: Topology, scallop: number): number[] {
@@ -49,5 +64,44 @@ export function clipPlace(): ClipPlace | null {
     for (let c = 0; c < 3; ++c) at[c] += 0.5 * x[3 * nearest + c];
     half += 0.25 * (high - low);
   }
-  return { at, position, half: Math.max(half, 1) };
+  const angle = typeof draft.fields.angle === 'number' ? draft.fields.angle : 0;
+  const [c, s] = [Math.cos((angle * Math.PI) / 180), Math.sin((angle * Math.PI) / 180)];
+  const arm = [0, 1, 2].map((k) => c * frame[3 + k] + s * frame[6 + k]);
+  const handle = at.map((v, k) => v + handleAway * arm[k]);
+  return { at, position, half: Math.max(half, 1), angle, arm, handle };
+}
+
+/** The largest turn of the form's field, degrees. */
+function largestAngle(): number {
+  const clip = state.operations.value.find((operation) => operation.name === 'clip');
+  return Math.floor(clip?.fields.find((field) => field.name === 'angle')?.high ?? 0);
+}
+
+function toStep(value: number, step: number, limit: number): number {
+  const whole = step * Math.round(value / step);
+  return +Math.min(limit, Math.max(-limit, whole)).toFixed(6);
+}
+
+/** Sets position or turn of the clip of the form, to the steps of their sliders. */
+export function setClip(name: 'position' | 'angle', value: number): void {
+  const draft = state.draft.value;
+  if (draft?.kind !== 'clip') return;
+  const next =
+    name === 'position' ? toStep(value, positionStep, 1) : toStep(value, angleStep, largestAngle());
+  if (next !== (draft.fields[name] ?? 0)) edit('clip', { ...draft.fields, [name]: next });
+}
+
+/** Keys that move the clip of the form to the left, right and round in the surgeon's view; false for all others. */
+export function clipKey(key: string): boolean {
+  const steps: Record<string, ['position' | 'angle', number]> = {
+    a: ['position', positionStep],
+    d: ['position', -positionStep],
+    q: ['angle', angleStep],
+    e: ['angle', -angleStep],
+  };
+  const draft = state.draft.value;
+  if (draft?.kind !== 'clip' || !steps[key]) return false;
+  const [name, by] = steps[key];
+  setClip(name, ((draft.fields[name] as number | undefined) ?? 0) + by);
+  return true;
 }

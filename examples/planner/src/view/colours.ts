@@ -19,6 +19,7 @@ export const tissue = {
   seam: [0.72, 0.5, 0.45] as Colour,
   ring: [0.93, 0.95, 0.97] as Colour,
   orifice: [0.78, 0.06, 0.12] as Colour,
+  cut: [0.35, 0.08, 0.1] as Colour,
   hand: [0.1, 0.45, 0.85] as Colour,
 };
 

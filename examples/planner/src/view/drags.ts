@@ -1,9 +1,9 @@
-// Drags in the picture that change the plan: a chord to its length, a clip along the free edge, the handle of the
+// Drags in the picture that change the plan: a chord to its length, a clip along the free edge or round, the handle of the
 // section plane, tissue in the living valve. Directions on the screen are those of the projected parts.
 import * as state from '../store/state';
 import { edit } from '../store/edit';
 import { fail, request, tell } from '../store/requests';
-import { clipPlace } from './clip';
+import { clipPlace, setClip } from './clip';
 import type { Hit } from './pick';
 import type { Viewport } from './viewport';
 
@@ -17,6 +17,7 @@ export type Drag =
   | { kind: 'pan' }
   | { kind: 'handle' }
   | { kind: 'clip'; position: number }
+  | { kind: 'turn-clip' }
   | { kind: 'chord'; id: string; rest: number }
   | { kind: 'hand'; depth: number };
 
@@ -37,6 +38,7 @@ export function dragAt(view: Viewport, p: Place, reach: number, hit: Hit | null)
   if (state.sectionOn.value && isNear(view, view.handle(), p, reach)) return { kind: 'handle' };
   const clip = clipPlace();
   if (clip && isNear(view, clip.at, p, reach)) return { kind: 'clip', position: clip.position };
+  if (clip && isNear(view, clip.handle, p, reach)) return { kind: 'turn-clip' };
   if (!hit) return { kind: 'turn' };
   if (state.tool.value !== 'look' && hit.surface) return grasp(view, hit);
   const topology = state.topologyOf(state.picture.value!)!;
@@ -125,13 +127,30 @@ export function dragClip(
   dy: number,
 ): void {
   const clip = clipPlace();
-  const draft = state.draft.value;
-  if (!clip || draft?.kind !== 'clip') return;
+  if (!clip) return;
   const f = view.frameOf();
   const step = along(view, clip.at, [f[6], f[7], f[8]], dx, dy) / clip.half;
   drag.position = Math.min(1, Math.max(-1, drag.position + step));
-  const position = Math.round(20 * drag.position) / 20;
-  if (position !== draft.fields.position) edit('clip', { ...draft.fields, position });
+  setClip('position', drag.position);
+}
+
+/** Turns the clip of the form so that its arm points to the pointer, in the plane of the annulus. */
+export function turnClip(view: Viewport, p: Place): void {
+  const clip = clipPlace();
+  if (!clip) return;
+  const f = view.frameOf();
+  const [ap, cc, up] = [f.slice(3, 6), f.slice(6, 9), f.slice(9, 12)];
+  const dot = (a: number[], b: number[]) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  const { origin, direction } = view.camera.ray(p.x, p.y, view.width, view.height);
+  const [eye, ray] = [origin.toArray(), direction.toArray()];
+  const from = clip.at.map((v, c) => v - eye[c]);
+  const fall = dot(ray, up);
+  // seen from the side the plane is a line: the place of the pointer beside the middle counts
+  const reach = Math.abs(fall) > 0.2 ? dot(from, up) / fall : Math.hypot(...from);
+  const away = ray.map((v, c) => reach * v - from[c]);
+  // towards either end of the clip
+  const sense = dot(away, ap) < 0 ? -1 : 1;
+  setClip('angle', (Math.atan2(sense * dot(away, cc), sense * dot(away, ap)) * 180) / Math.PI);
 }
 
 /** Pulling towards the papillary head shortens, in mm of the picture. */

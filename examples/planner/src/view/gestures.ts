@@ -3,7 +3,18 @@
 import * as state from '../store/state';
 import { gestureTexts } from '../text/texts';
 import { click } from './click';
-import { dragAt, dragChord, dragClip, dragHand, dragHandle, dropHand, type Drag, type Place } from './drags';
+import {
+  dragAt,
+  dragChord,
+  dragClip,
+  dragHand,
+  dragHandle,
+  dropHand,
+  turnClip,
+  type Drag,
+  type Place,
+} from './drags';
+import { KeyPointer } from './keypointer';
 import { pick, type Hit } from './pick';
 import type { Viewport } from './viewport';
 
@@ -17,6 +28,7 @@ export class Gestures {
   private start = { x: 0, y: 0 };
   private travelled = 0;
   private drag: Drag = { kind: 'turn' };
+  private readonly cross: KeyPointer;
 
   constructor(private readonly view: Viewport) {
     const { canvas } = view.renderer;
@@ -27,6 +39,7 @@ export class Gestures {
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
     canvas.addEventListener('keydown', (event) => this.key(event));
+    this.cross = new KeyPointer(view, (p) => this.hit(p, 9));
   }
 
   private place(event: PointerEvent): Place {
@@ -90,6 +103,7 @@ export class Gestures {
     else if (this.drag.kind === 'pan') camera.pan(dx, dy, this.view.height);
     else if (this.drag.kind === 'handle') dragHandle(this.view, dx, dy);
     else if (this.drag.kind === 'clip') dragClip(this.view, this.drag, dx, dy);
+    else if (this.drag.kind === 'turn-clip') turnClip(this.view, p);
     else if (this.drag.kind === 'chord') dragChord(this.view, this.drag, this.start, p);
     else if (this.drag.kind === 'hand') dragHand(this.view, this.drag.depth, p);
     this.view.moved();
@@ -156,7 +170,13 @@ export class Gestures {
       ArrowDown: [0, 0.1],
     };
     const turn = turns[event.key];
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (this.cross.key(event)) {
+      event.preventDefault();
+      event.stopPropagation();
+      return;
+    }
+    // with Control the valve turns even while the arrows move the cross
+    if (event.metaKey || event.altKey || (event.ctrlKey && !turn)) return;
     if (turn && event.shiftKey) this.view.camera.pan(turn[0] * 200, turn[1] * 200, this.view.height);
     else if (turn) this.view.camera.rotate(...turn);
     else if (event.key === '+' || event.key === '=') this.view.camera.zoom(0.9);

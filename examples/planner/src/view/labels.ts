@@ -1,6 +1,7 @@
 // Names over the picture: scallops, papillary heads, the chosen chord, as HTML text at projected places.
 import * as state from '../store/state';
-import { figure } from '../text/texts';
+import { figure, markTexts } from '../text/texts';
+import { clipPlace } from './clip';
 import { pickSurface } from './pick';
 import type { Topology } from '../protocol';
 import type { Viewport } from './viewport';
@@ -25,6 +26,19 @@ function headLabels(topology: Topology, x: Float32Array): Label[] {
   }));
 }
 
+/** Names of what is dragged: the section plane, the clip of the form and its turn. */
+function handleLabels(view: Viewport): Label[] {
+  const labels: Label[] = [];
+  if (state.sectionOn.value) labels.push({ text: markTexts.plane, at: view.handle(), kind: 'handle' });
+  const clip = clipPlace();
+  if (clip)
+    labels.push(
+      { text: markTexts.clip, at: clip.at, kind: 'handle' },
+      { text: markTexts.turn(clip.angle), at: clip.handle, kind: 'handle' },
+    );
+  return labels;
+}
+
 /** mm behind the leaflets at which a label is still shown: its place is the mean of a curved scallop. */
 const tolerance = 4;
 
@@ -39,7 +53,7 @@ export class Labels {
     host.append(this.layer);
   }
 
-  private wanted(): Label[] {
+  private wanted(view: Viewport): Label[] {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
     const importing = state.imported.value && !state.imported.value.findings.length;
@@ -69,7 +83,7 @@ export class Labels {
       const text = chord ? `${chord.name}  ${figure(chord.rest)} mm` : topology.chords[k].name;
       labels.push({ text, at, kind: 'chord' });
     }
-    return labels;
+    return [...labels, ...handleLabels(view)];
   }
 
   /** Whether a leaflet lies between the eye and a place. */
@@ -91,7 +105,7 @@ export class Labels {
   }
 
   update(view: Viewport): void {
-    const labels = this.wanted();
+    const labels = this.wanted(view);
     const taken: [number, number][] = [];
     while (this.elements.length > labels.length) this.elements.pop()!.remove();
     labels.forEach((label, k) => {
@@ -106,9 +120,10 @@ export class Labels {
       const [px, py] = view.camera.project(label.at[0], label.at[1], label.at[2], view.width, view.height);
       // a scallop gives way to labels in front of it
       const covered = label.kind === 'scallop' && taken.some(([x, y]) => Math.hypot(x - px, y - py) < 24);
-      element.hidden = label.kind !== 'chord' && (covered || this.hidden(view, label.at, px, py));
+      const always = label.kind === 'chord' || label.kind === 'handle';
+      element.hidden = !always && (covered || this.hidden(view, label.at, px, py));
       if (!element.hidden) taken.push([px, py]);
-      element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(-50%, -50%)`;
+      element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(${label.kind === 'handle' ? '24px' : '-50%'}, -50%)`;
     });
   }
 }

@@ -1,7 +1,7 @@
 // Marks over the picture: points that were clicked on an imported surface, the outline of a resection, the clip of
 // the form, the handle of the section plane.
 import * as state from '../store/state';
-import { clipPlace } from './clip';
+import { armLength, clipPlace, type ClipPlace } from './clip';
 import { tissue } from './colours';
 import { Shapes, type Colour, type Mesh } from './mesh';
 import { wholeOutline } from './outline';
@@ -34,6 +34,15 @@ function addedEnd(): Float32Array | null {
   return picture.positions.subarray(3 * node, 3 * node + 3);
 }
 
+/** The clip of the form from above: its arms to both sides, the ball that slides it, the handle that turns it. */
+function clipMarks(shapes: Shapes, { at, arm, handle }: ClipPlace): void {
+  const end = (by: number) => at.map((v, c) => v + by * arm[c]);
+  shapes.tube(end(-armLength), end(armLength), 0.55, tissue.suture);
+  shapes.tube(end(armLength), handle, 0.15, tissue.chosen);
+  shapes.sphere(at, 1.1, tissue.chosen);
+  shapes.sphere(handle, 0.9, tissue.chosen);
+}
+
 /** All marks of the moment as one mesh, or null. */
 export function marksMesh(handle: number[] | null): Mesh | null {
   const shapes = new Shapes();
@@ -43,7 +52,7 @@ export function marksMesh(handle: number[] | null): Mesh | null {
   const end = addedEnd();
   if (end) shapes.sphere(end, 0.8, tissue.chosen);
   const clip = clipPlace();
-  if (clip) shapes.sphere(clip.at, 1.1, tissue.chosen);
+  if (clip) clipMarks(shapes, clip);
   if (handle) shapes.sphere(handle, 1.6, tissue.chosen);
   const mesh = shapes.mesh({ overlay: true });
   return mesh.index.length ? mesh : null;

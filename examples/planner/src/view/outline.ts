@@ -13,6 +13,12 @@ export function beginOutline(): void {
   state.outline.value = [];
   edit('resect', {});
   pickField('outline');
+  // the keys of the cross belong to the picture
+  document.querySelector<HTMLElement>('.canvas canvas')?.focus({ preventScroll: true });
+}
+
+export function removeOutlinePoint(): void {
+  state.outline.value = state.outline.value.slice(0, -1);
 }
 
 /** The next point; clicks on the other leaflet are ignored. */

@@ -202,6 +202,14 @@ function jets(parts: OrificePart[]): Mesh {
   return shapes.mesh({ overlay: true });
 }
 
+/** The chosen chord once more, through whatever hides it. */
+function throughAll(topology: Topology, picture: Picture, k: number): Mesh {
+  const shapes = new Shapes();
+  const [a, b] = [0, 1].map((end) => point(picture.positions, topology.chordNodes[2 * k + end]));
+  shapes.tube(a, b, 0.35, tissue.chosen);
+  return shapes.mesh({ overlay: true, opacity: 0.55 });
+}
+
 /** Everything that is drawn of a valve. */
 export function sceneMeshes(topology: Topology, picture: Picture, options: SceneOptions): Mesh[] {
   const meshes = [
@@ -212,6 +220,7 @@ export function sceneMeshes(topology: Topology, picture: Picture, options: Scene
   if (options.chordsOn) meshes.push(chordae(topology, picture, options));
   if (picture.orificeTriangles.length) meshes.push(orifice(picture));
   if (options.jets.length) meshes.push(jets(options.jets));
+  if (options.chosenChord >= 0) meshes.push(throughAll(topology, picture, options.chosenChord));
   if (picture.hand) {
     const hand = new Shapes();
     hand.sphere(picture.hand.subarray(0, 3), 1.1, tissue.hand);

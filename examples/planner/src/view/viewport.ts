@@ -4,6 +4,7 @@ import { effect } from '@preact/signals';
 import * as state from '../store/state';
 import { appTexts } from '../text/texts';
 import { Camera, type Preset } from './camera';
+import { cutMesh } from './cut';
 import { Gestures } from './gestures';
 import { overlayInputs, sameInputs, sceneInputs } from './inputs';
 import { Labels } from './labels';
@@ -65,6 +66,10 @@ export class Viewport {
     effect(() => {
       const shown = state.imported.value;
       this.showSurface(shown && !shown.findings.length ? shown : null);
+    });
+    effect(() => {
+      const wanted = state.wantedView.value;
+      if (wanted) this.go(wanted.preset);
     });
     requestAnimationFrame((now) => this.frame(now));
   }
@@ -238,9 +243,14 @@ export class Viewport {
 
   scene(): Scene {
     const meshes = [...this.meshes];
+    const picture = state.picture.value;
+    const topology = picture && state.topologyOf(picture);
+    const plane = this.plane();
+    if (plane && topology && !this.surface)
+      meshes.push(cutMesh(topology, picture, plane, this.frameOf(), this.radius()));
     const marks = marksMesh(state.sectionOn.value ? this.handle() : null);
     if (marks) meshes.push(marks);
-    return { meshes, background, plane: this.plane() };
+    return { meshes, background, plane };
   }
 
   private frame(now: number): void {

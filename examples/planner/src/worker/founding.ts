@@ -63,7 +63,11 @@ export class HealthyValve {
 }
 
 /** Figures of the founding paper's repair of valve `number`. */
-export function foundingRepair(mvs: Mvs, number: number, vertices: number): FoundingResult['repaired'] {
+export function foundingRepair(
+  mvs: Mvs,
+  number: number,
+  vertices: number,
+): Required<FoundingResult>['repaired'] {
   const sim = mvs.simulator();
   try {
     sim.load(foundingValve(mvs, number, vertices), 'obj');

@@ -18,6 +18,8 @@ interface Under {
   id: number;
   signal: AbortSignal;
   report: (share: number) => void;
+  /** Sends a valve of which not all figures are known yet. */
+  stage: (shown: Shown) => void;
 }
 
 let mvs: Mvs;
@@ -77,19 +79,17 @@ const handlers: Handlers = {
     return closed;
   },
   open_file: ({ bytes }, { signal, report }) => planner.openBytes(bytes, signal, report),
-  preview: (operation, { id, signal, report }) =>
-    planner.previewOf(operation, signal, report, (stage: Shown) => post({ id, stage })),
-  accept: () => planner.accept(),
+  preview: (operation, { signal, report, stage }) => planner.previewOf(operation, signal, report, stage),
+  accept: ({ has }, { stage }) => planner.accept(has, stage),
   discard: () => (planner.discard(), null),
   check: (operation) => (planner.check(operation), null),
-  undo: () => planner.undo(),
-  redo: (_, { signal, report }) => planner.redo(signal, report),
+  undo: (_, { stage }) => planner.undo(stage),
+  redo: (_, { signal, report, stage }) => planner.redo(signal, report, stage),
   open_to: async ({ share }, { signal }) => {
     const fresh = !opening;
     opening = true;
     return planner.openTo(share, fresh, signal);
   },
-  close_again: () => planner.shown(),
   cost: ({ which, flow }) => planner.cost(which, flow),
   section: (request) => planner.section(request),
   hand_begin: (argument, { id }) => {
@@ -111,7 +111,7 @@ const handlers: Handlers = {
     return planner.shown();
   },
   checkpoint: ({ name }) => planner.checkpoint(name),
-  restore: ({ name }) => planner.restore(name),
+  restore: ({ name }, { stage }) => planner.restore(name, stage),
   read_checkpoint: ({ name }) => planner.readCheckpoint(name),
   save_obj: () => planner.main.read((snapshot) => snapshot.save('obj')),
   save_session: ({ title, notes }) => saveSession(planner, title, notes),
@@ -159,7 +159,8 @@ async function work(): Promise<void> {
     if (call !== 'open_to') opening = false;
     try {
       const report = (share: number) => post({ id, share });
-      post({ id, result: await handlers[call](argument, { id, signal: abort.signal, report }) });
+      const stage = (shown: Shown) => post({ id, stage: shown });
+      post({ id, result: await handlers[call](argument, { id, signal: abort.signal, report, stage }) });
     } catch (error) {
       post({ id, failure: failureOf(error) });
     }

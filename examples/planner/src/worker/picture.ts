@@ -121,7 +121,7 @@ function measuresOf(snapshot: Snapshot, known: Known): Measures {
     known === 'all'
       ? snapshot.measure()
       : known === 'orifice'
-        ? snapshot.measure('orifice', 'chords', 'annulus')
+        ? snapshot.measure('orifice', 'coaptation', 'chords', 'annulus')
         : snapshot.measure('chords', 'annulus');
   return {
     orifice: m.regurgitant_orifice_area * mm2,

@@ -97,14 +97,40 @@ export class Planner {
     };
   }
 
+  /**
+   * A snapshot in stages: its shape, its orifice and coaptation, all; those that the page `has` are left out. Figures
+   * take longer than the shape. A cancel is heard between two stages.
+   */
+  private async inStages(
+    snapshot: Snapshot,
+    stage: (shown: Shown) => void,
+    has: Known | null = null,
+    signal?: AbortSignal,
+  ): Promise<Shown> {
+    const stages = ['shape', 'orifice'] as const;
+    for (const known of stages.slice(has ? stages.indexOf(has as 'shape') + 1 : 0)) {
+      stage(this.shownOf(snapshot, known));
+      await breathe();
+      if (signal?.aborted) throw new MvsError('MVS_E_CANCELLED', 'preview', refusals.cancelled);
+    }
+    return this.shownOf(snapshot);
+  }
+
+  /** The valve of the plan, in stages. */
+  private async mainInStages(stage: (shown: Shown) => void): Promise<Shown> {
+    const snapshot = this.main.snapshot();
+    try {
+      return await this.inStages(snapshot, stage);
+    } finally {
+      snapshot.dispose();
+    }
+  }
+
   check(operation: Operation): void {
     this.main.check(operation.kind, libraryFields(this.mvs, operation));
   }
 
-  /**
-   * The closed valve after an operation, beside the plan. `stage` receives the shape, then the orifice, because the
-   * figures take several times as long as the shape; the result has all.
-   */
+  /** The closed valve after an operation, beside the plan, in stages. */
   async previewOf(
     operation: Operation,
     signal: AbortSignal,
@@ -119,12 +145,7 @@ export class Planner {
     await this.settle(this.second, signal, report);
     const preview = this.second.snapshot();
     this.preview = preview;
-    for (const known of ['shape', 'orifice'] as const) {
-      stage(this.shownOf(preview, known));
-      await breathe();
-      if (signal.aborted) throw new MvsError('MVS_E_CANCELLED', 'preview', refusals.cancelled);
-    }
-    return this.shownOf(preview);
+    return this.inStages(preview, stage, null, signal);
   }
 
   discard(): void {
@@ -132,25 +153,34 @@ export class Planner {
     this.preview = null;
   }
 
-  /** The preview becomes the valve of the plan; the page has its figures. */
-  accept(): { hash: string } {
-    if (!this.preview) throw new MvsError('MVS_E_STATE', 'preview', refusals.noPreview);
-    this.main.restore(this.preview);
-    this.discard();
-    return { hash: this.main.read((snapshot) => snapshot.hash) };
+  /** The preview becomes the valve of the plan; the stages that the page does not have follow. */
+  async accept(has: Known, stage: (shown: Shown) => void): Promise<Shown | null> {
+    const accepted = this.preview;
+    if (!accepted) throw new MvsError('MVS_E_STATE', 'preview', refusals.noPreview);
+    this.preview = null;
+    try {
+      this.main.restore(accepted);
+      return has === 'all' ? null : await this.inStages(accepted, stage, has);
+    } finally {
+      accepted.dispose();
+    }
   }
 
-  undo(): Shown {
+  undo(stage: (shown: Shown) => void): Promise<Shown> {
     this.discard();
     this.main.undo();
-    return this.shown();
+    return this.mainInStages(stage);
   }
 
-  async redo(signal: AbortSignal, report: (share: number) => void): Promise<Shown> {
+  async redo(
+    signal: AbortSignal,
+    report: (share: number) => void,
+    stage: (shown: Shown) => void,
+  ): Promise<Shown> {
     this.discard();
     this.main.redo();
     await this.settle(this.main, signal, report);
-    return this.shown();
+    return this.mainInStages(stage);
   }
 
   /** The valve between open (0, 5 mmHg the other way) and closed (1, systole), beside the plan. */
@@ -212,10 +242,10 @@ export class Planner {
     return kept;
   }
 
-  restore(name: string): Shown {
+  restore(name: string, stage: (shown: Shown) => void): Promise<Shown> {
     this.discard();
     this.main.restore(this.checkpointOf(name));
-    return this.shown();
+    return this.mainInStages(stage);
   }
 
   readCheckpoint(name: string): Shown {

@@ -1,4 +1,4 @@
-// Units of the page and of the library: mm, mm2, MPa, % outside; SI inside.
+// Units of the page and of the library: mm, mm2, MPa, degrees, % outside; SI inside.
 export const mm = 1e3;
 export const mm2 = 1e6;
 export const ml = 1e6;
@@ -8,6 +8,7 @@ export const mmHg = 133.322;
 export function pageUnit(unit: string): { factor: number; unit: string } {
   if (unit === 'm') return { factor: 1e3, unit: 'mm' };
   if (unit === 'm2') return { factor: 1e6, unit: 'mm²' };
+  if (unit === 'rad') return { factor: 180 / Math.PI, unit: '°' };
   if (unit === 'Pa') return { factor: 1e-6, unit: 'MPa' };
   return { factor: 1, unit };
 }

@@ -1,0 +1,20 @@
+// In the form of an operation that narrows the valve: how far it would open, beside the valve before and the goal.
+import { narrowing, openingOf } from '../store/opening';
+import { leastOpening } from '../store/tour';
+import * as state from '../store/state';
+import { openingTexts } from '../text/texts';
+
+export function Opening({ kind }: { kind: string }) {
+  const preview = state.preview.value?.figures;
+  if (!narrowing.has(kind) || !preview) return null;
+  const now = openingOf(preview.hash);
+  const before = openingOf(state.main.value?.figures.hash);
+  const least = leastOpening();
+  const small = now && least ? now.openArea < least : false;
+  return (
+    <p class={`opens${small ? ' warn' : ''}`} data-testid="opening" title={openingTexts.help}>
+      {openingTexts.opens(now?.openArea)}
+      <span class="was"> {openingTexts.beside(before?.openArea, least)}</span>
+    </p>
+  );
+}
