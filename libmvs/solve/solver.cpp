@@ -113,7 +113,10 @@ double SolveOptions::tolerance() const {
 
 // The solvers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
-  explicit Work(Backend backend_in) : backend(backend_in), factor(make_newton_factor(backend)) {}
+  Work(Backend backend_in, Workers *workers_in)
+      : backend(backend_in), workers(workers_in), factor(make_newton_factor(backend)) {
+    factor->use_workers(workers);
+  }
 
   ImplicitEuler &implicit_for(const Model &model) {
     if (implicit_model != model.serial) implicit.reset();
@@ -129,6 +132,7 @@ struct Solver::Work {
   }
 
   const Backend backend;
+  Workers *const workers;
   CoarseLevels coarse_levels;
   ToolPoints tool_points;
   std::unique_ptr<DirectSolver> factor;  // of settling
@@ -138,7 +142,8 @@ struct Solver::Work {
   uint64_t implicit_model = 0, explicit_model = 0;  // serial numbers
 };
 
-Solver::Solver(Backend backend) : work_(std::make_unique<Work>(backend)) {}
+Solver::Solver(Backend backend, Workers *workers)
+    : work_(std::make_unique<Work>(backend, workers)) {}
 Solver::~Solver() = default;
 Solver::Solver(Solver &&) noexcept = default;
 Solver &Solver::operator=(Solver &&) noexcept = default;
