@@ -121,7 +121,7 @@ struct Solver::Work {
   ImplicitEuler &implicit_for(const Model &model) {
     if (implicit_model != model.serial) implicit.reset();
     implicit_model = model.serial;
-    if (!implicit) implicit.emplace(model, backend);
+    if (!implicit) implicit.emplace(model, backend, workers);
     return *implicit;
   }
   ExplicitEuler &explicit_for(const Model &model) {
@@ -156,7 +156,7 @@ std::unique_ptr<Settling> Solver::loop_over_nodes(const Model &model, State stat
                                                   const SolveOptions &options,
                                                   const Progress &progress) {
   if (options.solver == SolverKind::implicit_euler) {
-    auto stepper = std::make_unique<ImplicitEuler>(model, work_->backend);
+    auto stepper = std::make_unique<ImplicitEuler>(model, work_->backend, work_->workers);
     return std::make_unique<SettlingInTime<ImplicitEuler>>(
         model, std::move(stepper), std::move(state), settle_options(options),
         max_settle_steps(options), options.tolerance(), progress);
