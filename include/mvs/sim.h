@@ -34,6 +34,12 @@ enum mvs_backend_e {
 };
 typedef uint32_t mvs_backend;
 
+/* One task of a loop that a host's pool runs, see mvs_sim_desc.run_tasks. */
+typedef void (*mvs_task_fn)(void *context, uint32_t index);
+
+/* Largest number of threads that share the work of one simulator. */
+#define MVS_MAX_WORKERS 256
+
 /* Options of a new simulator. */
 typedef struct mvs_sim_desc {
   uint32_t struct_size;
@@ -43,11 +49,31 @@ typedef struct mvs_sim_desc {
   /* Receives, during long calls, the completed share in [0, 1] and the largest out-of-balance nodal
    * force in N; a non-zero return value cancels the call. Nullable. */
   int32_t (*progress)(void *user, double share, double residual);
-  void *user; /* passed to both callbacks */
+  void *user; /* passed to all callbacks */
+  /* Threads that share the work of mvs_settle, mvs_advance_settle and mvs_step, the calling one
+   * included, at most MVS_MAX_WORKERS; 0 and 1: the calling thread alone. Results have the same
+   * bits for any number. The library starts its threads in the first loop that is long enough to
+   * be shared (in valves of more than about a thousand vertices), and joins them in mvs_destroy.
+   * They run no callback, block all signals, and sleep between calls. Where there are no threads,
+   * as in WebAssembly, or the system grants fewer, the others do the work. A process made by fork()
+   * has none of them and must not destroy the simulator. */
+  uint32_t workers;
+  uint32_t reserved; /* 0 */
+  /* A thread pool of the host instead of `workers`, which is 0 then: both callbacks or none. They
+   * are called on the thread of the call, and do not call the simulator. `pool_width` returns how
+   * many tasks the pool can run at the same time, the calling thread included: 1 to
+   * MVS_MAX_WORKERS; it is asked at the begin of each call. Nullable. */
+  uint32_t (*pool_width)(void *user);
+  /* Calls task(context, index) for each index below `count`, in any order, on any threads, and
+   * returns when all have returned. A loop takes tens of microseconds or more. A pool that runs
+   * fewer tasks, runs one twice, or returns early changes no bit of a result: the calling thread
+   * does what is left, and a task that comes late returns at once; none may come after mvs_destroy.
+   * A C++ exception that leaves the callback ends the call with MVS_E_INTERNAL. Nullable. */
+  void (*run_tasks)(void *user, uint32_t count, mvs_task_fn task, void *context);
 } mvs_sim_desc;
 
 /* Creates an empty simulator in *sim; mvs_destroy frees it. `desc` is nullable. MVS_E_UNSUPPORTED
- * if this build lacks the backend. */
+ * if this build lacks the backend; MVS_E_ARGUMENT for too many workers or half of a pool. */
 MVS_API mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim);
 
 /* Frees a simulator outside of any call on it; its snapshots stay valid. `sim` is nullable. */

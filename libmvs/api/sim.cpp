@@ -10,6 +10,23 @@
 
 using namespace mvs::core;
 
+namespace {
+
+void check_workers(const mvs_sim_desc &how) {
+  MVS_MUST(how.workers <= MVS_MAX_WORKERS, MVS_E_ARGUMENT, "desc.workers",
+           "desc.workers is %u: it has to be at most %d, and no more than the processor has cores",
+           how.workers, MVS_MAX_WORKERS);
+  must_be_zero(how.reserved, "desc.reserved");
+  MVS_MUST((how.pool_width == nullptr) == (how.run_tasks == nullptr), MVS_E_ARGUMENT,
+           how.run_tasks ? "desc.pool_width" : "desc.run_tasks",
+           "a pool of the host needs both desc.pool_width and desc.run_tasks: give both or none");
+  MVS_MUST(how.workers == 0 || how.run_tasks == nullptr, MVS_E_ARGUMENT, "desc.workers",
+           "desc.workers is %u beside a pool of the host: leave it 0, or give no pool",
+           how.workers);
+}
+
+}  // namespace
+
 extern "C" {
 
 mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim) {
@@ -17,6 +34,7 @@ mvs_result mvs_create(const mvs_sim_desc *desc, mvs_sim **sim) {
     must_point(sim, "sim");
     const mvs_sim_desc how = read_struct_or_default(desc, "desc");
     must_be_backend(how.backend, "desc.backend");
+    check_workers(how);
     *sim = new mvs_sim(how);
   });
 }

@@ -11,6 +11,7 @@ template <typename Work>
 mvs_result call_at_boundary(mvs_sim *sim, Work &&work) noexcept {
   return at_boundary([&] {
     const AtWork at_work(sim);
+    if (sim->workers) sim->workers->begin_call();
     work(*sim);
   });
 }

@@ -181,9 +181,9 @@ mvs_result mvs_begin_settle(mvs_sim *sim, const mvs_settle_options *options) {
     State state = before->state;
     std::vector<RecordedEvent> hands = s.hands.take(state);
     s.slices.reset();
-    s.slices =
-        std::make_unique<SettleSlices>(static_cast<Backend>(s.desc.backend), before,
-                                       std::move(state), std::move(hands), how, s.progress());
+    s.slices = std::make_unique<SettleSlices>(static_cast<Backend>(s.desc.backend), s.workers.get(),
+                                              before, std::move(state), std::move(hands), how,
+                                              s.progress());
   });
 }
 

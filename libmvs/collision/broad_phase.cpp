@@ -8,7 +8,7 @@ namespace mvs::core {
 namespace {
 
 // Found pairs are filtered in batches of about this size.
-constexpr size_t filter_batch = 1024;
+constexpr size_t filter_batch = SharedSearch::filter_batch;
 
 }  // namespace
 
@@ -56,7 +56,7 @@ void BroadPhase::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
   } else {
     search_hierarchy();
   }
-  sorter_.sort(current_.lists);
+  sorter_.sort(current_.lists, shared_.workers());
 }
 
 bool BroadPhase::recall(const std::vector<Vec3> &x, const std::vector<Vec3> &to) {
@@ -102,9 +102,14 @@ void BroadPhase::search_hierarchy() {
   const NodeMotion &motion = current_.motion;
   const double thickness = model_->valve.contact_thickness;
   leaves_.set_motion(motion.from, motion.to, motion.mode);
-  bvh_.refit(leaves_.update_all(), mask_.skipped_leaves());
+  const bool together = shared_.pays(model_->valve.triangles.size());
+  bvh_.refit(leaves_.update_all(together ? shared_.workers() : nullptr), mask_.skipped_leaves());
   const float contact = leaves_.margin(thickness + 2 * motion.slack);
   const float barrier = leaves_.margin(barrier_share * thickness + 2 * motion.slack);
+  if (together) {
+    shared_.search({motion, leaves_, bvh_, mask_, filter_, contact, barrier}, current_.lists);
+    return;
+  }
   bvh_.for_near_leaves(contact, [&](uint32_t a, uint32_t b) {
     leaves_.find_pairs(a, b, contact, barrier, found_);
     if (std::max(found_.triangles.size(), found_.edges.size()) >= filter_batch) filter_found();

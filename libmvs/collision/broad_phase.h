@@ -23,6 +23,7 @@
 #include "collision/leaf_soa.h"
 #include "collision/node_motion.h"
 #include "collision/search_mask.h"
+#include "collision/shared_search.h"
 #include "collision/verlet_list.h"
 #include "geometry/bvh.h"
 #include "model/model.h"
@@ -39,6 +40,10 @@ class BroadPhase {
   // build(), or by the next one after use_verlet_list_at_once().
   void use_verlet_list(bool use) { uses_verlet_list_ = use; }
   void use_verlet_list_at_once() { list_count_ = std::max(list_count_, lists_without_verlet); }
+
+  // Threads that may share a search; they outlive this. Null, the default: none. The lists do not
+  // depend on them.
+  void use_workers(Workers *workers) { shared_.use_workers(workers); }
 
   // Makes the lists for nodes that move from x to `to`.
   void build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, double slack,
@@ -88,6 +93,7 @@ class BroadPhase {
   bool uses_verlet_list_ = true;
   uint64_t list_count_ = 0;
   std::optional<VerletList> verlet_list_;
+  SharedSearch shared_;
 };
 
 }  // namespace mvs::core

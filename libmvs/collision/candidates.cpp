@@ -9,6 +9,14 @@ namespace {
 
 // Shorter lists are sorted by comparisons alone.
 constexpr size_t fewest_counted = 32;
+// Microseconds for a pair, about.
+constexpr double sort_us = 0.02;
+
+void sort_edges(std::vector<EdgeEdge> &pairs) {
+  std::sort(pairs.begin(), pairs.end(), [](const EdgeEdge &p, const EdgeEdge &q) {
+    return p.first != q.first ? p.first < q.first : p.second < q.second;
+  });
+}
 
 }  // namespace
 
@@ -18,30 +26,37 @@ void CandidateLists::clear() {
   barrier_edges.clear();
 }
 
-void CandidateSorter::sort(CandidateLists &lists) {
-  sort(lists.contact);
-  sort(lists.barrier);
-  std::sort(lists.barrier_edges.begin(), lists.barrier_edges.end(),
-            [](const EdgeEdge &p, const EdgeEdge &q) {
-              return p.first != q.first ? p.first < q.first : p.second < q.second;
-            });
+void CandidateSorter::sort(CandidateLists &lists, Workers *workers) {
+  const size_t pairs = lists.contact.size() + lists.barrier.size() + lists.barrier_edges.size();
+  if (!pay_for(workers, sort_us * static_cast<double>(pairs))) {
+    sort(lists.contact, contact_);
+    sort(lists.barrier, contact_);
+    sort_edges(lists.barrier_edges);
+    return;
+  }
+  workers->parallel_for(3, [&](uint32_t list) {
+    if (list == 0) sort(lists.contact, contact_);
+    if (list == 1) sort(lists.barrier, barrier_);
+    if (list == 2) sort_edges(lists.barrier_edges);
+  });
 }
 
-void CandidateSorter::sort(std::vector<VertexTriangle> &pairs) {
+void CandidateSorter::sort(std::vector<VertexTriangle> &pairs, Buffers &buffers) const {
   if (pairs.size() < fewest_counted) {
     std::sort(pairs.begin(), pairs.end(), [](const VertexTriangle &p, const VertexTriangle &q) {
       return p.vertex != q.vertex ? p.vertex < q.vertex : p.triangle < q.triangle;
     });
     return;
   }
-  count_.assign(node_count_ + 1, 0);
-  for (const VertexTriangle &p : pairs) ++count_[p.vertex + 1];
-  for (size_t v = 0; v < node_count_; ++v) count_[v + 1] += count_[v];
-  sorted_.resize(pairs.size());
-  for (const VertexTriangle &p : pairs) sorted_[count_[p.vertex]++] = p;
-  std::copy(sorted_.begin(), sorted_.end(), pairs.begin());
+  auto &count = buffers.count;
+  count.assign(node_count_ + 1, 0);
+  for (const VertexTriangle &p : pairs) ++count[p.vertex + 1];
+  for (size_t v = 0; v < node_count_; ++v) count[v + 1] += count[v];
+  buffers.sorted.resize(pairs.size());
+  for (const VertexTriangle &p : pairs) buffers.sorted[count[p.vertex]++] = p;
+  std::copy(buffers.sorted.begin(), buffers.sorted.end(), pairs.begin());
   auto first = pairs.begin();
-  for (const uint32_t end : count_) {
+  for (const uint32_t end : count) {
     const auto last = pairs.begin() + end;
     std::sort(first, last, [](const VertexTriangle &p, const VertexTriangle &q) {
       return p.triangle < q.triangle;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/types.h"
+#include "base/workers.h"
 
 namespace mvs::core {
 
@@ -29,17 +30,21 @@ struct CandidateLists {
 class CandidateSorter {
  public:
   explicit CandidateSorter(size_t node_count) : node_count_(node_count) {
-    count_.reserve(node_count + 1);
+    contact_.count.reserve(node_count + 1);
   }
-  void reserve(size_t pairs) { sorted_.reserve(pairs); }
-  void sort(CandidateLists &lists);
+  void reserve(size_t pairs) { contact_.sorted.reserve(pairs); }
+  // Nullable `workers` sort the three lists at the same time.
+  void sort(CandidateLists &lists, Workers *workers = nullptr);
 
  private:
-  void sort(std::vector<VertexTriangle> &pairs);
+  struct Buffers {
+    std::vector<VertexTriangle> sorted;
+    std::vector<uint32_t> count;  // where the pairs of each vertex end
+  };
+  void sort(std::vector<VertexTriangle> &pairs, Buffers &buffers) const;
 
   size_t node_count_;
-  std::vector<VertexTriangle> sorted_;
-  std::vector<uint32_t> count_;  // where the pairs of each vertex end
+  Buffers contact_, barrier_;  // barrier_: of a thread of its own
 };
 
 }  // namespace mvs::core

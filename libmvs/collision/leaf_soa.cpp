@@ -146,8 +146,17 @@ void LeafSoA::set_motion(const std::vector<Vec3> &from, const std::vector<Vec3> 
   }
 }
 
-const std::vector<SweptAabbF> &LeafSoA::update_all() {
-  for (uint32_t leaf = 0; leaf < box_.size(); ++leaf) update(leaf);
+const std::vector<SweptAabbF> &LeafSoA::update_all(Workers *workers) {
+  const auto update_part = [&](uint32_t part, uint32_t parts) {
+    const uint32_t end = begin_of_part(part + 1, parts, box_.size());
+    for (uint32_t leaf = begin_of_part(part, parts, box_.size()); leaf < end; ++leaf) update(leaf);
+  };
+  if (workers == nullptr) {
+    update_part(0, 1);
+  } else {
+    const uint32_t parts = 2 * workers->width();
+    workers->parallel_for(parts, [&](uint32_t part) { update_part(part, parts); });
+  }
   return box_;
 }
 

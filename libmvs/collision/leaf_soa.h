@@ -4,6 +4,7 @@
 // others.
 #pragma once
 
+#include "base/workers.h"
 #include "collision/leaf_parts.h"
 #include "geometry/bvh.h"
 #include "model/model.h"
@@ -53,8 +54,8 @@ class LeafSoA {
   void update(uint32_t leaf) {
     if (updated_[leaf] != motion_count_) update_leaf(leaf);
   }
-  // Updates all leaves, and returns their boxes.
-  const std::vector<SweptAabbF> &update_all();
+  // Updates all leaves, and returns their boxes. Nullable `workers` share the work.
+  const std::vector<SweptAabbF> &update_all(Workers *workers = nullptr);
   // Returns the boxes of all leaves, without those of their parts.
   const std::vector<SweptAabbF> &update_boxes();
   const SweptAabbF &box_of(uint32_t leaf) const { return box_[leaf]; }

@@ -74,17 +74,36 @@ double energy_of(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)
   return sum;
 }
 
+void energies_of(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
+                 size_t first, size_t last, double *to) {
+  for (size_t k = first; k < last; ++k) {
+    const ContactPair &s = contact_pairs[k];
+    to[k] = s.strength * s.range * curve(s.gap() / s.range).value;
+  }
+}
+
 double add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
                     std::vector<Vec3> &g) {
-  double sum = 0;
-  for (const ContactPair &s : contact_pairs) {
-    const Barrier b = curve(s.gap() / s.range);
-    sum += s.strength * s.range * b.value;
-    const Vec3 f = s.strength * b.first * s.normal;
-    for (uint32_t k = 0; k < s.count; ++k) g[s.node[k]] += s.weight[k] * f;
-  }
-  return sum;
+  WholeGradient to{g};
+  add_gradient(contact_pairs, curve, to);
+  return to.energy;
 }
+
+template <typename Gradient>
+void add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
+                  Gradient &to) {
+  for (const ContactPair &s : contact_pairs) {
+    if (!to.takes(s.nodes())) continue;
+    const Barrier b = curve(s.gap() / s.range);
+    to.add_energy(static_cast<size_t>(&s - contact_pairs.data()), s.node[0],
+                  s.strength * s.range * b.value);
+    const Vec3 f = s.strength * b.first * s.normal;
+    for (uint32_t k = 0; k < s.count; ++k) to.add(s.node[k], s.weight[k] * f);
+  }
+}
+
+template void add_gradient(const std::vector<ContactPair> &, Barrier (*)(double), WholeGradient &);
+template void add_gradient(const std::vector<ContactPair> &, Barrier (*)(double), PartGradient &);
 
 namespace {
 
@@ -141,10 +160,12 @@ class ContactPairHessian {
 
 }  // namespace
 
+template <typename System>
 bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
-                 const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) {
+                 const std::vector<Vec3> &x, Curvature curvature, System &system) {
   bool complete = true;
   for (const ContactPair &s : contact_pairs) {
+    if (!system.takes(s.nodes())) continue;
     const Barrier b = curve(s.gap() / s.range);
     const double second = s.strength / s.range * b.second;
     const bool exact = curvature == Curvature::exact;
@@ -159,6 +180,11 @@ bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)
   }
   return complete;
 }
+
+template bool add_hessian(const std::vector<ContactPair> &, Barrier (*)(double),
+                          const std::vector<Vec3> &, Curvature, HessianAssembler &);
+template bool add_hessian(const std::vector<ContactPair> &, Barrier (*)(double),
+                          const std::vector<Vec3> &, Curvature, HessianPart &);
 
 void add_pairs(const std::vector<ContactPair> &contact_pairs, std::vector<Edge> &pairs) {
   for (const ContactPair &s : contact_pairs) {

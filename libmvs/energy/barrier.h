@@ -3,6 +3,7 @@
 // radius) / range).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "energy/hessian_assembler.h"
@@ -34,6 +35,7 @@ struct ContactPair {
   double radius = 0;  // m, of the instrument; 0 between parts of the sheet
 
   double gap() const { return distance - radius; }
+  std::span<const uint32_t> nodes() const { return {node.data(), count}; }
 };
 
 // Pairs without distance, range and strength. The nodes of the second feature follow the first.
@@ -49,11 +51,20 @@ bool measure(const std::vector<Vec3> &x, ContactPair &s);
 
 // Sums over contact pairs, at the positions where they were measured.
 double energy_of(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double));
+// The energies of pairs first .. last.
+void energies_of(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
+                 size_t first, size_t last, double *to);
 double add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
                     std::vector<Vec3> &g);
-// Returns false if the pattern lacks a block; add_pairs() returns the pairs of nodes it needs.
+// To a WholeGradient or a PartGradient.
+template <typename Gradient>
+void add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
+                  Gradient &to);
+// Adds to a HessianAssembler or a HessianPart. Returns false if the pattern lacks a block;
+// add_pairs() returns the pairs of nodes it needs.
+template <typename System>
 bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
-                 const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system);
+                 const std::vector<Vec3> &x, Curvature curvature, System &system);
 void add_pairs(const std::vector<ContactPair> &contact_pairs, std::vector<Edge> &pairs);
 
 }  // namespace mvs::core

@@ -158,38 +158,70 @@ double BendingTerm::energy(const std::vector<Vec3> &x) const {
   return sum;
 }
 
-double BendingTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
-  double sum = 0;
-  for (size_t first = 0; first < hinges_.size(); first += hinges_per_batch) {
-    sum += gradient_of(first, std::min(first + hinges_per_batch, hinges_.size()), x, g);
-  }
-  return sum;
-}
-
-double BendingTerm::gradient_of(size_t first, size_t last, const std::vector<Vec3> &x,
-                                std::vector<Vec3> &g) const {
-  std::array<double, hinges_per_batch> sine{}, cosine{}, angle{};
-  std::array<Slope, hinges_per_batch> slope;
-  for (size_t k = first; k < last; ++k) {
-    const auto &node = hinges_[k].node;
-    const Fold fold(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
-    sine[k - first] = fold.sine();
-    cosine[k - first] = fold.cosine();
-    fold.slopes(slope[k - first]);
-  }
-  atan2_batch(sine.data(), cosine.data(), angle.data(), last - first);
-  double sum = 0;
+void BendingTerm::energies(const std::vector<Vec3> &x, size_t first, size_t last,
+                           double *to) const {
   for (size_t k = first; k < last; ++k) {
     const Hinge &h = hinges_[k];
-    const double bent = wrap(angle[k - first] - h.rest_angle), moment = h.stiffness * bent;
-    sum += 0.5 * moment * bent;
-    for (uint32_t c = 0; c < 4; ++c) g[h.node[c]] += moment * slope[k - first].node(c);
+    const double bent =
+        wrap(hinge_angle(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]) - h.rest_angle);
+    to[k] = 0.5 * h.stiffness * bent * bent;
+  }
+}
+
+double BendingTerm::sum_by_batches(const double *energies) const {
+  double sum = 0;
+  for (size_t first = 0; first < hinges_.size(); first += hinges_per_batch) {
+    double of_batch = 0;
+    const size_t last = std::min(first + hinges_per_batch, hinges_.size());
+    for (size_t k = first; k < last; ++k) of_batch += energies[k];
+    sum += of_batch;
   }
   return sum;
 }
 
-void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
-                          HessianAssembler &system) const {
+double BendingTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+  WholeGradient to{g};
+  add_gradient(x, to);
+  return to.energy;
+}
+
+template <typename Gradient>
+void BendingTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
+  std::array<uint32_t, hinges_per_batch> taken;
+  for (uint32_t k = 0; k < hinges_.size();) {
+    size_t count = 0;
+    for (; k < hinges_.size() && count < hinges_per_batch; ++k) {
+      if (to.takes(hinges_[k].node)) taken[count++] = k;
+    }
+    Gradient of_batch = to.begin_batch();
+    add_batch(taken.data(), count, x, of_batch);
+    to.end_batch(of_batch);
+  }
+}
+
+template <typename Gradient>
+void BendingTerm::add_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
+                            Gradient &to) const {
+  std::array<double, hinges_per_batch> sine{}, cosine{}, angle{};
+  std::array<Slope, hinges_per_batch> slope;
+  for (size_t k = 0; k < count; ++k) {
+    const auto &node = hinges_[hinge[k]].node;
+    const Fold fold(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
+    sine[k] = fold.sine();
+    cosine[k] = fold.cosine();
+    fold.slopes(slope[k]);
+  }
+  atan2_batch(sine.data(), cosine.data(), angle.data(), count);
+  for (size_t k = 0; k < count; ++k) {
+    const Hinge &h = hinges_[hinge[k]];
+    const double bent = wrap(angle[k] - h.rest_angle), moment = h.stiffness * bent;
+    to.add_energy(hinge[k], h.node[0], 0.5 * moment * bent);
+    for (uint32_t c = 0; c < 4; ++c) to.add(h.node[c], moment * slope[k].node(c));
+  }
+}
+
+template <typename System>
+void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
   if (curvature == Curvature::exact) {
     add_exact(x, system);
   } else {
@@ -197,10 +229,12 @@ void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
   }
 }
 
-void BendingTerm::add_exact(const std::vector<Vec3> &x, HessianAssembler &system) const {
+template <typename System>
+void BendingTerm::add_exact(const std::vector<Vec3> &x, System &system) const {
   Hessian exact;
-  size_t pair = 0;
   for (const Hinge &h : hinges_) {
+    if (!system.takes(h.node)) continue;
+    size_t pair = 6 * static_cast<size_t>(&h - hinges_.data());
     const Vec3 &x0 = x[h.node[0]], &x1 = x[h.node[1]], &x2 = x[h.node[2]], &x3 = x[h.node[3]];
     const Parts p = parts_of(x0, x1, x2, x3);
     const double moment = h.stiffness * wrap(hinge_angle(x0, x1, x2, x3) - h.rest_angle);
@@ -221,13 +255,14 @@ void BendingTerm::add_exact(const std::vector<Vec3> &x, HessianAssembler &system
   }
 }
 
-void BendingTerm::add_projected(const std::vector<Vec3> &x, HessianAssembler &system) const {
+template <typename System>
+void BendingTerm::add_projected(const std::vector<Vec3> &x, System &system) const {
   Slope slope;
-  size_t pair = 0;
   for (const Hinge &h : hinges_) {
+    if (!system.takes(h.node)) continue;
     Fold(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]).slopes(slope);
+    const size_t pair = 6 * static_cast<size_t>(&h - hinges_.data());
     system.add_outer_product(pair, h.node, slope, h.stiffness);
-    pair += 6;
   }
 }
 
@@ -238,5 +273,10 @@ void BendingTerm::add_pairs(std::vector<Edge> &pairs) const {
     }
   }
 }
+
+template void BendingTerm::add_gradient(const std::vector<Vec3> &, WholeGradient &) const;
+template void BendingTerm::add_gradient(const std::vector<Vec3> &, PartGradient &) const;
+template void BendingTerm::hessian(const std::vector<Vec3> &, Curvature, HessianAssembler &) const;
+template void BendingTerm::hessian(const std::vector<Vec3> &, Curvature, HessianPart &) const;
 
 }  // namespace mvs::core

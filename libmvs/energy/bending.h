@@ -29,7 +29,17 @@ class BendingTerm {
   bool empty() const { return hinges_.empty(); }
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  void hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
+  // To a WholeGradient or a PartGradient.
+  template <typename Gradient>
+  void add_gradient(const std::vector<Vec3> &x, Gradient &to) const;
+  // Adds to a HessianAssembler or a HessianPart.
+  template <typename System>
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  // Elements, and the energies of elements first .. last.
+  size_t size() const { return hinges_.size(); }
+  void energies(const std::vector<Vec3> &x, size_t first, size_t last, double *to) const;
+  // The sum of energies of all elements in the order of gradient(), by batches.
+  double sum_by_batches(const double *energies) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:
@@ -38,10 +48,13 @@ class BendingTerm {
     double stiffness;              // N m
     double rest_angle;             // rad
   };
-  double gradient_of(size_t first, size_t last, const std::vector<Vec3> &x,
-                     std::vector<Vec3> &g) const;
-  void add_exact(const std::vector<Vec3> &x, HessianAssembler &system) const;
-  void add_projected(const std::vector<Vec3> &x, HessianAssembler &system) const;
+  template <typename Gradient>
+  void add_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
+                 Gradient &to) const;
+  template <typename System>
+  void add_exact(const std::vector<Vec3> &x, System &system) const;
+  template <typename System>
+  void add_projected(const std::vector<Vec3> &x, System &system) const;
 
   std::vector<Hinge> hinges_;
 };

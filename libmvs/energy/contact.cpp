@@ -2,6 +2,18 @@
 #include "energy/contact.h"
 
 namespace mvs::core {
+namespace {
+
+// Kinds of candidates: contact, barrier, barrier of edges.
+constexpr uint32_t kinds = 3;
+// Microseconds for one, about.
+constexpr double candidate_us = 0.05;
+
+void finish(const std::vector<Vec3> &x, ContactPair s, std::vector<ContactPair> &pairs) {
+  if (measure(x, s)) pairs.push_back(s);
+}
+
+}  // namespace
 
 ContactTerm::ContactTerm(const Model &model, ContactLaw law)
     : model_(&model),
@@ -11,12 +23,7 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
       curve_(law == ContactLaw::barrier ? barrier : penalty) {
   // more pairs than a closed valve has, so that a live step seldom allocates
   contact_pairs_.reserve(model.node_count());
-  edges_.touched.reserve(256);
-  corners_.touched.reserve(256);
-  edges_.count.assign(model.topology.edges.size(), 0);
-  edges_.seen.assign(model.topology.edges.size(), 0);
-  corners_.count.assign(model.node_count(), 0);
-  corners_.seen.assign(model.node_count(), 0);
+  make_room(collected_);
   for (const Edge &triangles : model.topology.edge_triangles) {
     double area = 0;
     for (const uint32_t t : triangles) area += t == none ? 0 : model.rest_area[t] / 3;
@@ -31,22 +38,82 @@ ContactTerm::ContactTerm(const Model &model, ContactLaw law)
   }
 }
 
-void ContactTerm::collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase) {
+void ContactTerm::make_room(Collected &to) const {
+  to.edges.touched.reserve(256);
+  to.corners.touched.reserve(256);
+  to.edges.count.assign(model_->topology.edges.size(), 0);
+  to.edges.seen.assign(model_->topology.edges.size(), 0);
+  to.corners.count.assign(model_->node_count(), 0);
+  to.corners.seen.assign(model_->node_count(), 0);
+}
+
+void ContactTerm::collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase,
+                          Workers *workers) {
+  const size_t candidates = broad_phase.contact_candidates().size() +
+                            broad_phase.barrier_candidates().size() +
+                            broad_phase.barrier_edge_candidates().size();
+  if (pay_for(workers, candidate_us * static_cast<double>(candidates))) {
+    collect_together(x, broad_phase, *workers);
+    return;
+  }
+  collected_.pairs.swap(contact_pairs_);
+  collected_.pairs.clear();
+  for (uint32_t kind = 0; kind < kinds; ++kind) {
+    collect_part(x, broad_phase, kind, kinds, collected_);
+  }
+  collected_.pairs.swap(contact_pairs_);
+}
+
+// The parts of successive candidates, joined in their order.
+void ContactTerm::collect_together(const std::vector<Vec3> &x, const BroadPhase &broad_phase,
+                                   Workers &workers) {
+  const uint32_t parts = kinds * 2 * workers.width();
+  while (parts_.size() < parts) make_room(parts_.emplace_back());
+  workers.parallel_for(parts, [&](uint32_t part) {
+    parts_[part].pairs.clear();
+    collect_part(x, broad_phase, part, parts, parts_[part]);
+  });
   contact_pairs_.clear();
-  const auto &list = broad_phase.contact_candidates();
-  for (size_t first = 0; first < list.size();) {
-    size_t last = first;
-    while (last < list.size() && list[last].vertex == list[first].vertex) ++last;
-    collect_vertex(x, list.data() + first, list.data() + last);
-    first = last;
+  for (uint32_t part = 0; part < parts; ++part) {
+    const auto &pairs = parts_[part].pairs;
+    contact_pairs_.insert(contact_pairs_.end(), pairs.begin(), pairs.end());
+  }
+}
+
+// A third of the parts has the candidates of each kind. All candidates of a vertex belong to the
+// part of the first one.
+void ContactTerm::collect_part(const std::vector<Vec3> &x, const BroadPhase &broad_phase,
+                               uint32_t part, uint32_t parts, Collected &to) const {
+  const uint32_t slices = parts / kinds, slice = part % slices;
+  if (part < slices) {
+    const auto &list = broad_phase.contact_candidates();
+    const auto begin_of = [&](uint32_t k) {
+      size_t begin = begin_of_part(k, slices, list.size());
+      while (begin > 0 && begin < list.size() && list[begin].vertex == list[begin - 1].vertex) {
+        ++begin;
+      }
+      return begin;
+    };
+    for (size_t first = begin_of(slice), end = begin_of(slice + 1); first < end;) {
+      size_t last = first;
+      while (last < list.size() && list[last].vertex == list[first].vertex) ++last;
+      collect_vertex(x, list.data() + first, list.data() + last, to);
+      first = last;
+    }
+    return;
   }
   if (law_ == ContactLaw::penalty) return;
-  for (const VertexTriangle &pair : broad_phase.barrier_candidates()) {
-    const double strength = 0.5 * stiffness_ * model_->vertex_area[pair.vertex];
-    add_vertex_triangle(x, pair.vertex, model_->valve.triangles[pair.triangle], pair.range,
-                        strength, true);
+  const auto for_slice = [&](const auto &list, const auto &use) {
+    const size_t end = begin_of_part(slice + 1, slices, list.size());
+    for (size_t k = begin_of_part(slice, slices, list.size()); k < end; ++k) use(list[k]);
+  };
+  if (part < 2 * slices) {
+    for_slice(broad_phase.barrier_candidates(),
+              [&](const VertexTriangle &pair) { add_vertex_triangle(x, pair, to); });
+  } else {
+    for_slice(broad_phase.barrier_edge_candidates(),
+              [&](const EdgeEdge &pair) { add_barrier(x, pair, to); });
   }
-  for (const EdgeEdge &pair : broad_phase.barrier_edge_candidates()) add_barrier(x, pair);
 }
 
 bool ContactTerm::Tally::meet(uint32_t index) {
@@ -67,82 +134,82 @@ void ContactTerm::Tally::clear() {
 // Adds the pairs of one vertex. Triangles whose closest point is inside are added at once; edges
 // and corners are counted first.
 void ContactTerm::collect_vertex(const std::vector<Vec3> &x, const VertexTriangle *first,
-                                 const VertexTriangle *last) {
-  for (const VertexTriangle *c = first; c != last; ++c) tally(x, c->vertex, c->triangle);
-  if (!corners_.touched.empty()) add_tallied(x, first->vertex);
+                                 const VertexTriangle *last, Collected &to) const {
+  for (const VertexTriangle *c = first; c != last; ++c) tally(x, c->vertex, c->triangle, to);
+  if (!to.corners.touched.empty()) add_tallied(x, first->vertex, to);
 }
 
-void ContactTerm::tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangle) {
+void ContactTerm::tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangle,
+                        Collected &to) const {
   const Tri &t = model_->valve.triangles[triangle];
   const TrianglePoint p = closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]);
   if (p.distance2 >= thickness_ * thickness_) return;
   const Tri &edges = model_->topology.triangle_edges[triangle];
   // each edge and corner of the surface counts once, for any number of its triangles
   for (const uint32_t k : t) {
-    if (corners_.meet(k)) corners_.count[k] += corner_share_[k];
+    if (to.corners.meet(k)) to.corners.count[k] += corner_share_[k];
   }
   for (const uint32_t e : edges) {
-    if (edges_.meet(e)) edges_.count[e] += edge_share_[e];
+    if (to.edges.meet(e)) to.edges.count[e] += edge_share_[e];
   }
   if (p.feature < 3) {
-    ++corners_.count[t[p.feature]];
+    ++to.corners.count[t[p.feature]];
   } else if (p.feature < 6) {
-    ++edges_.count[edges[p.feature - 3]];
+    ++to.edges.count[edges[p.feature - 3]];
   } else {
     ContactPair s = point_face(v, t, p.weight);
     s.range = thickness_;
     s.strength = 0.5 * stiffness_ * model_->vertex_area[v];
-    finish(x, s);
+    finish(x, s, to.pairs);
   }
 }
 
-void ContactTerm::add_tallied(const std::vector<Vec3> &x, uint32_t v) {
+void ContactTerm::add_tallied(const std::vector<Vec3> &x, uint32_t v, Collected &to) const {
   const double strength = 0.5 * stiffness_ * model_->vertex_area[v];
-  for (const uint32_t index : edges_.touched) {
+  for (const uint32_t index : to.edges.touched) {
     const Edge &e = model_->topology.edges[index];
     const double s = closest_on_segment(x[v], x[e[0]], x[e[1]]).s;
     if (!(s > 0 && s < 1)) {
-      corners_.count[e[s > 0 ? 1 : 0]] += edges_.count[index];
+      to.corners.count[e[s > 0 ? 1 : 0]] += to.edges.count[index];
       continue;
     }
-    if (edges_.count[index] == 0) continue;
+    if (to.edges.count[index] == 0) continue;
     ContactPair contact_pair = point_edge(v, e[0], e[1], s);
     contact_pair.range = thickness_;
-    contact_pair.strength = strength * edges_.count[index];
-    finish(x, contact_pair);
+    contact_pair.strength = strength * to.edges.count[index];
+    finish(x, contact_pair, to.pairs);
   }
-  for (const uint32_t corner : corners_.touched) {
-    if (corners_.count[corner] == 0) continue;
+  for (const uint32_t corner : to.corners.touched) {
+    if (to.corners.count[corner] == 0) continue;
     ContactPair contact_pair = point_point(v, corner);
     contact_pair.range = thickness_;
-    contact_pair.strength = strength * corners_.count[corner];
-    finish(x, contact_pair);
+    contact_pair.strength = strength * to.corners.count[corner];
+    finish(x, contact_pair, to.pairs);
   }
-  edges_.clear();
-  corners_.clear();
+  to.edges.clear();
+  to.corners.clear();
 }
 
-void ContactTerm::add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t,
-                                      double range, double strength, bool is_barrier) {
-  ContactPair s = vertex_triangle(v, t, closest_on_triangle(x[v], x[t[0]], x[t[1]], x[t[2]]));
-  s.range = range;
-  s.strength = strength;
-  s.is_barrier = is_barrier;
-  finish(x, s);
+void ContactTerm::add_vertex_triangle(const std::vector<Vec3> &x, const VertexTriangle &pair,
+                                      Collected &to) const {
+  const Tri &t = model_->valve.triangles[pair.triangle];
+  const TrianglePoint p = closest_on_triangle(x[pair.vertex], x[t[0]], x[t[1]], x[t[2]]);
+  ContactPair s = vertex_triangle(pair.vertex, t, p);
+  s.range = pair.range;
+  s.strength = 0.5 * stiffness_ * model_->vertex_area[pair.vertex];
+  s.is_barrier = true;
+  finish(x, s, to.pairs);
 }
 
-void ContactTerm::add_barrier(const std::vector<Vec3> &x, const EdgeEdge &pair) {
+void ContactTerm::add_barrier(const std::vector<Vec3> &x, const EdgeEdge &pair,
+                              Collected &to) const {
   const Edge &e = model_->topology.edges[pair.first], &f = model_->topology.edges[pair.second];
   const SegmentPair p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
   if (p.distance2 >= pair.range * pair.range) return;
   ContactPair s = edge_edge(e, f, p);
   s.range = pair.range;
   s.strength = 0.25 * stiffness_ * (edge_area_[pair.first] + edge_area_[pair.second]);
-  finish(x, s);
-}
-
-void ContactTerm::finish(const std::vector<Vec3> &x, ContactPair s) {
-  if (measure(x, s)) contact_pairs_.push_back(s);
+  finish(x, s, to.pairs);
 }
 
 double ContactTerm::energy() const {
@@ -150,12 +217,7 @@ double ContactTerm::energy() const {
 }
 
 double ContactTerm::gradient(std::vector<Vec3> &g) const {
-  return add_gradient(contact_pairs_, curve_, g);
-}
-
-bool ContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
-                          HessianAssembler &system) const {
-  return add_hessian(contact_pairs_, curve_, x, curvature, system);
+  return mvs::core::add_gradient(contact_pairs_, curve_, g);
 }
 
 void ContactTerm::add_pairs(std::vector<Edge> &pairs) const {

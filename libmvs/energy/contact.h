@@ -21,6 +21,7 @@
 
 #include <vector>
 
+#include "base/workers.h"
 #include "collision/broad_phase.h"
 #include "collision/contact_params.h"
 #include "energy/barrier.h"
@@ -36,15 +37,29 @@ class ContactTerm {
  public:
   explicit ContactTerm(const Model &model, ContactLaw law = ContactLaw::barrier);
 
-  // Measures the contact pairs at x; `broad_phase` must be valid there.
-  void collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase);
+  // Measures the contact pairs at x; `broad_phase` must be valid there. Nullable `workers` share
+  // the work.
+  void collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase,
+               Workers *workers = nullptr);
   const std::vector<ContactPair> &contact_pairs() const { return contact_pairs_; }
 
   // All three refer to the last collect().
   double energy() const;
   double gradient(std::vector<Vec3> &g) const;
+  template <typename Gradient>
+  void add_gradient(Gradient &to) const {
+    mvs::core::add_gradient(contact_pairs_, curve_, to);
+  }
   // Returns false if the pattern lacks a block; add_pairs() returns the pairs of nodes it needs.
-  bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
+  template <typename System>
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+    return add_hessian(contact_pairs_, curve_, x, curvature, system);
+  }
+  // Elements, and the energies of elements first .. last.
+  size_t size() const { return contact_pairs_.size(); }
+  void energies(size_t first, size_t last, double *to) const {
+    energies_of(contact_pairs_, curve_, first, last, to);
+  }
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:
@@ -56,14 +71,23 @@ class ContactTerm {
     bool meet(uint32_t index);  // returns true the first time
     void clear();
   };
+  // Pairs of successive candidates, and the counts that their collection needs.
+  struct Collected {
+    Tally edges, corners;
+    std::vector<ContactPair> pairs;
+  };
+  void make_room(Collected &to) const;
+  void collect_part(const std::vector<Vec3> &x, const BroadPhase &broad_phase, uint32_t part,
+                    uint32_t parts, Collected &to) const;
+  void collect_together(const std::vector<Vec3> &x, const BroadPhase &broad_phase,
+                        Workers &workers);
   void collect_vertex(const std::vector<Vec3> &x, const VertexTriangle *first,
-                      const VertexTriangle *last);
-  void tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangle);
-  void add_tallied(const std::vector<Vec3> &x, uint32_t v);
-  void add_barrier(const std::vector<Vec3> &x, const EdgeEdge &pair);
-  void add_vertex_triangle(const std::vector<Vec3> &x, uint32_t v, const Tri &t, double range,
-                           double strength, bool is_barrier);
-  void finish(const std::vector<Vec3> &x, ContactPair s);
+                      const VertexTriangle *last, Collected &to) const;
+  void tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangle, Collected &to) const;
+  void add_tallied(const std::vector<Vec3> &x, uint32_t v, Collected &to) const;
+  void add_barrier(const std::vector<Vec3> &x, const EdgeEdge &pair, Collected &to) const;
+  void add_vertex_triangle(const std::vector<Vec3> &x, const VertexTriangle &pair,
+                           Collected &to) const;
 
   const Model *model_;
   double thickness_, stiffness_;
@@ -71,7 +95,8 @@ class ContactTerm {
   Barrier (*curve_)(double);
   std::vector<double> edge_area_;
   std::vector<int> edge_share_, corner_share_;  // c_p: -1 and +1 inside the sheet, 0 on its rims
-  Tally edges_, corners_;
+  Collected collected_;
+  std::vector<Collected> parts_;  // of several threads
   std::vector<ContactPair> contact_pairs_;
 };
 

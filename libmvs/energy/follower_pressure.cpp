@@ -45,13 +45,12 @@ void FollowerPressureTerm::freeze(const std::vector<Vec3> &x) {
   }
 }
 
-double FollowerPressureTerm::energy(const std::vector<Vec3> &x) const {
-  if (empty()) return 0;
-  double volume = 0;
-  for (const Tri &t : triangles_) {
-    const Vec3 a = x[t[0]] - origin_;
-    volume += a.dot((x[t[1]] - origin_).cross(x[t[2]] - origin_)) / 6;
-  }
+double FollowerPressureTerm::volume_of(const Tri &t, const std::vector<Vec3> &x) const {
+  const Vec3 a = x[t[0]] - origin_;
+  return a.dot((x[t[1]] - origin_).cross(x[t[2]] - origin_)) / 6;
+}
+
+double FollowerPressureTerm::with_edges(double volume, const std::vector<Vec3> &x) const {
   for (size_t k = 0; k < free_edges_.size(); ++k) {
     const auto [a, b] = free_edges_[k];
     volume += frozen_[k].dot(x[a] - origin_ + x[b] - origin_);
@@ -59,21 +58,49 @@ double FollowerPressureTerm::energy(const std::vector<Vec3> &x) const {
   return -pressure_ * volume;
 }
 
-double FollowerPressureTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+double FollowerPressureTerm::energy(const std::vector<Vec3> &x) const {
   if (empty()) return 0;
-  for (const Tri &t : triangles_) {
-    const Vec3 f = (pressure_ / 6) * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-    for (const uint32_t i : t) g[i] -= f;
-  }
+  double volume = 0;
+  for (const Tri &t : triangles_) volume += volume_of(t, x);
+  return with_edges(volume, x);
+}
+
+void FollowerPressureTerm::volumes(const std::vector<Vec3> &x, size_t first, size_t last,
+                                   double *to) const {
+  for (size_t t = first; t < last; ++t) to[t] = volume_of(triangles_[t], x);
+}
+
+double FollowerPressureTerm::energy_of(const std::vector<Vec3> &x, const double *volumes) const {
+  if (empty()) return 0;
+  double volume = 0;
+  for (size_t t = 0; t < triangles_.size(); ++t) volume += volumes[t];
+  return with_edges(volume, x);
+}
+
+double FollowerPressureTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
+  WholeGradient to{g};
+  add_gradient(x, to);
   return energy(x);
+}
+
+template <typename Gradient>
+void FollowerPressureTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
+  if (empty()) return;
+  for (const Tri &t : triangles_) {
+    if (!to.takes(t)) continue;
+    const Vec3 f = (pressure_ / 6) * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    for (const uint32_t i : t) to.subtract(i, f);
+  }
 }
 
 // Force p N / 6 on each corner, N = e2 x (-e1), dN = sum_k [e_k]x dx_k with e_k the edge opposite
 // corner k. The symmetric part for the corners (i, j) of one triangle is
 // -p / 12 [x_i + x_j - 2 x_k]x, and zero on the diagonal.
-void FollowerPressureTerm::hessian(const std::vector<Vec3> &x, HessianAssembler &system) const {
+template <typename System>
+void FollowerPressureTerm::hessian(const std::vector<Vec3> &x, System &system) const {
   if (empty()) return;
   for (const Slope &s : slopes_) {
+    if (!system.takes(Edge{s.i, s.j})) continue;
     const Vec3 arm = s.right == none ? Vec3(x[s.i] + x[s.j] - 2 * x[s.left])
                                      : Vec3(2 * (x[s.right] - x[s.left]));
     system.add(static_cast<size_t>(&s - slopes_.data()), s.i, s.j,
@@ -96,5 +123,10 @@ void FollowerPressureTerm::add_skew(const std::vector<Vec3> &x, const std::vecto
 void FollowerPressureTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const Slope &s : slopes_) pairs.push_back({s.i, s.j});
 }
+
+template void FollowerPressureTerm::add_gradient(const std::vector<Vec3> &, WholeGradient &) const;
+template void FollowerPressureTerm::add_gradient(const std::vector<Vec3> &, PartGradient &) const;
+template void FollowerPressureTerm::hessian(const std::vector<Vec3> &, HessianAssembler &) const;
+template void FollowerPressureTerm::hessian(const std::vector<Vec3> &, HessianPart &) const;
 
 }  // namespace mvs::core

@@ -30,8 +30,17 @@ class FollowerPressureTerm {
   double energy(const std::vector<Vec3> &x) const;
   // Adds minus the follower force; returns energy(x).
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
+  // To a WholeGradient or a PartGradient.
+  template <typename Gradient>
+  void add_gradient(const std::vector<Vec3> &x, Gradient &to) const;
   // Adds the symmetric part of the derivative. It is indefinite and has no projected form.
-  void hessian(const std::vector<Vec3> &x, HessianAssembler &system) const;
+  template <typename System>
+  void hessian(const std::vector<Vec3> &x, System &system) const;
+  // Triangles, the volumes that triangles first .. last enclose with the origin, and the energy
+  // from the volumes of all.
+  size_t size() const { return triangles_.size(); }
+  void volumes(const std::vector<Vec3> &x, size_t first, size_t last, double *to) const;
+  double energy_of(const std::vector<Vec3> &x, const double *volumes) const;
   // Adds to y the skew part of the derivative, which the free edge has, times v.
   void add_skew(const std::vector<Vec3> &x, const std::vector<Vec3> &v, std::vector<Vec3> &y) const;
   void add_pairs(std::vector<Edge> &pairs) const;
@@ -43,6 +52,9 @@ class FollowerPressureTerm {
   struct Slope {
     uint32_t i, j, left, right;  // d2E/dx_i dx_j from the corners opposite edge (i, j)
   };
+  double volume_of(const Tri &t, const std::vector<Vec3> &x) const;
+  double with_edges(double volume, const std::vector<Vec3> &x) const;
+
   std::vector<Tri> triangles_;
   std::vector<FreeEdge> free_edges_;
   std::vector<Slope> slopes_;

@@ -91,12 +91,13 @@ void HessianAssembler::keep_old_rows() {
 }
 
 // Finds the blocks of an outer product. Returns false unless all are in the matrix.
-bool HessianAssembler::find_outer_product(size_t k, const std::array<uint32_t, 4> &nodes,
+bool HessianAssembler::find_outer_product(size_t first, size_t k,
+                                          const std::array<uint32_t, 4> &nodes,
                                           OuterProductTarget &to) {
   if (slots_.empty()) return false;
   std::array<uint32_t, 4> row;
   for (uint32_t a = 0; a < 4; ++a) row[a] = row_of[nodes[a]];
-  const uint32_t *slot = slots_.data() + first_ + k;
+  const uint32_t *slot = slots_.data() + first + k;
   for (uint32_t a = 0, pair = 0; a < 4; ++a) {
     if (row[a] == none) return false;
     to.diagonal[a] = matrix.value[matrix.start[row[a]]].data();
@@ -111,7 +112,76 @@ bool HessianAssembler::find_outer_product(size_t k, const std::array<uint32_t, 4
 void HessianAssembler::add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes,
                                          const Slope &slope, double times) {
   OuterProductTarget to;
-  if (find_outer_product(k, nodes, to)) {
+  if (find_outer_product(first_, k, nodes, to)) {
+    mvs::core::add_outer_product(slope, times, to);
+    return;
+  }
+  for (uint32_t a = 0; a < 4; ++a) {
+    const Vec3 of_a = slope.node(a);
+    add_diagonal(nodes[a], times * (of_a * of_a.transpose()));
+    for (uint32_t b = 0; b < a; ++b, ++k) {
+      add(k, nodes[a], nodes[b], times * (of_a * slope.node(b).transpose()));
+    }
+  }
+}
+
+void HessianPart::clear() {
+  BlockMatrix &m = system_->matrix;
+  for (uint32_t r = 0; r < m.size(); ++r) {
+    if (!part_.has(system_->node_of[r])) continue;
+    for (uint32_t k = m.start[r]; k < m.start[r + 1]; ++k) m.value[k].setZero();
+    system_->boundary_force[r].setZero();
+  }
+}
+
+bool HessianPart::add(uint32_t i, uint32_t j, const Mat3 &block) {
+  const uint32_t r = system_->row_of[i], c = system_->row_of[j];
+  if (r == none || c == none) {
+    couple(i, j, block);
+    return true;
+  }
+  const uint32_t slot = system_->find(r, c);
+  if (slot == none) return false;
+  if (has_column(r, c)) system_->add_at(slot, r > c, block);
+  return true;
+}
+
+void HessianPart::add(size_t k, uint32_t i, uint32_t j, const Mat3 &block) {
+  if (system_->slots_.empty()) {
+    add(i, j, block);
+    return;
+  }
+  const uint32_t slot = system_->slots_[first_ + k];
+  if (slot == none) {
+    couple(i, j, block);
+    return;
+  }
+  const uint32_t r = system_->row_of[i], c = system_->row_of[j];
+  if (has_column(r, c)) system_->add_at(slot, r > c, block);
+}
+
+void HessianPart::couple(uint32_t i, uint32_t j, const Mat3 &block) const {
+  if (system_->boundary_step == nullptr) return;
+  const std::vector<Vec3> &step = *system_->boundary_step;
+  const uint32_t r = system_->row_of[i], c = system_->row_of[j];
+  if (r != none && part_.has(i)) system_->boundary_force[r] -= block * step[j];
+  if (c != none && part_.has(j)) system_->boundary_force[c] -= block.transpose() * step[i];
+}
+
+// Blocks of other parts go to a place that nobody reads.
+void HessianPart::add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes,
+                                    const Slope &slope, double times) {
+  OuterProductTarget to;
+  if (system_->find_outer_product(first_, k, nodes, to)) {
+    std::array<double, 10> aside{};
+    for (uint32_t a = 0, pair = 0; a < 4; ++a) {
+      if (!part_.has(nodes[a])) to.diagonal[a] = aside.data();
+      for (uint32_t b = 0; b < a; ++b, ++pair) {
+        if (!has_column(system_->row_of[nodes[a]], system_->row_of[nodes[b]])) {
+          to.pair[pair] = aside.data();
+        }
+      }
+    }
     mvs::core::add_outer_product(slope, times, to);
     return;
   }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "energy/node_parts.h"
 #include "linalg/block_matrix.h"
 #include "linalg/outer_product.h"
 #include "model/model.h"
@@ -44,6 +45,12 @@ class HessianAssembler {
     return true;
   }
 
+  // Whether an element of these nodes adds blocks: see HessianPart.
+  template <typename Nodes>
+  static constexpr bool takes(const Nodes &) {
+    return true;
+  }
+
   // The index of the first fixed pair of the term that adds blocks next.
   void begin_term(size_t first) { first_ = first; }
   // The same as add(i, j, block) for nodes i and j that are pair `k` of the term, in any order.
@@ -81,6 +88,7 @@ class HessianAssembler {
   std::vector<Vec3> boundary_force;
 
  private:
+  friend class HessianPart;
   uint32_t find(uint32_t r, uint32_t c) const {
     return r > c ? matrix.find(r, c) : matrix.find(c, r);
   }
@@ -91,7 +99,8 @@ class HessianAssembler {
       matrix.value[slot] += block.transpose();
     }
   }
-  bool find_outer_product(size_t k, const std::array<uint32_t, 4> &nodes, OuterProductTarget &to);
+  bool find_outer_product(size_t first, size_t k, const std::array<uint32_t, 4> &nodes,
+                          OuterProductTarget &to);
   std::vector<uint32_t> order_of(const std::vector<uint32_t> &nodes,
                                  const std::vector<Edge> &pairs) const;
   void number_rows(const Model &model, const std::vector<Edge> &pairs);
@@ -112,6 +121,39 @@ class HessianAssembler {
   std::vector<uint32_t> place_;      // of each sorted pair in the matrix
   std::vector<uint32_t> always_of_;  // fixed pair as given -> sorted pair, or none without rows
   std::vector<uint32_t> slots_;      // fixed pair as given -> place in the matrix, or none
+  size_t first_ = 0;
+};
+
+// The blocks that one thread adds: in the columns of the nodes of its part, from all elements that
+// touch such a node, in their order. So each block has the bits of a single thread.
+class HessianPart {
+ public:
+  HessianPart(HessianAssembler &system, NodePart part) : system_(&system), part_(part) {}
+
+  // Sets the blocks and the right-hand side of the part to zero.
+  void clear();
+  template <typename Nodes>
+  bool takes(const Nodes &nodes) const {
+    return part_.has_any(nodes);
+  }
+  // The same as those of the assembler.
+  void begin_term(size_t first) { first_ = first; }
+  bool add(uint32_t i, uint32_t j, const Mat3 &block);
+  void add(size_t k, uint32_t i, uint32_t j, const Mat3 &block);
+  void add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
+                         double times);
+  void add_diagonal(uint32_t i, const Mat3 &block) {
+    if (part_.has(i)) system_->add_diagonal(i, block);
+  }
+
+ private:
+  bool has_column(uint32_t r, uint32_t c) const {
+    return part_.has(system_->node_of[r < c ? r : c]);
+  }
+  void couple(uint32_t i, uint32_t j, const Mat3 &block) const;
+
+  HessianAssembler *system_;
+  NodePart part_;
   size_t first_ = 0;
 };
 

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "base/simd.h"
+
 namespace mvs::core {
 
 // A triangle in its deformed shape.
@@ -64,21 +66,34 @@ double MembraneTerm::energy(const std::vector<Vec3> &x) const {
   return sum;
 }
 
+void MembraneTerm::energies(const std::vector<Vec3> &x, size_t first, size_t last,
+                            double *to) const {
+  for (size_t k = first; k < last; ++k) {
+    to[k] = triangles_[k].volume * deform(triangles_[k], x).response.w;
+  }
+}
+
 double MembraneTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
-  double sum = 0;
+  WholeGradient to{g};
+  add_gradient(x, to);
+  return to.energy;
+}
+
+template <typename Gradient>
+void MembraneTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
   for (const Triangle &t : triangles_) {
+    if (!to.takes(t.nodes)) continue;
     const Deformed d = deform(t, x);
     const InPlane at = in_plane_stress(d.response, d.strain);
-    sum += t.volume * at.w;
+    to.add_energy(static_cast<size_t>(&t - triangles_.data()), t.nodes[0], t.volume * at.w);
     const Vec3 p0 = t.volume * (2 * at.first[0] * d.f0 + at.first[2] * d.f1);
     const Vec3 p1 = t.volume * (2 * at.first[1] * d.f1 + at.first[2] * d.f0);
     const Vec3 g1 = t.inverse(0, 0) * p0 + t.inverse(0, 1) * p1;
     const Vec3 g2 = t.inverse(1, 0) * p0 + t.inverse(1, 1) * p1;
-    g[t.nodes[0]] -= g1 + g2;
-    g[t.nodes[1]] += g1;
-    g[t.nodes[2]] += g2;
+    to.subtract(t.nodes[0], g1 + g2);
+    to.add(t.nodes[1], g1);
+    to.add(t.nodes[2], g2);
   }
-  return sum;
 }
 
 namespace {
@@ -125,16 +140,25 @@ struct Outer {
   }
 };
 
+// The block of corners with weights k and l in F; `form`: of the stress.
+MVS_INLINE Mat3 block_of(const Outer &outer, const Middle &middle, const Mat2 &form,
+                         const double (&k)[2], const double (&l)[2]) {
+  const double stress = k[0] * (form(0, 0) * l[0] + form(0, 1) * l[1]) +
+                        k[1] * (form(1, 0) * l[0] + form(1, 1) * l[1]);
+  return outer.block(middle.between(k, l), stress);
+}
+
 }  // namespace
 
 // A corner k that moves by dx_k moves column p of F by w_kp dx_k, w its weights, so that
 //     d2E / dx_k dx_l = t A sum_pq w_kp w_lq d2W / df_p df_q,
 // and the stress adds (w_k . S w_l) I, S its form. A shift of all three corners changes nothing:
 // that gives the rows of corner 0.
-void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
-                           HessianAssembler &system) const {
-  size_t pair = 0;
+template <typename System>
+void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
   for (const Triangle &t : triangles_) {
+    if (!system.takes(t.nodes)) continue;
+    size_t pair = 3 * static_cast<size_t>(&t - triangles_.data());
     const Deformed d = deform(t, x);
     const InPlane at = in_plane_stiffness(d.response, d.strain);
     const Mat2 form = stress_form(t.volume * at.first, curvature);
@@ -142,12 +166,9 @@ void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
     const Outer outer(d.f0, d.f1);
     const double w1[2] = {t.inverse(0, 0), t.inverse(0, 1)};
     const double w2[2] = {t.inverse(1, 0), t.inverse(1, 1)};
-    const auto block = [&](const double(&k)[2], const double(&l)[2]) -> Mat3 {
-      const double stress = k[0] * (form(0, 0) * l[0] + form(0, 1) * l[1]) +
-                            k[1] * (form(1, 0) * l[0] + form(1, 1) * l[1]);
-      return outer.block(middle.between(k, l), stress);
-    };
-    const Mat3 b11 = block(w1, w1), b12 = block(w1, w2), b22 = block(w2, w2);
+    const Mat3 b11 = block_of(outer, middle, form, w1, w1);
+    const Mat3 b12 = block_of(outer, middle, form, w1, w2);
+    const Mat3 b22 = block_of(outer, middle, form, w2, w2);
     const Mat3 b10 = -(b11 + b12), b20 = -(b12.transpose() + b22);
     system.add_diagonal(t.nodes[0], -(b10 + b20));
     system.add_diagonal(t.nodes[1], b11);
@@ -163,5 +184,10 @@ void MembraneTerm::add_pairs(std::vector<Edge> &pairs) const {
     for (int k = 0; k < 3; ++k) pairs.push_back({t.nodes[k], t.nodes[(k + 1) % 3]});
   }
 }
+
+template void MembraneTerm::add_gradient(const std::vector<Vec3> &, WholeGradient &) const;
+template void MembraneTerm::add_gradient(const std::vector<Vec3> &, PartGradient &) const;
+template void MembraneTerm::hessian(const std::vector<Vec3> &, Curvature, HessianAssembler &) const;
+template void MembraneTerm::hessian(const std::vector<Vec3> &, Curvature, HessianPart &) const;
 
 }  // namespace mvs::core

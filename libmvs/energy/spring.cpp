@@ -37,25 +37,40 @@ double SpringTerm::energy(const std::vector<Vec3> &x) const {
   return sum;
 }
 
+void SpringTerm::energies(const std::vector<Vec3> &x, size_t first, size_t last, double *to) const {
+  for (size_t k = first; k < last; ++k) {
+    const Spring &s = springs_[k];
+    const double e = (x[s.j] - x[s.i]).norm() / s.length - 1;
+    to[k] = s.volume * laws_[s.law].energy(e);
+  }
+}
+
 double SpringTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
-  double sum = 0;
+  WholeGradient to{g};
+  add_gradient(x, to);
+  return to.energy;
+}
+
+template <typename Gradient>
+void SpringTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
   for (const Spring &s : springs_) {
+    if (!to.takes(Edge{s.i, s.j})) continue;
     const Vec3 d = x[s.j] - x[s.i];
     const double length = d.norm();
     const double e = length / s.length - 1;
     const Bilinear &law = laws_[s.law];
-    sum += s.volume * law.energy(e);
+    to.add_energy(static_cast<size_t>(&s - springs_.data()), s.i, s.volume * law.energy(e));
     const double force = s.section * law.stress(e);
     const Vec3 f = (force / length) * d;
-    g[s.i] -= f;
-    g[s.j] += f;
+    to.subtract(s.i, f);
+    to.add(s.j, f);
   }
-  return sum;
 }
 
-void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
-                         HessianAssembler &system) const {
+template <typename System>
+void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
   for (const Spring &s : springs_) {
+    if (!system.takes(Edge{s.i, s.j})) continue;
     const Vec3 d = x[s.j] - x[s.i];
     const double length = d.norm();
     const double e = length / s.length - 1;
@@ -72,5 +87,10 @@ void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
 void SpringTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const Spring &s : springs_) pairs.push_back({s.i, s.j});
 }
+
+template void SpringTerm::add_gradient(const std::vector<Vec3> &, WholeGradient &) const;
+template void SpringTerm::add_gradient(const std::vector<Vec3> &, PartGradient &) const;
+template void SpringTerm::hessian(const std::vector<Vec3> &, Curvature, HessianAssembler &) const;
+template void SpringTerm::hessian(const std::vector<Vec3> &, Curvature, HessianPart &) const;
 
 }  // namespace mvs::core

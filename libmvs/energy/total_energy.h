@@ -14,6 +14,7 @@
 #include "energy/instrument.h"
 #include "energy/membrane.h"
 #include "energy/profile.h"
+#include "energy/shared_terms.h"
 #include "energy/spring.h"
 
 namespace mvs::core {
@@ -21,6 +22,13 @@ namespace mvs::core {
 class TotalEnergy {
  public:
   explicit TotalEnergy(const Model &model, ContactLaw law = ContactLaw::barrier);
+
+  // Threads that may share the work; they outlive this. Null, the default: none. No bit depends on
+  // them.
+  void use_workers(Workers *workers) {
+    shared_.use_workers(workers);
+    broad_phase_.use_workers(workers);
+  }
 
   void set_pressure(double pressure) { pressure_.set_pressure(pressure); }
   // The points of instruments are the last nodes (solve/tools/tool_points.h).
@@ -79,8 +87,11 @@ class TotalEnergy {
   InstrumentTerm &instrument() { return instrument_; }
 
  private:
+  friend class SharedTerms;
   void collect(const std::vector<Vec3> &x);
   bool fill(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system);
+  template <typename System>
+  void fill_sheet(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
 
   const Model *model_;
   SpringTerm spring_;
@@ -96,10 +107,25 @@ class TotalEnergy {
   bool was_near_ = false;    // the broad phase had pairs since begin_call()
   double elastic_ = 0;       // J, of the last sheet_gradient(), without that of the pressure
   std::vector<Edge> pairs_;  // of the terms with a fixed pattern
-  struct {
-    size_t membrane, bending, chord, pressure;
-  } first_;                   // index of the first pair of each; springs begin at 0
-  std::vector<Edge> wanted_;  // pairs of contact, while a pattern is built
+  enum Pairs : size_t { of_membrane, of_bending, of_chord, of_pressure };
+  std::array<size_t, 4> first_{};  // index of the first pair of each; springs begin at 0
+  std::vector<Edge> wanted_;       // pairs of contact, while a pattern is built
+  SharedTerms shared_;
 };
+
+template <typename System>
+void TotalEnergy::fill_sheet(const std::vector<Vec3> &x, Curvature curvature,
+                             System &system) const {
+  system.begin_term(0);
+  spring_.hessian(x, curvature, system);
+  system.begin_term(first_[of_membrane]);
+  membrane_.hessian(x, curvature, system);
+  system.begin_term(first_[of_bending]);
+  bending_.hessian(x, curvature, system);
+  system.begin_term(first_[of_chord]);
+  chord_.hessian(x, curvature, system);
+  system.begin_term(first_[of_pressure]);
+  pressure_.hessian(x, system);
+}
 
 }  // namespace mvs::core

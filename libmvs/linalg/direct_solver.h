@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/workers.h"
 #include "linalg/block_matrix.h"
 
 namespace mvs::core {
@@ -43,6 +44,14 @@ class DirectSolver {
   virtual bool sharpen() { return false; }
   // Iterations of the last solution; 0 for a direct one.
   virtual uint32_t iterations() const { return 0; }
+
+  // Threads that may share the work; they outlive the solver. Null, the default: none. The bits do
+  // not depend on them.
+  virtual void use_workers(Workers *workers) { workers_ = workers; }
+  Workers *workers() const { return workers_; }
+
+ private:
+  Workers *workers_ = nullptr;
 };
 
 // Makes the solver of a backend; throws MVS_E_UNSUPPORTED if this build lacks it.

@@ -23,6 +23,11 @@ class MixedPrecisionCholesky final : public DirectSolver {
   void precondition(std::vector<Vec3> &b) override { (uses_double_ ? double_ : float_)->solve(b); }
   bool sharpen() override { return !uses_double_ && factorise_in_double(); }
   uint32_t iterations() const override { return iterations_; }
+  void use_workers(Workers *workers) override {
+    DirectSolver::use_workers(workers);
+    float_->use_workers(workers);
+    double_->use_workers(workers);
+  }
 
  private:
   bool factorise_in_double();

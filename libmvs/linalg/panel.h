@@ -41,6 +41,24 @@ void update_panel(const PanelUpdate<T> &u);
 template <typename T>
 bool factorise_panel(T *panel, size_t width, size_t height);
 
+// The same in steps for several threads, with the same bits. For each `block` of panel_columns
+// columns, in order: the rows of its square first, then parts of the rows below, in any order and
+// at the same time; after the last block the end. Returns false as factorise_panel() does.
+inline constexpr size_t panel_columns = 48;
+template <typename T>
+bool factorise_square(T *panel, size_t width, size_t height, size_t block);
+// Rows `first` to `last`, multiples of panel_rows, from rows_below() on.
+template <typename T>
+void factorise_rows(T *panel, size_t width, size_t height, size_t block, size_t first, size_t last);
+template <typename T>
+void finish_panel(T *panel, size_t width, size_t height);
+// The first row below the square of a block.
+inline size_t rows_below(size_t block, size_t width, size_t height) {
+  const size_t end = block + panel_columns < width ? block + panel_columns : width;
+  const size_t row = (end + panel_rows - 1) / panel_rows * panel_rows;
+  return row < height ? row : height;
+}
+
 // Both work on the rows of a factorised panel, whose width is a multiple of 3. The first rows of x
 // become L^-1 x, and their products with the rows below are subtracted from the rest. The panel may
 // be read, and x written, up to panel_slack numbers past its end.

@@ -5,10 +5,10 @@
 
 namespace mvs::core {
 
-SettleSlices::SettleSlices(Backend backend, SnapshotPtr before, State state,
+SettleSlices::SettleSlices(Backend backend, Workers *workers, SnapshotPtr before, State state,
                            std::vector<RecordedEvent> hands, const SolveOptions &how,
                            const Progress &host)
-    : solver_(backend),
+    : solver_(backend, workers),
       before_(std::move(before)),
       state_(std::move(state)),
       hands_(std::move(hands)),

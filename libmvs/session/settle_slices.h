@@ -12,9 +12,9 @@ namespace mvs::core {
 
 class SettleSlices {
  public:
-  // `state`: of `before`, after the moves of the hands, which are `hands`.
-  SettleSlices(Backend backend, SnapshotPtr before, State state, std::vector<RecordedEvent> hands,
-               const SolveOptions &how, const Progress &host);
+  // `state`: of `before`, after the moves of the hands, which are `hands`. `workers`: nullable.
+  SettleSlices(Backend backend, Workers *workers, SnapshotPtr before, State state,
+               std::vector<RecordedEvent> hands, const SolveOptions &how, const Progress &host);
   SettleSlices(const SettleSlices &) = delete;
   SettleSlices &operator=(const SettleSlices &) = delete;
 

@@ -10,6 +10,22 @@
 
 using namespace mvs::core;
 
+namespace {
+
+std::unique_ptr<Workers> make_workers(const mvs_sim_desc &desc) {
+  if (desc.run_tasks) {
+    return std::make_unique<Workers>(HostPool{desc.pool_width, desc.run_tasks, desc.user});
+  }
+  return desc.workers > 1 ? std::make_unique<Workers>(desc.workers) : nullptr;
+}
+
+}  // namespace
+
+mvs_sim::mvs_sim(const mvs_sim_desc &desc_in)
+    : desc(desc_in),
+      workers(make_workers(desc)),
+      solver(static_cast<Backend>(desc.backend), workers.get()) {}
+
 SnapshotPtr mvs_sim::present() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   must_have_valve();

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/workers.h"
 #include "formats/file/journal.h"
 #include "session/hand_targets.h"
 #include "session/recorded_event.h"
@@ -20,8 +21,7 @@
 // step copies nothing: it works in a second state buffer, swaps it with the present state on
 // success, and a snapshot is built only on demand.
 struct mvs_sim {
-  explicit mvs_sim(const mvs_sim_desc &desc_in)
-      : desc(desc_in), solver(static_cast<mvs::core::Backend>(desc_in.backend)) {}
+  explicit mvs_sim(const mvs_sim_desc &desc_in);
 
   // Returns the present snapshot, from any thread; throws MVS_E_STATE before a valve is set.
   mvs::core::SnapshotPtr present() const;
@@ -41,6 +41,7 @@ struct mvs_sim {
   mvs::core::Progress progress() const;
 
   const mvs_sim_desc desc;
+  std::unique_ptr<mvs::core::Workers> workers;  // null: the calling thread alone
   mvs::core::Solver solver;
   std::optional<mvs::core::SolveStats> stats;
   mvs::core::Group group;                       // number 0: no group is open

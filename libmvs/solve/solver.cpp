@@ -113,12 +113,15 @@ double SolveOptions::tolerance() const {
 
 // The solvers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
-  explicit Work(Backend backend_in) : backend(backend_in), factor(make_newton_factor(backend)) {}
+  Work(Backend backend_in, Workers *workers_in)
+      : backend(backend_in), workers(workers_in), factor(make_newton_factor(backend)) {
+    factor->use_workers(workers);
+  }
 
   ImplicitEuler &implicit_for(const Model &model) {
     if (implicit_model != model.serial) implicit.reset();
     implicit_model = model.serial;
-    if (!implicit) implicit.emplace(model, backend);
+    if (!implicit) implicit.emplace(model, backend, workers);
     return *implicit;
   }
   ExplicitEuler &explicit_for(const Model &model) {
@@ -129,6 +132,7 @@ struct Solver::Work {
   }
 
   const Backend backend;
+  Workers *const workers;
   CoarseLevels coarse_levels;
   ToolPoints tool_points;
   std::unique_ptr<DirectSolver> factor;  // of settling
@@ -138,7 +142,8 @@ struct Solver::Work {
   uint64_t implicit_model = 0, explicit_model = 0;  // serial numbers
 };
 
-Solver::Solver(Backend backend) : work_(std::make_unique<Work>(backend)) {}
+Solver::Solver(Backend backend, Workers *workers)
+    : work_(std::make_unique<Work>(backend, workers)) {}
 Solver::~Solver() = default;
 Solver::Solver(Solver &&) noexcept = default;
 Solver &Solver::operator=(Solver &&) noexcept = default;
@@ -151,7 +156,7 @@ std::unique_ptr<Settling> Solver::loop_over_nodes(const Model &model, State stat
                                                   const SolveOptions &options,
                                                   const Progress &progress) {
   if (options.solver == SolverKind::implicit_euler) {
-    auto stepper = std::make_unique<ImplicitEuler>(model, work_->backend);
+    auto stepper = std::make_unique<ImplicitEuler>(model, work_->backend, work_->workers);
     return std::make_unique<SettlingInTime<ImplicitEuler>>(
         model, std::move(stepper), std::move(state), settle_options(options),
         max_settle_steps(options), options.tolerance(), progress);

@@ -62,12 +62,14 @@ using Progress = std::function<bool(double share, double residual)>;
 
 class CoarseLevels;
 class Settling;
+class Workers;
 
 // Keeps the symbolic factorisation and the broad phase between calls. They change no result: a new
 // Solver returns the same bits.
 class Solver {
  public:
-  explicit Solver(Backend backend);  // throws MVS_E_UNSUPPORTED
+  // Throws MVS_E_UNSUPPORTED. `workers` outlive the solver; null: the calling thread alone.
+  explicit Solver(Backend backend, Workers *workers = nullptr);
   ~Solver();
   Solver(Solver &&) noexcept;
   Solver &operator=(Solver &&) noexcept;

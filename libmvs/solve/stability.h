@@ -29,6 +29,8 @@ struct Stability {
 class StabilityCheck {
  public:
   StabilityCheck();
+  // See DirectSolver.
+  void use_workers(Workers *workers) { factor_->use_workers(workers); }
   // To be called before each factorisation and solution; it may throw.
   void set_poll(std::function<void()> poll) { poll_ = std::move(poll); }
 

@@ -63,7 +63,8 @@ class Describer {
   // The fields that a caller sees, with the codec of each.
   visible(struct) {
     const names = new Set(struct.all.map((field) => field.name));
-    const hidden = new Set(["struct_size", "reserved"]);
+    // WebAssembly has no threads
+    const hidden = new Set(["struct_size", "reserved", "workers", "pool_width", "run_tasks"]);
     const shown = [];
     for (const field of struct.all) {
       const one = field.name.replace(/ies$/, "y").replace(/s$/, "");

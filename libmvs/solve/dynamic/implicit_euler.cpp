@@ -118,13 +118,15 @@ double ImplicitEuler::limit_step(SolveStats &stats) {
   return slack;
 }
 
-ImplicitEuler::ImplicitEuler(const Model &model, Backend backend)
+ImplicitEuler::ImplicitEuler(const Model &model, Backend backend, Workers *workers)
     : model_(&model),
       total_energy_(model),
       matrix_(model),
       solver_(model, total_energy_, backend),
       line_search_(model, total_energy_),
-      slack_(settings::implicit::broad_phase_slack * model.valve.contact_thickness) {}
+      slack_(settings::implicit::broad_phase_slack * model.valve.contact_thickness) {
+  total_energy_.use_workers(workers);
+}
 
 void ImplicitEuler::make_ready(State &state, const StepOptions &how) {
   SolveStats unseen;

@@ -27,7 +27,8 @@ namespace mvs::core {
 class ImplicitEuler {
  public:
   static constexpr ContactLaw contact_law = ContactLaw::barrier;
-  ImplicitEuler(const Model &model, Backend backend);
+  // `workers` outlive the solver; null: the calling thread alone.
+  ImplicitEuler(const Model &model, Backend backend, Workers *workers = nullptr);
   // Does now what the first step from a state would do for those after it: memory, broad phase,
   // forces, factor. Like a step it may remove keys that do not fit from the solver cache.
   void make_ready(State &state, const StepOptions &how);

@@ -47,6 +47,8 @@ bool far_from_rest(const Model &model, const State &state) {
 Newton::Newton(const Model &model, DirectSolver &factor)
     : model_(&model), total_energy_(model), system_(model, total_energy_, factor, at_.x) {
   total_energy_.use_verlet_list(false);
+  total_energy_.use_workers(factor.workers());
+  check_.use_workers(factor.workers());
 }
 
 void Newton::begin(const State &state, double max_displacement) {

@@ -1022,7 +1022,7 @@ export class Functions extends Calls {
 
   /**
    * Creates an empty simulator in *sim; mvs_destroy frees it. `desc` is nullable. MVS_E_UNSUPPORTED
-   * if this build lacks the backend.
+   * if this build lacks the backend; MVS_E_ARGUMENT for too many workers or half of a pool.
    */
   mvs_create(desc?: SimDesc | null): SimHandle {
     return this.invoke(signatures.mvs_create!, [desc]) as never;

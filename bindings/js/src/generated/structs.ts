@@ -1520,7 +1520,7 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_sim_desc: {
-    size: 20,
+    size: 36,
     sized: true,
     fields: [
       { name: "backend", kind: "enum", of: "mvs_backend", at: 4 },
