@@ -59,11 +59,13 @@ typedef struct mvs_build_options {
                                   are chosen if no closed surface is given [8e-3] */
   uint32_t chords;             /* about this number of chord segments [100] */
   uint32_t reserved;
-  double edge_error; /* m, up to 5e-3: how far the free edge may lie farther out or in than
-                        in the surface; widens the interval of leaks [0] */
-  double edge_lost;  /* m, up to 5e-3: of tissue that may be missing at the free edge; widens
-                        the interval of leaks. 1e-6: none [half of the mean depth of the
-                        notches that were filled] */
+  double edge_error;      /* m, up to 5e-3: how far the free edge may lie farther out or in than
+                             in the surface; widens the interval of leaks [0] */
+  double edge_lost;       /* m, up to 5e-3: of tissue that may be missing at the free edge; widens
+                             the interval of leaks. 1e-6: none [half of the mean depth of the
+                             notches that were filled] */
+  double thickness_error; /* m, up to 2e-3: by how much the leaflets may be thicker or thinner
+                             than the thickness says; widens the interval of leaks [0] */
 } mvs_build_options;
 
 /* Where a finding comes from. */

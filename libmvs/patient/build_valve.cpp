@@ -13,6 +13,7 @@
 #include "patient/findings.h"
 #include "patient/fit/edge_range.h"
 #include "patient/fit/fit_to_closed.h"
+#include "patient/fit/thickness_range.h"
 #include "patient/mesh/remesh_sheet.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
@@ -178,21 +179,6 @@ void set_thickness(const LeafletSheet &sheet, const BuildSettings &settings, Val
   }
 }
 
-// m: mid-surfaces of leaflets that touch are a thickness apart; less where triangles are small, so
-// that tissue next to each other on the sheet is outside the contact.
-double contact_thickness(const Valve &valve, const BuildSettings &settings) {
-  double thickness = settings.thickness, edges = 0;
-  if (!valve.triangle_thickness.empty()) {
-    thickness = 0;
-    for (const double of : valve.triangle_thickness) thickness += of;
-    thickness /= static_cast<double>(valve.triangle_thickness.size());
-  }
-  for (const Tri &t : valve.triangles.get()) {
-    for (size_t k = 0; k < 3; ++k) edges += (valve.rest[t[k]] - valve.rest[t[(k + 1) % 3]]).norm();
-  }
-  return std::min(thickness, 0.6 * edges / (3 * static_cast<double>(valve.triangles.size())));
-}
-
 Valve tissue_of(const PatientGeometry &g, const BuildSettings &settings, Findings &findings) {
   Valve valve;
   name_leaflets(settings.law, settings.thickness, valve);
@@ -206,7 +192,7 @@ Valve tissue_of(const PatientGeometry &g, const BuildSettings &settings, Finding
     valve.triangle_leaflet.push_back(valve.scallops[scallop].leaflet);
   }
   set_thickness(g.sheet, settings, valve, findings);
-  valve.contact_thickness = contact_thickness(valve, settings);
+  valve.contact_thickness = contact_thickness(valve);
   valve.contact_stiffness = contact_stiffness;
   return valve;
 }
@@ -280,8 +266,9 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   built.model = make_model(std::move(valve));
   begin_stage(settings, "leak");
   const EdgeRange edge = find_edge_range(settings.edge_error, settings.edge_lost, g, findings);
+  report_thickness_error(settings.thickness_error, findings);
   built.leak = leak_interval(
-      built.model, range, edge, leaks, findings,
+      built.model, range, edge, settings.thickness_error, leaks, findings,
       [&](uint32_t k, uint32_t of) { tell_progress(progress, done + (1 - done) * k / of); });
   return built;
 }

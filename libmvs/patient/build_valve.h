@@ -34,6 +34,7 @@ struct BuildSettings {
   double coaptation_length = 8e-3;
   double edge_error = 0;  // m, of the free edge, farther out or in
   double edge_lost = 0;   // m, of tissue below it that may be missing; 0: from its filled notches
+  double thickness_error = 0;  // m, of the leaflets, thicker or thinner
   uint32_t chords = 100;
   std::function<void(const char *)> on_stage;  // called with the name of each stage as it begins
 };

@@ -109,7 +109,7 @@ static void a_surface_becomes_a_valve_that_closes(surface *s) {
   mvs_destroy(sim);
 }
 
-static void an_edge_that_is_not_sure_changes_findings_only(surface *s) {
+static void an_edge_and_a_thickness_that_are_not_sure_change_findings_only(surface *s) {
   mvs_sim *exact = NULL, *unsure = NULL;
   mvs_build *build = NULL;
   mvs_build_finding finding = {.struct_size = sizeof finding};
@@ -123,6 +123,7 @@ static void an_edge_that_is_not_sure_changes_findings_only(surface *s) {
   mvs_build_release(build);
   options.edge_error = 0.35e-3;
   options.edge_lost = 1.5e-3;
+  options.thickness_error = 0.2e-3;
   MUST(mvs_create(NULL, &unsure));
   MUST(mvs_build_valve(unsure, &desc, &options, &build));
   CHECK(find(build, "edge_error", &finding) != UINT32_MAX);
@@ -130,8 +131,11 @@ static void an_edge_that_is_not_sure_changes_findings_only(surface *s) {
   CHECK(finding.source == MVS_FINDING_SOURCE_GIVEN);
   CHECK(find(build, "edge_lost", &finding) != UINT32_MAX);
   CHECK(((const double *)finding.values.data)[0] == 1.5e-3);
+  CHECK(find(build, "thickness_error", &finding) != UINT32_MAX);
+  CHECK(((const double *)finding.values.data)[0] == 0.2e-3);
   CHECK(find(build, "leak_interval", &finding) != UINT32_MAX);
   CHECK(strstr(finding.sentence, "1.9 mm farther out") != NULL);
+  CHECK(strstr(finding.sentence, "0.20 mm thicker") != NULL);
   CHECK(same_hash(sim_hash(exact), sim_hash(unsure)));
   mvs_build_release(build);
   mvs_destroy(exact);
@@ -170,6 +174,10 @@ static void bad_input_is_refused_and_changes_nothing(surface *s) {
   options.edge_lost = -1e-3;
   MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.edge_lost");
   options.edge_lost = 0;
+  options.thickness_error = 3e-3;
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT,
+            "options.thickness_error");
+  options.thickness_error = 0;
   options.chords = 3;
   MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.chords");
   /* lengths in mm */
@@ -190,7 +198,7 @@ int main(void) {
   static surface s;
   take_surface(&s);
   a_surface_becomes_a_valve_that_closes(&s);
-  an_edge_that_is_not_sure_changes_findings_only(&s);
+  an_edge_and_a_thickness_that_are_not_sure_change_findings_only(&s);
   bad_input_is_refused_and_changes_nothing(&s);
   return finish("build");
 }

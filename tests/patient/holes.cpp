@@ -1,10 +1,15 @@
 // Holes, missing rims and handles of sheets.
 #include "patient/findings.h"
+#include "patient/normal_numbers.h"
 #include "patient/surface/cut_handles.h"
+#include "patient/surface/fill_hole.h"
 #include "patient/surface/rims.h"
 #include "patient/surface/shortest_loops.h"
 
 #include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "geometry/intersect.h"
@@ -269,4 +274,34 @@ TEST_CASE("a_narrow_tube_is_cut_and_a_wide_one_is_refused") {
   CHECK(shortest_loops(narrow, longest_handle).empty());
   CHECK_THROWS_WITH_AS(find_rims(wide, {}, findings), doctest::Contains("1 handles more than 12"),
                        Error);
+}
+
+TEST_CASE("new_vertices_of_the_filling_of_a_crumpled_hole_keep_apart") {
+  size_t made = 0;
+  for (uint64_t seed = 0; seed < 40; ++seed) {
+    // a rim as of shredded labels: a slit that goes back and forth
+    NormalNumbers random(seed);
+    const size_t n = 30 + seed;
+    LeafletSheet sheet;
+    std::vector<uint32_t> loop;
+    const double length = 8e-3, width = 1e-3 * random.uniform(), noise = 0.5e-3;
+    for (size_t k = 0; k < n; ++k) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
+      loop.push_back(static_cast<uint32_t>(k));
+      sheet.x.push_back(Vec3(length * std::cos(angle), width * std::sin(angle), 0) +
+                        noise * Vec3(random.next(), random.next(), random.next()));
+    }
+    double sides = 0;
+    for (size_t k = 0; k < n; ++k) sides += (sheet.x[(k + 1) % n] - sheet.x[k]).norm();
+    fill_hole(sheet, loop);
+    double least = 1;
+    for (size_t i = n; i < sheet.x.size(); ++i) {
+      for (size_t j = n; j < i; ++j) least = std::min(least, (sheet.x[i] - sheet.x[j]).norm());
+    }
+    made += sheet.x.size() - n;
+    // those in the middle of one long side would be at the same place
+    CAPTURE(seed);
+    CHECK(least > 0.01 * sides / static_cast<double>(n));
+  }
+  CHECK(made > 100);
 }

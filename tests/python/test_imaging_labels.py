@@ -13,6 +13,8 @@ pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 from mvs import imaging  # noqa: E402
 from mvs.imaging import mesh  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
+from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
+from mvs.imaging.requests import thickness_of_labels  # noqa: E402
 
 VOXEL = 0.7  # mm, of ultrasound
 
@@ -316,6 +318,11 @@ def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
     # half a voxel and two voxels of 0.7 mm
     assert "0.35 mm" in rows["edge_error"]["sentence"] and "1.40 mm" in rows["edge_lost"]["sentence"]
     assert "1.8 mm farther out" in rows["leak_interval"]["sentence"]
+    # 1.4 mm are two voxels, from which no thickness is concluded
+    assert rows["thickness"]["source"] == rows["thickness_error"]["source"] == "assumed"
+    assert "0.80 mm everywhere" in rows["thickness"]["sentence"]
+    assert "2.0 voxels" in rows["thickness"]["sentence"]
+    assert "0.25 mm thicker" in rows["leak_interval"]["sentence"]
     again = [*call, "--with", str(tmp_path / "a.import.json"), "-o", str(tmp_path / "b.h5"), "--quiet"]
     with mvs.Simulator() as sim:
         sim.load(tmp_path / "a.h5")
@@ -355,3 +362,42 @@ def test_a_real_closed_leaflet_agrees_with_the_medial_surface_of_another_program
     inner = ~np.isin(np.arange(len(points)), rim)
     # away from the rims, where the two programs end the sheet differently, a third of a voxel
     assert np.sqrt((away[inner] ** 2).mean()) < voxel * 1e3 / 3
+
+
+def test_the_thickness_of_wide_labels_is_measured_that_of_narrow_ones_assumed():
+    def widths(width):
+        points = np.random.default_rng(0).normal(size=(50, 3))
+        return mesh.Sheet(points, np.zeros((0, 3), np.int64), {"thickness": np.full(50, width)})
+
+    wide = thickness_of_labels(widths(2.45e-3), VOXEL * 1e-3)
+    assert set(wide) == {"thickness_error"}
+    assert wide["thickness_error"].values[0] == pytest.approx(VOXEL * 0.5e-3)
+    narrow = thickness_of_labels(widths(1.4e-3), VOXEL * 1e-3)
+    assert narrow["thickness"].values[0] == 0.8e-3
+    assert narrow["thickness_error"].values[0] == 0.25e-3
+    # tissue is not thicker than its label
+    assert thickness_of_labels(widths(0.6e-3), VOXEL * 1e-3)["thickness"].values[0] == 0.6e-3
+
+
+@pytest.mark.parametrize("radius", [None, 8.0])
+@pytest.mark.parametrize("polar, azimuth", [(0.3, 0.2), (0.785, 0.0), (0.955, 0.785)])
+def test_the_thickness_of_a_slab_does_not_depend_on_its_angle(radius, polar, azimuth):
+    """Flat and spherical slabs 2 mm thick in voxels of 0.7 mm; at 45 degrees and along the diagonal the
+    sides are stairs of one voxel."""
+    n = 20
+    z, y, x = np.meshgrid(*[(np.arange(n) - n / 2 + 0.5) * VOXEL] * 3, indexing="ij")
+    normal = np.array([np.sin(polar) * np.cos(azimuth), np.sin(polar) * np.sin(azimuth), np.cos(polar)])
+    place = np.stack([x, y, z], -1)
+    if radius is None:
+        height = place @ normal
+    else:
+        height = np.linalg.norm(place + radius * normal, axis=-1) - radius
+    mask = (np.abs(height - 0.2 * VOXEL) < 1.0) & (np.linalg.norm(place, axis=-1) < 6.5)
+    image = sitk.GetImageFromArray(mask.astype(np.uint8))
+    image.SetSpacing([VOXEL] * 3)
+    image.SetOrigin([float(-n / 2 + 0.5) * VOXEL] * 3)
+    grid, tissue = tissue_on_grid(image, mask, grid_step(image, mask))
+    sheet = fitted_sheet(grid, tissue, VOXEL * 1e-3)
+    inner = np.linalg.norm(sheet.points, axis=1) < 3e-3
+    # a sixth of a voxel: the sides of a slab that small meet few phases of the grid
+    assert np.median(sheet.values["thickness"][inner]) * 1e3 == pytest.approx(2.0, abs=VOXEL / 6)

@@ -16,8 +16,8 @@ struct ImportOptions {
   std::string annulus, commissures, anterior, tips, closed;
   std::string kind, leaflet, label_array, thickness_array;
   FileOptions files;
-  double edge = 0, thickness = 0, coaptation_length = 0;  // mm
-  double edge_error = 0, edge_lost = 0;                   // mm
+  double edge = 0, thickness = 0, coaptation_length = 0;      // mm
+  double edge_error = 0, edge_lost = 0, thickness_error = 0;  // mm
   mvs_build_options build = {};
 };
 
@@ -129,6 +129,9 @@ Input read_input(const ImportOptions &options, ImportOptions &with_known) {
   if (options.edge_lost == 0 && !known.edge_lost.empty()) {
     with_known.build.edge_lost = known.edge_lost[0];
   }
+  if (options.thickness_error == 0 && !known.thickness_error.empty()) {
+    with_known.build.thickness_error = known.thickness_error[0];
+  }
   if (!options.closed.empty()) {
     input.closed.emplace(read_surface(options.closed, options.files, frame));
   }
@@ -147,6 +150,7 @@ void run_import(const ImportOptions &given, Console &console) {
   options.build.coaptation_length = options.coaptation_length * 1e-3;
   options.build.edge_error = options.edge_error * 1e-3;
   options.build.edge_lost = options.edge_lost * 1e-3;
+  options.build.thickness_error = options.thickness_error * 1e-3;
   options.build.leaflet_law = law_of(options.leaflet);
   const Input input = read_input(given, options);
   const std::string name = std::filesystem::path(options.surface).stem().string();
@@ -189,7 +193,7 @@ void add_landmark_options(CLI::App &command, ImportOptions &options) {
   landmark("--tips", options.tips, "tips of the papillary muscles");
 }
 
-void add_edge_options(CLI::App &command, ImportOptions &options) {
+void add_range_options(CLI::App &command, ImportOptions &options) {
   command
       .add_option(
           "--edge-error", options.edge_error,
@@ -200,6 +204,11 @@ void add_edge_options(CLI::App &command, ImportOptions &options) {
       .add_option("--edge-lost", options.edge_lost,
                   "tissue that may be missing at the free edge, mm: widens the interval of leaks "
                   "[half of the mean depth of its filled notches]")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--thickness-error", options.thickness_error,
+                  "by how much the leaflets may be thicker or thinner, mm: widens the interval of "
+                  "leaks [0]")
       ->check(CLI::PositiveNumber);
 }
 
@@ -245,7 +254,7 @@ void add_import(CLI::App &app, Console &console) {
       ->check(CLI::PositiveNumber);
   command->add_option("--chords", options->build.chords, "chord segments, about [100]")
       ->check(CLI::PositiveNumber);
-  add_edge_options(*command, *options);
+  add_range_options(*command, *options);
   add_law_option(*command, options->leaflet);
   command->add_option("--with", options->with,
                       "findings of an earlier import, edited: what is given, guessed or assumed in "

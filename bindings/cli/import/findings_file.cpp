@@ -57,6 +57,7 @@ std::vector<double> *target_of(KnownValues &known, const std::string &name) {
   if (name == "thickness") return &known.thickness;
   if (name == "edge_error") return &known.edge_error;
   if (name == "edge_lost") return &known.edge_lost;
+  if (name == "thickness_error") return &known.thickness_error;
   return nullptr;
 }
 

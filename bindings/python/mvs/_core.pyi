@@ -357,6 +357,7 @@ class Simulator:
         coaptation_length: Optional[float] = None,
         edge_error: Optional[float] = None,
         edge_lost: Optional[float] = None,
+        thickness_error: Optional[float] = None,
         chords: Optional[int] = None,
         progress: _Progress = None,
     ) -> tuple[Finding, ...]: ...

@@ -78,8 +78,8 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
                       const py::object &anterior, const py::object &papillary_tips,
                       const py::object &closed_points, const py::object &closed_triangles,
                       const py::object &leaflet, Number edge, Number chord_factor,
-                      Number coaptation_length, Number edge_error, Number edge_lost, Count chords,
-                      py::object progress) {
+                      Number coaptation_length, Number edge_error, Number edge_lost,
+                      Number thickness_error, Count chords, py::object progress) {
   SurfaceArrays arrays;
   auto surface = sized<mvs_surface_desc>();
   surface.kind = kind_of(kind);
@@ -110,6 +110,7 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
   options.coaptation_length = coaptation_length.value_or(0);
   options.edge_error = edge_error.value_or(0);
   options.edge_lost = edge_lost.value_or(0);
+  options.thickness_error = thickness_error.value_or(0);
   options.chords = chords.value_or(0);
   mvs_build *build = nullptr;
   self.call_with(std::move(progress),
@@ -128,8 +129,8 @@ void bind_build(py::class_<Simulator> &type) {
       "anterior"_a = py::none(), "papillary_tips"_a = py::none(), "closed_points"_a = py::none(),
       "closed_triangles"_a = py::none(), "leaflet"_a = py::none(), "edge"_a = py::none(),
       "chord_factor"_a = py::none(), "coaptation_length"_a = py::none(),
-      "edge_error"_a = py::none(), "edge_lost"_a = py::none(), "chords"_a = py::none(),
-      "progress"_a = py::none(),
+      "edge_error"_a = py::none(), "edge_lost"_a = py::none(), "thickness_error"_a = py::none(),
+      "chords"_a = py::none(), "progress"_a = py::none(),
       "Replaces the valve by one that is built from a surface of open, unloaded leaflets, and "
       "returns what was found, guessed and assumed (tuple of mvs.Finding). All in one frame, "
       "in m.\n\npoints: (n, 3)\ntriangles: (m, 3) uint32; None: each three points in turn are "
@@ -145,7 +146,8 @@ void bind_build(py::class_<Simulator> &type) {
       "free edge may lie farther out or in; widens the interval of leaks [0]\nedge_lost: m, of "
       "tissue "
       "that may be missing at the free edge; widens the interval of leaks; None: half of the mean "
-      "depth of its filled notches\nchords: about this number of segments "
+      "depth of its filled notches\nthickness_error: m, by how much the leaflets may be thicker or "
+      "thinner; widens the interval of leaks [0]\nchords: about this number of segments "
       "[100]\nprogress: as in settle");
 }
 

@@ -9,6 +9,7 @@
 #include "patient/chordae/chord_groups.h"
 #include "patient/fit/closure.h"
 #include "patient/fit/free_edge_shift.h"
+#include "patient/fit/thickness_range.h"
 #include "patient/normal_numbers.h"
 
 namespace mvs::core {
@@ -17,8 +18,9 @@ namespace {
 // Confidence of a leak that does not depend on the lengths, and the difference at which none is
 // left: grades of regurgitation are 10 to 20 mm2 apart (0.2, 0.3, 0.4 cm2).
 constexpr double same_leak_confidence = 0.8, unknown_leak = 20e-6;
-// m2: a valve with less is sealed: meshes of one valve differ by as much.
+// m2, by which meshes of one valve differ: a valve with less is sealed.
 constexpr double sealed = 0.5e-6;
+constexpr double least_thickness = 0.3;  // share of the thickness that thinner tissue keeps
 constexpr uint32_t most_draws = 6;
 constexpr double widening = 0.25;  // of the range, on both sides
 constexpr uint64_t seed = 22;
@@ -29,10 +31,18 @@ struct Closed {
   bool at_rest;
   uint32_t iterations;
 };
-Closed close_with(const Valve &valve, const std::vector<double> &factor, const EdgeRange &edge,
-                  double by) {
-  const bool moves = edge.geometry && by != 0;
-  Valve changed = moves ? with_edge_moved(valve, *edge.geometry, by) : valve;
+// What a closure of the interval changes.
+struct ClosureChange {
+  std::vector<double> factor;  // on the length of each chord; empty: 1
+  double edge = 0;             // m, farther out
+  double thickness = 1;        // factor
+};
+
+Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRange &range) {
+  const auto &[factor, by, thickness] = change;
+  const bool moves = range.geometry && by != 0;
+  Valve changed = moves ? with_edge_moved(valve, *range.geometry, by) : valve;
+  if (thickness != 1) changed = with_thickness(changed, thickness);
   for (size_t c = 0; c < factor.size(); ++c) changed.chords[c].rest_length *= factor[c];
   Solver solver(Backend::fastest);
   try {
@@ -58,15 +68,25 @@ std::vector<double> drawn_factors(const std::vector<ChordGroup> &groups, const L
   return factor;
 }
 
-std::string lengths_and_edge(const LeakInterval &interval, const EdgeRange &edge) {
-  if (!edge.geometry) return "lengths of chordae within that range";
-  return format(
-      "lengths of chordae within that range and a free edge up to %.1f mm farther out "
-      "(%.1f mm2 with the lengths as they are) or %.1f mm farther in (%.1f mm2)",
-      edge.out * 1e3, interval.edge_leak[0] * 1e6, edge.in * 1e3, interval.edge_leak[1] * 1e6);
+std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, double thickness_error) {
+  std::string ranges = "lengths of chordae within that range";
+  if (edge.geometry) {
+    ranges += format(
+        ", a free edge up to %.1f mm farther out (%.1f mm2 with the lengths as they are) or %.1f "
+        "mm "
+        "farther in (%.1f mm2)",
+        edge.out * 1e3, interval.edge_leak[0] * 1e6, edge.in * 1e3, interval.edge_leak[1] * 1e6);
+  }
+  if (thickness_error > 0) {
+    ranges +=
+        format(", tissue up to %.2f mm thicker (%.1f mm2) or thinner (%.1f mm2)",
+               thickness_error * 1e3, interval.tissue_leak[0] * 1e6, interval.tissue_leak[1] * 1e6);
+  }
+  return ranges;
 }
 
-void report(const LeakInterval &interval, const EdgeRange &edge, bool at_rest, Findings &findings) {
+void report(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
+            bool at_rest, Findings &findings) {
   const double unsure = std::min(1.0, (interval.most - interval.least) / unknown_leak);
   const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
   const auto &[f0, f1, f2] = interval.factor;
@@ -86,7 +106,7 @@ void report(const LeakInterval &interval, const EdgeRange &edge, bool at_rest, F
        FindingSource::measured,
        confidence,
        format("%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
-              lengths_and_edge(interval, edge).c_str(),
+              ranges_of(interval, edge, thickness_error).c_str(),
               interval.draws == 0
                   ? ": sealed with all of them"
                   : format(", from %u closures with random ones as well", interval.draws).c_str()),
@@ -108,7 +128,8 @@ LengthRange range_after(const ChordFit &fit) {
 }
 
 LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
-                           const std::vector<double> &known, Findings &findings,
+                           double thickness_error, const std::vector<double> &known,
+                           Findings &findings,
                            const std::function<void(uint32_t, uint32_t)> &tell) {
   const size_t chords = model->valve.chords.size();
   LeakInterval interval;
@@ -116,38 +137,45 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
   bool at_rest = true;
   std::vector<double> leaks = known;
   uint32_t number = 0;
-  const uint32_t closures = (edge.geometry ? 5 : 3) + most_draws;
-  const auto close = [&](const std::vector<double> &factor, double by) {
+  const uint32_t closures =
+      3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_draws;
+  const auto close = [&](const ClosureChange &change) {
     if (tell) tell(number, closures);
     ++number;
-    const Closed closed = close_with(model->valve, factor, edge, by);
+    const Closed closed = close_with(model->valve, change, edge);
     if (closed.at_rest) leaks.push_back(closed.leak);
     at_rest = at_rest && closed.at_rest;
     return closed;
   };
   for (size_t k = 0; k < 3; ++k) {
-    const Closed closed = close(std::vector<double>(chords, interval.factor[k]), 0);
+    const Closed closed = close({std::vector<double>(chords, interval.factor[k])});
     interval.leak[k] = closed.leak;
     interval.at_rest[k] = closed.at_rest;
     interval.iterations[k] = closed.iterations;
   }
   for (size_t k = 0; edge.geometry && k < 2; ++k) {
-    interval.edge_leak[k] =
-        close(std::vector<double>(chords, 1), k == 0 ? edge.out : -edge.in).leak;
+    interval.edge_leak[k] = close({{}, k == 0 ? edge.out : -edge.in}).leak;
+  }
+  const double spread = thickness_error / mean_thickness(model->valve);
+  const auto thickness = [&](double by) { return std::max(least_thickness, 1 + by * spread); };
+  for (size_t k = 0; thickness_error > 0 && k < 2; ++k) {
+    interval.tissue_leak[k] = close({{}, 0, thickness(k == 0 ? 1 : -1)}).leak;
   }
   const bool is_sealed = at_rest && *std::max_element(leaks.begin(), leaks.end()) < sealed;
   NormalNumbers random(seed);
   const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
   for (; !is_sealed && interval.draws < most_draws; ++interval.draws) {
-    const std::vector<double> factor = drawn_factors(groups, range, chords, random);
-    close(factor, edge.geometry ? random.uniform() * (edge.out + edge.in) - edge.in : 0);
+    ClosureChange change{drawn_factors(groups, range, chords, random)};
+    if (edge.geometry) change.edge = random.uniform() * (edge.out + edge.in) - edge.in;
+    if (thickness_error > 0) change.thickness = thickness(2 * random.uniform() - 1);
+    close(change);
   }
   if (leaks.empty()) leaks.assign(interval.leak.begin(), interval.leak.end());
   const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
-  const double more = is_sealed ? 0 : widening * (*most - *least);
+  const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
   interval.least = std::max(0.0, *least - more);
   interval.most = *most + more;
-  report(interval, edge, at_rest, findings);
+  report(interval, edge, thickness_error, at_rest, findings);
   return interval;
 }
 

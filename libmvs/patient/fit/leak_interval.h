@@ -1,12 +1,14 @@
-// How much the leak of a built valve depends on the lengths of its chordae and on its free edge.
+// How much the leak of a built valve depends on the lengths of its chordae, its free edge and its
+// thickness.
 //
 // The valve is closed with all lengths shorter, as they are, and longer; if the free edge is known
-// to some error only, also with the edge farther out and farther in by it (free_edge_shift.h). If
-// one of these closures leaks, it is closed with random lengths from the same range as well, one
-// factor for each group of chordae and one for each chord, and with a random edge; the interval is
-// the range of all leaks, a quarter wider on both sides and not below 0: of nine closures alone,
-// one valve in five would lie outside (exchangeable samples). Every closure starts from the open
-// shape, so that none depends on another.
+// to some error only, also with the edge farther out and farther in by it (free_edge_shift.h), and
+// if the thickness is, with thicker and thinner tissue. If one of these closures leaks, it is
+// closed with random lengths from the same range as well, one factor for each group of chordae and
+// one for each chord, and with a random edge and thickness; the interval is the range of all leaks,
+// a quarter wider on both sides: of nine closures alone, one valve in five would lie outside
+// (exchangeable samples). Both ends move out by what meshes of one valve differ by, too, but not
+// below 0. Every closure starts from the open shape, so that none depends on another.
 #pragma once
 
 #include <array>
@@ -33,14 +35,17 @@ struct LeakInterval {
   std::array<bool, 3> at_rest = {};         // whether the closure came to rest
   std::array<uint32_t, 3> iterations = {};  // of each closure
   std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; 0: edge exact
+  std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; 0: thickness exact
   double least = 0, most = 0;               // m2, the interval
   uint32_t draws = 0;                       // closures with random lengths
 };
 
-// `known`: leaks of other closures of the same valve, m2, which the interval contains. `tell` is
-// called before each closure with its number and their number at most; it may throw.
+// `thickness_error`: m, of all leaflets together. `known`: leaks of other closures of the same
+// valve, m2, which the interval contains. `tell` is called before each closure with its number and
+// their number at most; it may throw.
 LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
-                           const std::vector<double> &known, Findings &findings,
+                           double thickness_error, const std::vector<double> &known,
+                           Findings &findings,
                            const std::function<void(uint32_t, uint32_t)> &tell = {});
 
 }  // namespace mvs::core

@@ -12,10 +12,12 @@ namespace mvs::core {
 namespace {
 
 // Vertices of a loop beyond which its triangulation would take more than about a second.
-constexpr size_t most_vertices = 700;
+constexpr size_t most_loop_vertices = 700;
 // A side of the filling this much longer than those of the loop is halved: halving at 4/3 makes
 // sides of 2/3, so that both are as far from 1 (Botsch & Kobbelt 2004).
 constexpr double long_side = 4.0 / 3;
+// Share of that side: a vertex so near to the middle of another is in its place.
+constexpr double closest_share = 0.1;
 // Each round halves the longest sides; 2^40 of them would be too many for any memory.
 constexpr int most_rounds = 40;
 
@@ -120,13 +122,25 @@ bool claim(const InnerEdge &e, std::vector<uint8_t> &claimed) {
   return true;
 }
 
+// Whether a corner of the two triangles lies in the middle of their edge: halving it would put
+// another vertex there, and in a crumpled patch flips bring the edge back, round after round.
+bool has_vertex_in_middle(const std::vector<Vec3> &x, const std::vector<Tri> &patch,
+                          const InnerEdge &e, double near) {
+  const Vec3 middle = 0.5 * (x[e.edge[0]] + x[e.edge[1]]);
+  return std::any_of(e.triangle.begin(), e.triangle.end(), [&](uint32_t t) {
+    return (x[opposite_corner(patch[t], e.edge)] - middle).squaredNorm() < near * near;
+  });
+}
+
 // Halves inner edges that are too long, the longest first, at most one of each triangle; returns
 // whether there were any.
 bool halve_long(std::vector<Vec3> &x, std::vector<Tri> &patch, double limit) {
   std::vector<std::pair<double, InnerEdge>> found;
   for (const InnerEdge &e : inner_edges(patch)) {
     const double length2 = (x[e.edge[1]] - x[e.edge[0]]).squaredNorm();
-    if (length2 > limit * limit) found.push_back({length2, e});
+    if (length2 > limit * limit && !has_vertex_in_middle(x, patch, e, closest_share * limit)) {
+      found.push_back({length2, e});
+    }
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const auto &a, const auto &b) { return a.first > b.first; });
@@ -220,9 +234,9 @@ std::vector<LeafletLabel> loop_labels(const LeafletSheet &sheet,
 
 size_t fill_hole(LeafletSheet &sheet, const std::vector<uint32_t> &loop) {
   const size_t n = loop.size();
-  MVS_MUST(n <= most_vertices, MVS_E_OP, "triangles",
+  MVS_MUST(n <= most_loop_vertices, MVS_E_OP, "triangles",
            "a hole has %zu vertices, at most %zu are filled: close it, or reduce the surface", n,
-           most_vertices);
+           most_loop_vertices);
   double length = 0;
   for (size_t k = 0; k < n; ++k) length += (sheet.x[loop[(k + 1) % n]] - sheet.x[loop[k]]).norm();
   const std::vector<LeafletLabel> label = loop_labels(sheet, loop);

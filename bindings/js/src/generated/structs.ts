@@ -1313,6 +1313,11 @@ export interface BuildOptions {
    * 1e-6: none [half of the mean depth of the notches that were filled]
    */
   edge_lost?: number;
+  /**
+   * m, up to 2e-3: by how much the leaflets may be thicker or thinner than the thickness says;
+   * widens the interval of leaks [0]
+   */
+  thickness_error?: number;
 }
 
 /**
@@ -2199,7 +2204,7 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_build_options: {
-    size: 64,
+    size: 72,
     sized: true,
     fields: [
       { name: "leaflet_law", kind: "enum", of: "mvs_leaflet_law", at: 4 },
@@ -2210,6 +2215,7 @@ export const layouts: Record<string, Layout> = {
       { name: "chords", kind: "u32", at: 40 },
       { name: "edge_error", kind: "f64", at: 48 },
       { name: "edge_lost", kind: "f64", at: 56 },
+      { name: "thickness_error", kind: "f64", at: 64 },
     ],
   },
   mvs_build_finding: {

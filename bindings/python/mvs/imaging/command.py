@@ -83,6 +83,9 @@ def add_build(commands: Any) -> None:
     labels("--edge-lost", type=float, metavar="MM",
            help="tissue that the labels may lack at the free edge: widens the interval of leaks [two "
            "voxels]")
+    labels("--thickness-error", type=float, metavar="MM",
+           help="by how much the leaflets may be thicker or thinner: widens the interval of leaks [0.25 of "
+           "assumed tissue, half a voxel of measured]")
     points = parser.add_argument_group("landmarks: .mrk.json, .fcsv, .csv, .vtk, .vtp").add_argument
     for part, words in LANDMARKS.items():
         points(f"--{part}", type=Path, metavar="FILE", help=words)
@@ -97,7 +100,7 @@ def add_build(commands: Any) -> None:
     build("--edge", type=float, metavar="MM", help="of the triangles [1,000 vertices]")
     build("--chords", type=int, metavar="N", help="chord segments where none are seen, about [100]")
     build("--leaflet", metavar="LAW", help="tissue of the leaflets [bilinear]")
-    build("--thickness", type=float, metavar="MM", help="of the leaflets [measured]")
+    build("--thickness", type=float, metavar="MM", help="of the leaflets [measured; normal tissue where labels are narrow]")
     build("--coaptation-length", type=float, metavar="MM",
           help="overlap in the middle for which rest lengths are chosen [8]")
     parser.set_defaults(run=run_build)

@@ -12,7 +12,7 @@ import numpy as np
 import mvs
 
 POINTS = ("annulus", "commissures", "anterior", "papillary_tips")
-LENGTHS = ("thickness", "edge_error", "edge_lost")
+LENGTHS = ("thickness", "edge_error", "edge_lost", "thickness_error")
 """Findings that are an input of a build; lengths are one number each, m."""
 
 

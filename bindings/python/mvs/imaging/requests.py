@@ -51,9 +51,12 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
     console.stage("mid-surface of the open leaflets")
     leaflets = leaflets_in(image, segments, settings)
     check_open_valve(leaflets, settings)
-    assumed = edge_of_labels(spacing_of(image.image))
+    voxel = spacing_of(image.image)
+    assumed = {**edge_of_labels(voxel), **thickness_of_labels(leaflets.sheet, voxel)}
+    if "thickness" in options:  # given: nothing is known of its error
+        assumed.pop("thickness_error")
     assumed = {name: value for name, value in assumed.items() if name not in options}
-    options.update({name: one.values[0] for name, one in assumed.items()})
+    options.update({name: float(one.values[0]) for name, one in assumed.items()})
     surface: Optional[Sheet] = None
     motion = Motion.none()
     found: list[mvs.Finding] = []
@@ -92,6 +95,39 @@ def edge_of_labels(voxel: float) -> dict[str, mvs.Finding]:
             f"up to {voxel * 2e3:.2f} mm of tissue may be missing at the free edge, two voxels, as in the "
             "labels of networks; the interval of leaks allows for it; give --edge-lost if the labels are "
             "better or worse", [min(2 * voxel, 5e-3)], "m"),
+    }
+
+
+NORMAL_THICKNESS, NORMAL_RANGE = 0.8e-3, 0.25e-3
+"""m: of leaflets whose thickness is not known (the default of a build); normal ones have 0.6 to 1.1 mm."""
+
+RESOLVED = 2.5
+"""Voxels: labels that are narrower do not show how thick the tissue is. One voxel and a half is the least
+that keeps a slanted sheet in one piece, and networks draw it whatever the tissue is."""
+
+
+def thickness_of_labels(sheet: Sheet, voxel: float) -> dict[str, mvs.Finding]:
+    """The thickness by option of a build: normal tissue where labels are too narrow to measure it, else
+    only the error of the measured one, half a voxel and at most a quarter of it."""
+    width = float(np.median(sheet.values["thickness"]))
+    if width >= RESOLVED * voxel:
+        error = min(voxel / 2, width / 4)
+        return {"thickness_error": finding(
+            "thickness_error", mvs.FindingSource.ASSUMED, 0.5,
+            f"the leaflets may be {error * 1e3:.2f} mm thicker or thinner than their labels; the interval "
+            "of leaks allows for it; give --thickness-error if the labels are better or worse", [error],
+            "m")}
+    assumed = min(NORMAL_THICKNESS, width)
+    return {
+        "thickness": finding(
+            "thickness", mvs.FindingSource.ASSUMED, 0.4,
+            f"{assumed * 1e3:.2f} mm everywhere, as of normal leaflets: the labels are "
+            f"{width * 1e3:.2f} mm wide, {width / voxel:.1f} voxels, and such labels are as wide on thinner "
+            "tissue; give --thickness if it is known", [assumed], "m"),
+        "thickness_error": finding(
+            "thickness_error", mvs.FindingSource.ASSUMED, 0.4,
+            f"the leaflets may be {NORMAL_RANGE * 1e3:.2f} mm thicker or thinner; the interval of leaks "
+            "allows for it; give --thickness-error if more or less is known", [NORMAL_RANGE], "m"),
     }
 
 
@@ -148,7 +184,8 @@ def _segments(chosen: argparse.Namespace) -> Optional[dict[str, int]]:
 def _options(chosen: argparse.Namespace) -> dict[str, Any]:
     lengths = {"edge": chosen.edge, "thickness": chosen.thickness,
                "coaptation_length": chosen.coaptation_length,
-               "edge_error": chosen.edge_error, "edge_lost": chosen.edge_lost}
+               "edge_error": chosen.edge_error, "edge_lost": chosen.edge_lost,
+               "thickness_error": chosen.thickness_error}
     options: dict[str, Any] = {name: value * 1e-3 for name, value in lengths.items()
                                if value is not None}
     options.update({name: getattr(chosen, name) for name in ("chords", "leaflet")

@@ -81,7 +81,7 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     if loaded is not None and stats.converged:
         opened, closed, stats, more = with_loaded_lengths(valve, closed, network, loaded)
         found.append(more)
-    assumed = ("chordae", "leak", "leak_interval", "edge_error", "edge_lost", "papillary_tips")
+    assumed = ("chordae", "leak", "leak_interval", "edge_error", "edge_lost", "thickness_error", "papillary_tips")
     kept = [one for one in made.findings if one.name not in assumed]
     return dataclasses.replace(made, opened=opened, closed=closed, converged=stats.converged,
                                findings=(*kept, *found))
