@@ -103,6 +103,17 @@ describe('planner features', () => {
     await page.keyboard.press('e');
     await closed(page);
     assert.equal(await turn(), dragged - 5);
+    // its arms turn it as well
+    const [now, end] = [await labelled('Clip'), await labelled('Turn')];
+    await page.mouse.move(0.55 * now.x + 0.45 * end.x, 0.55 * now.y + 0.45 * end.y);
+    await page.mouse.down();
+    await page.mouse.move(end.x - 80, end.y + 20, { steps: 6 });
+    await page.mouse.up();
+    await closed(page);
+    assert.ok((await turn()) > dragged, `${await turn()} degrees`);
+    await page.locator('#f-angle').fill(String(dragged - 5));
+    await page.keyboard.press('Tab');
+    await closed(page);
     await page.keyboard.press('d');
     await closed(page);
     assert.ok((await page.evaluate(() => window.planner.state.draft.value.fields.position)) < 0);
