@@ -178,8 +178,8 @@ typedef struct mvs_op_head_move {
 } mvs_op_head_move;
 
 /* Joins two free edges (edge to edge: a clip or an Alfieri stitch) by sutures one contact thickness
- * long; makes a chord, the middle one. It is placed on the open valve: positions return to the rest
- * shape with zero velocity. */
+ * long; makes a chord, the middle one, about which `angle` turns it in the plane of the leaflets.
+ * It is placed on the open valve: positions return to the rest shape with zero velocity. */
 typedef struct mvs_op_clip {
   mvs_op op;
   mvs_id anterior;  /* scallop [A2] */
@@ -188,6 +188,7 @@ typedef struct mvs_op_clip {
   double width;     /* m, of the free edge that is joined [5e-3] */
   double reach;     /* m, from the free edge into the leaflets [4e-3] */
   const char *name; /* nullable ["clip"] */
+  double angle;     /* rad, anticlockwise as seen from the atrium [0: across the free edge] */
 } mvs_op_clip;
 
 /* Resects a part of a scallop from its free edge and sews the sides of the gap together: a

@@ -308,6 +308,25 @@ static void what_cannot_be_done_is_said(void) {
   MUST_FAIL(mvs_check_op(sim, NULL), MVS_E_ARGUMENT, "null pointer");
 }
 
+static hash128 clipped(mvs_op_clip op) {
+  new_valve();
+  MUST(mvs_apply_op(sim, &op.op, NULL));
+  return sim_hash(sim);
+}
+
+/* A program compiled before clips could be turned has a shorter struct. */
+static void a_clip_of_an_older_program_is_not_turned(void) {
+  mvs_op_clip clip = {.op = {sizeof clip, MVS_OP_CLIP}};
+  const hash128 straight = clipped(clip);
+  clip.angle = 0.4;
+  CHECK(!same_hash(straight, clipped(clip)));
+  clip.op.struct_size = offsetof(mvs_op_clip, angle);
+  CHECK(same_hash(straight, clipped(clip)));
+  clip.op.struct_size = sizeof clip;
+  clip.angle = 30;
+  REFUSED(clip, MVS_E_ARGUMENT, "angle is 30 rad");
+}
+
 /* A chord that is moved at its present tension ends at the requested place. */
 static void a_dragged_chord_has_the_length_to_there(void) {
   new_valve();
@@ -419,6 +438,7 @@ int main(void) {
   groups_go_together();
   checkpoints_are_places_to_come_back_to();
   what_cannot_be_done_is_said();
+  a_clip_of_an_older_program_is_not_turned();
   a_dragged_chord_has_the_length_to_there();
   a_chord_tied_to_another_head_gets_the_length_of_a_new_one();
   operations_describe_themselves();

@@ -19,7 +19,7 @@ EXAMPLES = {
     "band": [["--factor", 0.9]],
     "neochord": [["--head", "PM1", "--site", "P2:0.5:1", "--strands", 4]],
     "head-move": [["--head", "PM1", "--by", "0,-0.5,2", "--frame", "valve"]],
-    "clip": [[]],
+    "clip": [[], ["--angle", 15]],
     "resect": [["--scallop", "P2", "--width", 6, "--depth", 6]],
     "patch": [["--site", "P2:0.5:0.5"]],
 }

@@ -50,7 +50,7 @@ EXAMPLES = {
         ),
     ],
     "band": [dict(factor=0.9)],
-    "clip": [dict()],
+    "clip": [dict(), dict(angle=0.3)],
     "resect": [dict(scallop="P2", width=6e-3, depth=6e-3)],
     "patch": [dict(site=("P2", 0.5, 0.5))],
 }

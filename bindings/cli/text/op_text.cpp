@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "text/console.h"
 #include "text/op_forms.h"
@@ -16,8 +17,11 @@ struct Unit {
   const char *si, *text;
   double times, over;  // SI = text * times / over
 };
-constexpr Unit units[] = {
-    {"m", "mm", 1, 1e3}, {"m2", "mm2", 1, 1e6}, {"Pa", "MPa", 1e6, 1}, {"", "", 1, 1}};
+constexpr Unit units[] = {{"m", "mm", 1, 1e3},
+                          {"m2", "mm2", 1, 1e6},
+                          {"Pa", "MPa", 1e6, 1},
+                          {"rad", "deg", std::numbers::pi, 180},
+                          {"", "", 1, 1}};
 
 const Unit &unit_of(const mvs_field_info &field) {
   for (const Unit &unit : units) {

@@ -57,6 +57,8 @@ describe('planner features', () => {
     await closed(page);
   });
 
+  /** Degrees of the clip of the form. */
+  const turn = () => page.evaluate(() => window.planner.state.draft.value.fields.angle ?? 0);
   /** Middle of the label that begins with a text, in the window. */
   const labelled = async (text) => {
     const { x, y, height } = await page.locator('.label-handle', { hasText: text }).boundingBox();
@@ -77,6 +79,46 @@ describe('planner features', () => {
     await apply(page);
     await openPanel(page, 'Valve');
     assert.match(await page.getByTestId('devices').innerText(), /clip\s+\d+ stitches/);
+    await page.keyboard.press('Control+z');
+    await page.waitForTimeout(50);
+    await closed(page);
+  });
+
+  it('turns_a_clip_by_its_handle_and_by_keys', async () => {
+    await begin(page, 'clip');
+    const straight = (await figures(page)).hash;
+    const [middle, handle] = [await labelled('Clip'), await labelled('Turn')];
+    // by 30 degrees to the left, which is anticlockwise in the surgeon's view
+    const length = middle.y - handle.y;
+    assert.ok(length > 30, 'the handle is seen from the atrium');
+    await page.mouse.move(handle.x, handle.y);
+    await page.mouse.down();
+    await page.mouse.move(middle.x - 0.5 * length, middle.y - 0.87 * length, { steps: 6 });
+    await page.mouse.up();
+    await closed(page);
+    const dragged = await turn();
+    assert.ok(dragged >= 25 && dragged <= 35, `${dragged} degrees`);
+    const turned = (await figures(page)).hash;
+    assert.notEqual(turned, straight, 'the preview is that of the turned clip');
+    await page.keyboard.press('e');
+    await closed(page);
+    assert.equal(await turn(), dragged - 5);
+    // its arms turn it as well
+    const [now, end] = [await labelled('Clip'), await labelled('Turn')];
+    await page.mouse.move(0.55 * now.x + 0.45 * end.x, 0.55 * now.y + 0.45 * end.y);
+    await page.mouse.down();
+    await page.mouse.move(end.x - 80, end.y + 20, { steps: 6 });
+    await page.mouse.up();
+    await closed(page);
+    assert.ok((await turn()) > dragged, `${await turn()} degrees`);
+    await page.locator('#f-angle').fill(String(dragged - 5));
+    await page.keyboard.press('Tab');
+    await closed(page);
+    await page.keyboard.press('d');
+    await closed(page);
+    assert.ok((await page.evaluate(() => window.planner.state.draft.value.fields.position)) < 0);
+    await apply(page);
+    assert.match((await figures(page)).history.at(-1).title, new RegExp(`turned by ${dragged - 5} degrees`));
     await page.keyboard.press('Control+z');
     await page.waitForTimeout(50);
     await closed(page);

@@ -234,6 +234,10 @@ describe('planner', () => {
     'saves_a_session_that_the_native_command_repeats',
     { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND is not set' },
     async () => {
+      await begin(page, 'clip');
+      await page.keyboard.press('q');
+      await apply(page);
+      assert.match((await figures(page)).history.at(-1).title, /turned by 5 degrees/);
       await begin(page, 'ring');
       await apply(page);
       const path = await save(page);

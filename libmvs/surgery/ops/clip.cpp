@@ -30,7 +30,21 @@ struct Place {
   double away(const EdgeNode &n) const { return math::hypot(n.along - along, n.depth - depth); }
 };
 
-// Returns the nearest unused node; row 0 uses nodes of the free edge only.
+// The turn of a clip about the normal of the leaflets, laid flat side by side, into the atrium.
+// Along the edge counts alike on both sides, depth from it in opposite directions, so that in these
+// coordinates the two sides of a clip turn in opposite senses. An angle of 0 keeps the bits.
+struct Turn {
+  double cosine, sine;
+  explicit Turn(double angle) : cosine(math::cos(angle)), sine(math::sin(angle)) {}
+  Place anterior(const Place &p) const {
+    return {cosine * p.along + sine * p.depth, cosine * p.depth - sine * p.along};
+  }
+  Place posterior(const Place &p) const {
+    return {cosine * p.along - sine * p.depth, cosine * p.depth + sine * p.along};
+  }
+};
+
+// Returns the nearest unused node; places at the free edge use its nodes only.
 const EdgeNode *nearest(const std::vector<EdgeNode> &nodes, const Place &place, bool on_edge,
                         const std::vector<uint8_t> &taken) {
   const EdgeNode *best = nullptr;
@@ -43,24 +57,29 @@ const EdgeNode *nearest(const std::vector<EdgeNode> &nodes, const Place &place, 
 
 // Returns the stitches in rows from the free edge inwards, each from its middle outwards, `gap`
 // apart. A place gets the nearest anterior node and the posterior node opposite to it; it is left
-// out if the mesh has no such nodes within half a gap, except for the first, which is always
-// joined.
+// out if the mesh has no such nodes within half a gap (more in a turned clip), except for the
+// first, which is always joined.
 std::vector<Pair> pairs_in_rows(const ClipLeaflets &sides, size_t node_count, double width,
-                                double reach, double gap) {
+                                double reach, double gap, const Turn &turn) {
   std::vector<uint8_t> taken(node_count, 0);
   std::vector<Pair> pairs;
   const int stitch_rows = static_cast<int>(reach / gap + 1e-9);
   const int columns = static_cast<int>(width / 2 / gap + 1e-9);
+  // rows across the free edge run along those of the mesh, turned ones between its nodes
+  const double reach_of_node = (0.5 + 0.5 * std::abs(turn.sine)) * gap;
   for (int row = 0; row <= stitch_rows; ++row) {
     for (int k = 0; k <= 2 * columns; ++k) {
       const int column = k % 2 ? (k + 1) / 2 : -k / 2;  // 0, 1, -1, 2, -2
-      const Place place{column * gap, row * gap};
-      const EdgeNode *a = nearest(sides.anterior, place, row == 0, taken);
+      const Place in_clip{column * gap, row * gap};
+      const Place place = turn.anterior(in_clip);
+      const EdgeNode *a = nearest(sides.anterior, place, place.depth < 0.5 * gap, taken);
       if (!a) continue;
-      const EdgeNode *b = nearest(sides.posterior, {a->along, a->depth}, row == 0, taken);
+      // back into the clip, and out on its other side
+      const Place opposite = turn.posterior(turn.posterior({a->along, a->depth}));
+      const bool edge = turn.posterior(in_clip).depth < 0.5 * gap;
+      const EdgeNode *b = nearest(sides.posterior, opposite, edge, taken);
       if (!b) continue;
-      const bool near =
-          place.away(*a) <= 0.5 * gap && Place{a->along, a->depth}.away(*b) <= 0.5 * gap;
+      const bool near = place.away(*a) <= reach_of_node && opposite.away(*b) <= reach_of_node;
       if (!near && !pairs.empty()) continue;
       taken[a->node] = taken[b->node] = 1;
       pairs.push_back({a->node, b->node});
@@ -123,12 +142,15 @@ void operate(Surgery &s, const mvs_op_clip &op) {
   const double reach = op.reach != 0 ? op.reach : default_reach;
   // two sheets thick, so that no fold opens between two stitches
   const double gap = 2 * s.valve.contact_thickness;
-  const std::vector<Pair> pairs = pairs_in_rows(sides, s.before.node_count(), width, reach, gap);
+  const std::vector<Pair> pairs =
+      pairs_in_rows(sides, s.before.node_count(), width, reach, gap, Turn(op.angle));
   const std::string name = free_clip_name(s, op.name);
   sew_pairs(s, pairs, name);
   open_the_valve(s);
   s.title = format("Join %s and %s by %s, %zu stitches over %.1f mm", scallops[a].name.c_str(),
                    scallops[p].name.c_str(), name.c_str(), pairs.size(), 1e3 * width);
+  if (op.angle != 0)
+    s.title += format(", turned by %.0f degrees", 180 / std::numbers::pi * op.angle);
 }
 
 }  // namespace mvs::core

@@ -792,8 +792,8 @@ export interface OpHeadMove {
 
 /**
  * Joins two free edges (edge to edge: a clip or an Alfieri stitch) by sutures one contact thickness
- * long; makes a chord, the middle one. It is placed on the open valve: positions return to the rest
- * shape with zero velocity.
+ * long; makes a chord, the middle one, about which `angle` turns it in the plane of the leaflets.
+ * It is placed on the open valve: positions return to the rest shape with zero velocity.
  */
 export interface OpClip {
   /** scallop [A2] */
@@ -808,6 +808,8 @@ export interface OpClip {
   reach?: number;
   /** nullable ["clip"] */
   name?: string | null;
+  /** rad, anticlockwise as seen from the atrium [0: across the free edge] */
+  angle?: number;
 }
 
 /**
@@ -1874,7 +1876,7 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_op_clip: {
-    size: 56,
+    size: 64,
     sized: false,
     fields: [
       { name: "op", kind: "struct", of: "mvs_op", at: 0 },
@@ -1884,6 +1886,7 @@ export const layouts: Record<string, Layout> = {
       { name: "width", kind: "f64", at: 32 },
       { name: "reach", kind: "f64", at: 40 },
       { name: "name", kind: "text", at: 48 },
+      { name: "angle", kind: "f64", at: 56 },
     ],
   },
   mvs_op_resect: {

@@ -11,6 +11,8 @@ interface Left {
   title: string;
   bytes: Uint8Array;
   tour: typeof state.tour.value;
+  /** A valve of the tour whose goals were reached. */
+  finished: boolean;
 }
 
 /** The present plan if it has changes that are not saved. */
@@ -21,6 +23,7 @@ async function leave(): Promise<Left | null> {
     return {
       title,
       tour: state.tour.value,
+      finished: state.finished.value.includes(state.tour.value?.number ?? 0),
       bytes: await request('save_session', { title, notes: state.notes.value }),
     };
   } catch {
@@ -33,7 +36,9 @@ function offerReturn(left: Left | null, said = state.notice.value): void {
   if (!left) return;
   state.notice.value = {
     kind: said?.kind ?? 'info',
-    text: [said?.text, leaveTexts.left(left.title)].filter(Boolean).join(' '),
+    text: [said?.text, left.finished ? leaveTexts.finished(left.title) : leaveTexts.left(left.title)]
+      .filter(Boolean)
+      .join(' '),
     action: { text: leaveTexts.back, run: () => void comeBack(left) },
   };
 }

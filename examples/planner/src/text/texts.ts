@@ -193,7 +193,7 @@ export const tourTexts = {
   hint: 'A hint',
   goal: (number: number) => `Goals of valve ${number}`,
   repair: 'Repair this valve',
-  next: 'Next valve',
+  next: (number: number) => `On to valve ${number}`,
   present: (k: number) => `Valve ${k} of the tour`,
   finished: 'All goals reached',
   finishedOf: (count: number) =>
@@ -352,6 +352,7 @@ export const verdictTexts = {
 };
 
 export const leaveTexts = {
+  finished: (title: string) => `“${title}” is finished. Its repair can be opened once more.`,
   left: (title: string) => `The changed plan “${title || 'without a name'}” was closed.`,
   back: 'Return to it',
 };
@@ -572,6 +573,7 @@ export const repairTexts = {
   slack: 'slack',
   ofLimit: (stretch: number, share: number) =>
     `${number(100 * stretch)} %, ${Math.round(100 * share)} % of its limit`,
+  becomes: (was: string, now: string) => `${was}, now ${now}`,
   changeLength: 'Change length',
   cut: 'Cut',
   transfer: 'Transfer',

@@ -7,7 +7,16 @@ export function shareOfLimit(chord: Chord): number {
   return Math.max(chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
 }
 
-export function ChordFacts({ chord }: { chord: Chord }) {
+const pullOf = (chord: Chord): string => `${figure(chord.tension, 2)} N`;
+const stretchOf = (chord: Chord): string =>
+  chord.strain <= 0 ? repairTexts.slack : repairTexts.ofLimit(chord.strain, shareOfLimit(chord));
+
+/** `after`: the chord in the preview of a change. */
+export function ChordFacts({ chord, after }: { chord: Chord; after?: Chord }) {
+  const fact = (of: (chord: Chord) => string) => {
+    const [was, now] = [of(chord), of(after ?? chord)];
+    return was === now ? was : repairTexts.becomes(was, now);
+  };
   return (
     <>
       <h3>{repairTexts.chord(chord.name)}</h3>
@@ -16,11 +25,9 @@ export function ChordFacts({ chord }: { chord: Chord }) {
         <dt>{repairTexts.rest}</dt>
         <dd>{figure(chord.rest)} mm</dd>
         <dt>{repairTexts.pull}</dt>
-        <dd>{figure(chord.tension, 2)} N</dd>
+        <dd>{fact(pullOf)}</dd>
         <dt>{repairTexts.stretch}</dt>
-        <dd>
-          {chord.strain <= 0 ? repairTexts.slack : repairTexts.ofLimit(chord.strain, shareOfLimit(chord))}
-        </dd>
+        <dd>{fact(stretchOf)}</dd>
       </dl>
     </>
   );

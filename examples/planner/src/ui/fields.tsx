@@ -51,12 +51,12 @@ function restOfChord(): number | null {
   return state.main.value?.figures.chords.find((chord) => chord.id === id)?.rest ?? null;
 }
 
-/** The value of an empty field; "0, the middle" is 0. Only plain numbers are free of units. */
+/** The value of an empty field; "0, the middle" is 0. Only plain numbers, and zero, are free of units. */
 function fallbackOf(field: FieldInfo): number | undefined {
   if (!field.fallback) return undefined;
   const value = Number.isFinite(field.fallbackValue)
     ? field.fallbackValue
-    : field.unit
+    : field.unit && !/^0\b(?!\.)/.test(field.fallback)
       ? NaN
       : parseFloat(field.fallback);
   return Number.isFinite(value) ? value : undefined;

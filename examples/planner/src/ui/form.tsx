@@ -41,8 +41,10 @@ export function OperationForm() {
     .map((name) => usable.find((field) => field.name === name))
     .filter((f): f is FieldInfo => !!f && !hidden.includes(f.name));
   const more = usable.filter((field) => !first.includes(field.name) && !hidden.includes(field.name));
-  // of the valve before the operation
-  const chord = state.main.value?.figures.chords.find((item) => item.id === draft.fields.chord);
+  // of the valve before the operation, and of its preview
+  const [chord, changed] = [state.main, state.preview].map((valve) =>
+    valve.value?.figures.chords.find((item) => item.id === draft.fields.chord),
+  );
   const ready = complete(draft.kind, draft.fields);
   return (
     <form
@@ -63,7 +65,7 @@ export function OperationForm() {
       )}
       {chord && (
         <div class="chosen-card" data-testid="chosen">
-          <ChordFacts chord={chord} />
+          <ChordFacts chord={chord} after={changed} />
         </div>
       )}
       {shown.map((field) => (

@@ -29,6 +29,8 @@ function checks(): Check[] {
 export function Goals({ number, short }: { number: number; short?: boolean }) {
   const found = checks();
   const count = state.finished.value.length;
+  // in the order of the tour, and back to those that were passed over
+  const next = [1, 2, 3, 1, 2].slice(number).find((k) => !state.finished.value.includes(k));
   const icon = ({ done }: Check) =>
     done === null ? <CircleHelp size={18} /> : done ? <Check size={18} /> : <X size={18} />;
   return (
@@ -48,11 +50,11 @@ export function Goals({ number, short }: { number: number; short?: boolean }) {
       {found.every((check) => check.done) && (
         <p class="won" role="status">
           {tourTexts.won} {count > 0 && tourTexts.finishedOf(count)}
-          {number < 3 && (
+          {next && (
             <>
               {' '}
-              <Button kind="main" onClick={() => void startValve(number + 1)}>
-                {tourTexts.next}
+              <Button kind="main" onClick={() => void startValve(next)}>
+                {tourTexts.next(next)}
               </Button>
             </>
           )}

@@ -3,7 +3,7 @@
 import * as state from '../store/state';
 import { edit } from '../store/edit';
 import { fail, request, tell } from '../store/requests';
-import { clipPlace, setClip } from './clip';
+import { armLength, clipPlace, setClip, type ClipPlace } from './clip';
 import type { Hit } from './pick';
 import type { Viewport } from './viewport';
 
@@ -33,12 +33,21 @@ function isNear(view: Viewport, at: ArrayLike<number>, p: Place, reach: number):
   return Math.hypot(x - p.x, y - p.y) < 16 + reach / 2;
 }
 
+/** Whether a place is at the handle or on the arms of the clip, which turn it as well. */
+function isOnArms(view: Viewport, clip: ClipPlace, p: Place, reach: number): boolean {
+  const end = clip.at.map((v, c) => v - armLength * clip.arm[c]);
+  const [[ax, ay], [bx, by]] = [project(view, end), project(view, clip.handle)];
+  const [dx, dy] = [bx - ax, by - ay];
+  const s = Math.min(1, Math.max(0, ((p.x - ax) * dx + (p.y - ay) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(p.x - ax - s * dx, p.y - ay - s * dy) < reach || isNear(view, clip.handle, p, reach);
+}
+
 /** What a press at a place drags: a part under the pointer, or the camera. */
 export function dragAt(view: Viewport, p: Place, reach: number, hit: Hit | null): Drag {
   if (state.sectionOn.value && isNear(view, view.handle(), p, reach)) return { kind: 'handle' };
   const clip = clipPlace();
   if (clip && isNear(view, clip.at, p, reach)) return { kind: 'clip', position: clip.position };
-  if (clip && isNear(view, clip.handle, p, reach)) return { kind: 'turn-clip' };
+  if (clip && isOnArms(view, clip, p, reach)) return { kind: 'turn-clip' };
   if (!hit) return { kind: 'turn' };
   if (state.tool.value !== 'look' && hit.surface) return grasp(view, hit);
   const topology = state.topologyOf(state.picture.value!)!;
