@@ -30,6 +30,13 @@ struct Rounding<float> : FlushDenormals {};
 // Microseconds for a product of blocks in single precision, about.
 constexpr double product_us = 1.2e-3;
 
+// The same for a number of a panel, of both solutions.
+constexpr double number_us = 6e-4;
+
+// Largest share of the work in a subtree that one thread factorises, and solves. A solution is so
+// short that only few supernodes may wait for each other.
+constexpr double factor_share = 1.0 / 24, solve_share = 1.0 / 6;
+
 // Places of rows in the current panel, of one thread.
 struct Places {
   std::vector<uint32_t> of_row;  // block row -> its place in the current panel
@@ -60,9 +67,14 @@ class BlockFactor final : public DirectSolver {
   void gather(const BlockMatrix &matrix, const Supernode &s, const Places &places, uint32_t first,
               uint32_t last);
   void subtract(const Contribution &c, const Supernode &to, const Places &by_row, Places &places);
-  void load(const Supernode &s);
-  void store_columns(const Supernode &s);
-  void store_rows(const Supernode &s);
+  void load(const Supernode &s, size_t row_end, T *to) const;
+  void store_columns(const Supernode &s, const T *from);
+  void store_rows(const Supernode &s, size_t row_end, const T *from);
+  void solve_forward_at(const Supernode &s, size_t row_end, T *local);
+  void solve_backward_at(const Supernode &s, T *local);
+  void solve_together();
+  void divide_solution();
+  void solve_outer_rows(uint32_t begin, uint32_t end);
 
   Supernodes pattern_;
   std::vector<T> value_;      // all panels
@@ -71,9 +83,11 @@ class BlockFactor final : public DirectSolver {
   std::vector<double> work_;  // products up to the end of each supernode
   Places places_;
   // for several threads
-  Subtrees subtrees_;
-  bool is_divided_ = false;
+  Subtrees subtrees_, solved_;  // of a factorisation, of a solution
+  bool is_divided_ = false, is_solution_divided_ = false;
   std::vector<Places> of_thread_;
+  std::vector<std::vector<T>> local_of_thread_;
+  std::vector<uint32_t> part_of_row_;  // threads share the rows of the top
 };
 
 template <typename T>
@@ -91,7 +105,7 @@ void BlockFactor<T>::analyse(const BlockMatrix &matrix) {
   x_.resize(3 * matrix.size());
   local_.resize(tallest + panel_slack);
   weigh();
-  is_divided_ = false;
+  is_divided_ = is_solution_divided_ = false;
 }
 
 // Counts products of blocks, with the cost of calls and copies in products.
@@ -193,7 +207,7 @@ void BlockFactor<T>::divide() {
   if (!is_divided_) {
     std::vector<double> work(work_.size());
     std::adjacent_difference(work_.begin(), work_.end(), work.begin());
-    subtrees_.divide(pattern_, work);
+    subtrees_.divide(pattern_, work, factor_share);
     is_divided_ = true;
   }
   of_thread_.resize(workers()->width());
@@ -290,27 +304,43 @@ void copy_block(const T *from, T *to) {
   for (size_t c = 0; c < 3; ++c) to[c] = from[c];
 }
 
+// Its columns, and its rows up to `row_end`.
 template <typename T>
-void BlockFactor<T>::load(const Supernode &s) {
-  T *to = local_.data();
+void BlockFactor<T>::load(const Supernode &s, size_t row_end, T *to) const {
   for (uint32_t j = s.first; j < s.last; ++j, to += 3) copy_block(x_.data() + 3 * j, to);
-  for (size_t k = s.row_start; k < s.row_end; ++k, to += 3) {
+  for (size_t k = s.row_start; k < row_end; ++k, to += 3) {
     copy_block(x_.data() + 3 * pattern_.row[k], to);
   }
 }
 
 template <typename T>
-void BlockFactor<T>::store_columns(const Supernode &s) {
-  const T *from = local_.data();
+void BlockFactor<T>::store_columns(const Supernode &s, const T *from) {
   for (uint32_t j = s.first; j < s.last; ++j, from += 3) copy_block(from, x_.data() + 3 * j);
 }
 
 template <typename T>
-void BlockFactor<T>::store_rows(const Supernode &s) {
-  const T *from = local_.data() + 3 * s.width();
-  for (size_t k = s.row_start; k < s.row_end; ++k, from += 3) {
+void BlockFactor<T>::store_rows(const Supernode &s, size_t row_end, const T *from) {
+  from += 3 * s.width();
+  for (size_t k = s.row_start; k < row_end; ++k, from += 3) {
     copy_block(from, x_.data() + 3 * pattern_.row[k]);
   }
+}
+
+template <typename T>
+void BlockFactor<T>::solve_forward_at(const Supernode &s, size_t row_end, T *local) {
+  load(s, row_end, local);
+  const size_t rows = s.width() + row_end - s.row_start;
+  solve_forward_to(panel(s), 3 * s.width(), s.height(),
+                   row_end == s.row_end ? s.height() : 3 * rows, local);
+  store_columns(s, local);
+  store_rows(s, row_end, local);
+}
+
+template <typename T>
+void BlockFactor<T>::solve_backward_at(const Supernode &s, T *local) {
+  load(s, s.row_end, local);
+  solve_backward(panel(s), 3 * s.width(), s.height(), local);
+  store_columns(s, local);
 }
 
 // Solves L y = b by columns, then L^T x = y; for doubles with the sums of each row from its last
@@ -319,21 +349,106 @@ template <typename T>
 void BlockFactor<T>::solve(std::vector<Vec3> &b) {
   const Rounding<T> rounding;
   for (size_t j = 0; j < b.size(); ++j) Eigen::Map<Row>(x_.data() + 3 * j) = b[j].cast<T>();
-  for (const Supernode &s : pattern_.node) {
-    load(s);
-    solve_forward(panel(s), 3 * s.width(), s.height(), local_.data());
-    store_columns(s);
-    store_rows(s);
-  }
-  for (size_t k = pattern_.node.size(); k-- > 0;) {
-    const Supernode &s = pattern_.node[k];
-    load(s);
-    solve_backward(panel(s), 3 * s.width(), s.height(), local_.data());
-    store_columns(s);
+  if (pay_for(workers(), number_us * static_cast<double>(pattern_.numbers))) {
+    solve_together();
+  } else {
+    for (const Supernode &s : pattern_.node) solve_forward_at(s, s.row_end, local_.data());
+    for (size_t k = pattern_.node.size(); k-- > 0;) {
+      solve_backward_at(pattern_.node[k], local_.data());
+    }
   }
   for (size_t j = 0; j < b.size(); ++j) {
     b[j] = Eigen::Map<const Row>(x_.data() + 3 * j).template cast<double>();
   }
+}
+
+// Subtrees, and parts of the rows above them with equally many numbers of the factor.
+template <typename T>
+void BlockFactor<T>::divide_solution() {
+  const auto threads = static_cast<uint32_t>(workers()->width());
+  if (is_solution_divided_ && local_of_thread_.size() == threads) return;
+  is_solution_divided_ = true;
+  local_of_thread_.resize(threads);
+  for (auto &local : local_of_thread_) local.resize(local_.size());
+  std::vector<double> work, of_row(x_.size() / 3, 0.0);
+  for (const Supernode &s : pattern_.node) {
+    work.push_back(static_cast<double>(3 * s.width() * s.height()));
+  }
+  solved_.divide(pattern_, work, solve_share);
+  double whole = 0;
+  for (uint32_t k = 0; k < pattern_.node.size(); ++k) {
+    const Supernode &s = pattern_.node[k];
+    for (size_t r = solved_.outer_rows(k); r < s.row_end; ++r) {
+      of_row[pattern_.row[r]] += s.width();
+      whole += s.width();
+    }
+  }
+  part_of_row_.assign(of_row.size(), 0);
+  double before = 0;
+  for (size_t r = 0; r < of_row.size(); ++r) {
+    const double part = whole > 0 ? before / whole * threads : 0;
+    part_of_row_[r] = std::min(static_cast<uint32_t>(part), threads - 1);
+    before += of_row[r];
+  }
+}
+
+// Each number takes its products in the order of a single thread: those with columns of its subtree
+// by the thread of the subtree, those of a row above by the thread of that row.
+template <typename T>
+void BlockFactor<T>::solve_together() {
+  divide_solution();
+  const auto threads = static_cast<uint32_t>(local_of_thread_.size());
+  const auto for_groups = [&](const auto &solve) {
+    std::atomic<uint32_t> next{0};
+    workers()->parallel_for(threads, [&](uint32_t thread) {
+      for (uint32_t group; (group = next++) < solved_.count();) {
+        solve(solved_.begin(group), solved_.end(group), local_of_thread_[thread].data());
+      }
+    });
+  };
+  for_groups([&](const uint32_t *k, const uint32_t *end, T *local) {
+    for (; k != end; ++k) solve_forward_at(pattern_.node[*k], solved_.outer_rows(*k), local);
+  });
+  uint32_t begin = 0;
+  for (const uint32_t top : solved_.top()) {
+    solve_outer_rows(begin, top);
+    const Supernode &s = pattern_.node[top];
+    solve_forward_at(s, s.row_end, local_.data());
+    begin = top + 1;
+  }
+  for (size_t k = solved_.top().size(); k-- > 0;) {
+    solve_backward_at(pattern_.node[solved_.top()[k]], local_.data());
+  }
+  for_groups([&](const uint32_t *first, const uint32_t *k, T *local) {
+    while (k != first) solve_backward_at(pattern_.node[*--k], local);
+  });
+}
+
+// Subtracts the products of supernodes begin .. end, in subtrees, from the rows above them.
+template <typename T>
+void BlockFactor<T>::solve_outer_rows(uint32_t begin, uint32_t end) {
+  const auto subtract_at = [&](const Supernode &s, size_t row, size_t row_end, T *local) {
+    T *to = local;
+    for (size_t r = row; r < row_end; ++r, to += 3) copy_block(x_.data() + 3 * pattern_.row[r], to);
+    subtract_rows(panel(s) + 3 * (s.width() + row - s.row_start), 3 * s.width(), s.height(),
+                  3 * (row_end - row), x_.data() + 3 * s.first, local);
+    const T *from = local;
+    for (size_t r = row; r < row_end; ++r, from += 3) {
+      copy_block(from, x_.data() + 3 * pattern_.row[r]);
+    }
+  };
+  if (begin == end) return;
+  const auto threads = static_cast<uint32_t>(local_of_thread_.size());
+  workers()->parallel_for(threads, [&](uint32_t thread) {
+    for (uint32_t k = begin; k < end; ++k) {
+      const Supernode &s = pattern_.node[k];
+      size_t row = solved_.outer_rows(k);
+      while (row < s.row_end && part_of_row_[pattern_.row[row]] < thread) ++row;
+      size_t row_end = row;
+      while (row_end < s.row_end && part_of_row_[pattern_.row[row_end]] == thread) ++row_end;
+      if (row < row_end) subtract_at(s, row, row_end, local_of_thread_[thread].data());
+    }
+  });
 }
 
 }  // namespace

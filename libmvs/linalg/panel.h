@@ -64,6 +64,12 @@ inline size_t rows_below(size_t block, size_t width, size_t height) {
 // be read, and x written, up to panel_slack numbers past its end.
 template <typename T>
 void solve_forward(const T *panel, size_t width, size_t height, T *x);
+// The same for the first `rows` rows, of `width` or more, and the rest of it: subtracts from x the
+// products of y, the first `width` rows of a solution, with `rows` rows that begin at `row`.
+template <typename T>
+void solve_forward_to(const T *panel, size_t width, size_t height, size_t rows, T *x);
+template <typename T>
+void subtract_rows(const T *row, size_t width, size_t height, size_t rows, const T *y, T *x);
 // The first `width` rows of x become L^-T (x - B^T x below).
 template <typename T>
 void solve_backward(const T *panel, size_t width, size_t height, T *x);

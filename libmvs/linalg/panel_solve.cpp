@@ -53,25 +53,38 @@ MVS_INLINE void take_from(const T *a, size_t height, size_t columns, const T *by
   for (size_t v = 0; v < count; ++v) store<V>(x + v * V::width, sum[v]);
 }
 
-// Whole registers to the end: numbers past it are padding.
+// Rows i to `rows`. Whole registers to the end: numbers past it are padding.
 template <typename V, typename T = typename V::Number>
-MVS_INLINE void forward_columns(const T *panel, size_t width, size_t height, T *x) {
+MVS_INLINE void take_from_rows(const T *a, size_t height, size_t columns, size_t i, size_t rows,
+                               const T *by, T *x) {
   constexpr size_t wide = V::width;
+  for (; i + 3 * wide < rows; i += 4 * wide) {
+    take_from<V, 4>(a + i, height, columns, by, x + i);
+  }
+  if (i + 2 * wide < rows) {
+    take_from<V, 3>(a + i, height, columns, by, x + i);
+  } else if (i + wide < rows) {
+    take_from<V, 2>(a + i, height, columns, by, x + i);
+  } else if (i < rows) {
+    take_from<V, 1>(a + i, height, columns, by, x + i);
+  }
+}
+
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void forward_columns(const T *panel, size_t width, size_t height, size_t rows, T *x) {
   for (size_t first = 0; first < width; first += solve_columns) {
-    const size_t last = std::min(first + solve_columns, width), columns = last - first;
+    const size_t last = std::min(first + solve_columns, width);
     forward_block(panel, height, first, last, x);
-    const T *a = panel + first * height, *by = x + first;
-    size_t i = last;
-    for (; i + 3 * wide < height; i += 4 * wide) {
-      take_from<V, 4>(a + i, height, columns, by, x + i);
-    }
-    if (i + 2 * wide < height) {
-      take_from<V, 3>(a + i, height, columns, by, x + i);
-    } else if (i + wide < height) {
-      take_from<V, 2>(a + i, height, columns, by, x + i);
-    } else if (i < height) {
-      take_from<V, 1>(a + i, height, columns, by, x + i);
-    }
+    take_from_rows<V>(panel + first * height, height, last - first, last, rows, x + first, x);
+  }
+}
+
+template <typename V, typename T = typename V::Number>
+MVS_INLINE void forward_rows(const T *row, size_t width, size_t height, size_t rows, const T *y,
+                             T *x) {
+  for (size_t first = 0; first < width; first += solve_columns) {
+    const size_t columns = std::min(solve_columns, width - first);
+    take_from_rows<V>(row + first * height, height, columns, 0, rows, y + first, x);
   }
 }
 
@@ -170,12 +183,26 @@ MVS_INLINE void backward_columns(const T *panel, size_t width, size_t height, T 
 }  // namespace
 
 template <typename T>
-void solve_forward(const T *panel, size_t width, size_t height, T *x) {
+void solve_forward_to(const T *panel, size_t width, size_t height, size_t rows, T *x) {
   using R = Registers<T>;
   static const auto kernel =
       simd_kernel<&forward_columns<typename R::Baseline>, &forward_columns<typename R::Avx2>,
                   &forward_columns<typename R::Avx512>>();
-  kernel(panel, width, height, x);
+  kernel(panel, width, height, rows, x);
+}
+
+template <typename T>
+void solve_forward(const T *panel, size_t width, size_t height, T *x) {
+  solve_forward_to(panel, width, height, height, x);
+}
+
+template <typename T>
+void subtract_rows(const T *row, size_t width, size_t height, size_t rows, const T *y, T *x) {
+  using R = Registers<T>;
+  static const auto kernel =
+      simd_kernel<&forward_rows<typename R::Baseline>, &forward_rows<typename R::Avx2>,
+                  &forward_rows<typename R::Avx512>>();
+  kernel(row, width, height, rows, y, x);
 }
 
 template <typename T>
@@ -185,6 +212,10 @@ void solve_backward(const T *panel, size_t width, size_t height, T *x) {
   kernel(panel, width, height, x);
 }
 
+template void solve_forward_to(const double *, size_t, size_t, size_t, double *);
+template void solve_forward_to(const float *, size_t, size_t, size_t, float *);
+template void subtract_rows(const double *, size_t, size_t, size_t, const double *, double *);
+template void subtract_rows(const float *, size_t, size_t, size_t, const float *, float *);
 template void solve_forward(const double *, size_t, size_t, double *);
 template void solve_forward(const float *, size_t, size_t, float *);
 template void solve_backward(const double *, size_t, size_t, double *);

@@ -4,15 +4,9 @@
 #include <algorithm>
 
 namespace mvs::core {
-namespace {
 
-// Largest work of a subtree, as a share of the whole. Two threads then differ by few per cent; a
-// smaller share moves more supernodes to the top, where threads wait for each other.
-constexpr double largest_share = 1.0 / 24;
-
-}  // namespace
-
-void Subtrees::divide(const Supernodes &pattern, const std::vector<double> &work) {
+void Subtrees::divide(const Supernodes &pattern, const std::vector<double> &work,
+                      double largest_share) {
   const auto count = static_cast<uint32_t>(pattern.node.size());
   std::vector<uint32_t> owner, parent(count, none), group(count, none);
   for (uint32_t s = 0; s < count; ++s) owner.resize(pattern.node[s].last, s);
@@ -44,6 +38,13 @@ void Subtrees::divide(const Supernodes &pattern, const std::vector<double> &work
     }
   }
   std::reverse(top_.begin(), top_.end());
+  // the rows of a supernode are columns of its ancestors, those in the subtree first
+  outer_rows_.resize(count);
+  for (uint32_t s = 0; s < count; ++s) {
+    size_t k = pattern.node[s].row_start;
+    while (k < pattern.node[s].row_end && group[owner[pattern.row[k]]] != none) ++k;
+    outer_rows_[s] = k;
+  }
   start_.assign(groups + 1, 0);
   for (const uint32_t g : group) {
     if (g != none) ++start_[g + 1];

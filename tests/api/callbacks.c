@@ -34,7 +34,8 @@ static int32_t take_progress(void *user, double share, double residual) {
 
 static void settle_with(host *h, mvs_result wanted) {
   static funnel f;
-  mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, take_progress, h};
+  mvs_sim_desc desc = {
+      .struct_size = sizeof desc, .log = take_line, .progress = take_progress, .user = h};
   mvs_load_case load = funnel_load();
   make_funnel(&f);
   MUST(mvs_create(&desc, &h->sim));
@@ -124,7 +125,7 @@ static void not_converged_is_a_warning_and_no_error(void) {
 static void small_edges_and_needles_are_warned_of(void) {
   static funnel f;
   host h = {0};
-  mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, NULL, &h};
+  mvs_sim_desc desc = {.struct_size = sizeof desc, .log = take_line, .user = &h};
   make_funnel(&f);
   f.desc.contact_thickness = 5e-3; /* the funnel's lower edges are 3.5 mm long */
   MUST(mvs_create(&desc, &h.sim));
@@ -160,7 +161,7 @@ static void small_edges_and_needles_are_warned_of(void) {
 static void which_side_is_taken_for_the_anterior_one_is_told(void) {
   static funnel f;
   host h = {0};
-  mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, NULL, &h};
+  mvs_sim_desc desc = {.struct_size = sizeof desc, .log = take_line, .user = &h};
   make_funnel(&f);
   f.leaflets[0].name = "Septal";
   MUST(mvs_create(&desc, &h.sim));

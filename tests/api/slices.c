@@ -17,7 +17,7 @@ static int32_t count_calls(void *user, double share, double residual) {
 static mvs_sim *loaded_funnel(host *h) {
   static funnel f;
   mvs_sim *sim;
-  mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, NULL, count_calls, h};
+  mvs_sim_desc desc = {.struct_size = sizeof desc, .progress = count_calls, .user = h};
   mvs_load_case load = funnel_load();
   make_funnel(&f);
   MUST(mvs_create(&desc, &sim));

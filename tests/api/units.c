@@ -104,7 +104,7 @@ static void pressures_in_kpa_are_warned_of(void) {
 }
 
 int main(void) {
-  const mvs_sim_desc desc = {sizeof desc, MVS_BACKEND_DEFAULT, take_line, NULL, &heard};
+  const mvs_sim_desc desc = {.struct_size = sizeof desc, .log = take_line, .user = &heard};
   MUST(mvs_create(&desc, &sim));
   what_tissue_is_like_is_not_warned_of();
   moduli_in_kpa_are_warned_of();

@@ -41,7 +41,9 @@ mvs_settle_options options_of(const Case &of) {
 }
 
 void close_once(const Case &of, Closing &closing) {
-  mvs::Simulator sim;
+  mvs_sim_desc how = {};
+  how.workers = of.workers;
+  mvs::Simulator sim(how);
   make(sim, of);
   const Seconds took = timed([&] {
     try {
@@ -57,7 +59,33 @@ void close_once(const Case &of, Closing &closing) {
   closing.closed = sim.snapshot().save_memory(MVS_FORMAT_OBJ);
 }
 
+// A pool that runs its tasks one after the other, and the CPU time of its loops.
+struct CountingPool {
+  uint32_t width;
+  double seconds = 0;
+
+  static uint32_t width_of(void *user) { return static_cast<CountingPool *>(user)->width; }
+  static void run(void *user, uint32_t count, mvs_task_fn task, void *context) {
+    const Seconds took = timed([&] {
+      for (uint32_t k = 0; k < count; ++k) task(context, k);
+    });
+    static_cast<CountingPool *>(user)->seconds += took.cpu;
+  }
+};
+
 }  // namespace
+
+double shared_part(const Case &of) {
+  CountingPool pool{of.workers};
+  mvs_sim_desc how = {};
+  how.user = &pool;
+  how.pool_width = &CountingPool::width_of;
+  how.run_tasks = &CountingPool::run;
+  mvs::Simulator sim(how);
+  make(sim, of);
+  const Seconds took = timed([&] { sim.settle(options_of(of)); });
+  return pool.seconds / took.cpu;
+}
 
 double Closing::other() const {
   double rest = cpu();
@@ -66,10 +94,16 @@ double Closing::other() const {
 }
 
 Closing close(const Case &of, int repeat) {
-  Closing closing;
-  for (int k = 0; k < repeat; ++k) close_once(of, closing);
-  measure(closing);
-  return closing;
+  return close_in_turn({of}, repeat).front();
+}
+
+std::vector<Closing> close_in_turn(const std::vector<Case> &cases, int repeat) {
+  std::vector<Closing> closings(cases.size());
+  for (int k = 0; k < repeat; ++k) {
+    for (size_t c = 0; c < cases.size(); ++c) close_once(cases[c], closings[c]);
+  }
+  for (Closing &closing : closings) measure(closing);
+  return closings;
 }
 
 std::string open_valve(const Case &of) {

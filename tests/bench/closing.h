@@ -30,6 +30,7 @@ struct Case {
   double residual = rest_residual;
   double dt = 0, damping = 0;  // of solvers in time; 0: the default
   uint32_t most = 0;           // iterations; 0: the default
+  uint32_t workers = 0;        // threads; 0 and 1: the calling thread alone
   std::string file = "";       // a valve with its load; empty: the scene, under systolic pressure
 };
 
@@ -53,9 +54,15 @@ struct Closing {
   double other() const;
 };
 
+// The share of the CPU time of a closure that its `workers` may share, from 0 to 1: that of the
+// loops that a pool of the host runs, here all on the calling thread, so that load does not matter.
+double shared_part(const Case &of);
+
 // Closes it `repeat` times, each in a new simulator, so that no run starts from another's cached
 // data.
 Closing close(const Case &of, int repeat);
+// The same of several cases, in turn, so that other work on the machine meets all of them.
+std::vector<Closing> close_in_turn(const std::vector<Case> &cases, int repeat);
 
 // The valve before it is closed, an extended OBJ file.
 std::string open_valve(const Case &of);

@@ -7,12 +7,16 @@
 //   bench_closure --explicit M       minutes; --dt and --damping spare it the search
 //   bench_closure --relaxation S M   dynamic relaxation at its best settings, with viscous and with
 //                                    kinetic damping; springs and membrane
+//   bench_closure --scenes L XL --leaflets spring --workers 1 2
+//                                    newton with so many threads: wall seconds, and "shared", the
+//                                    share of the CPU time in loops that they share
 //   bench_closure --csv FILE         also as a table
 //
 // CPU seconds are medians of the runs; those of a phase are its share of the wall time, "other" is
 // the time in no phase. "rms" and "max" are distances of the closed surface from that of newton
 // at a residual of 1e-7 N.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <map>
@@ -31,6 +35,7 @@ struct Options {
   std::vector<std::string> scenes = {"S", "M", "L"}, leaflets = {"spring", "membrane"};
   std::vector<std::string> solvers = {"newton"}, explicit_scenes = {"S"};
   std::vector<std::string> relaxed_scenes = {"S"};
+  std::vector<uint32_t> workers = {1};
   double residual = rest_residual, dt = 0, damping = 0;
   int repeat = 3;
   std::string csv;
@@ -39,6 +44,7 @@ struct Options {
 struct Row {
   Case of;
   Closing closing;
+  double shared = 0;
 };
 
 // The reference of closed shapes: newton's at a residual of 1e-7 N, where only rounding is left.
@@ -58,10 +64,10 @@ class Converged {
 };
 
 std::vector<std::string> columns() {
-  std::vector<std::string> names = {"scene",    "vertices",  "leaflet ",   "solver  ", "steps",
-                                    "factored", "orderings", "broad",      "passes",   "linear",
-                                    "cpu s",    "wall s",    "residual N", "at rest",  "crossings",
-                                    "hole mm2", "rms mm",    "max mm"};
+  std::vector<std::string> names = {"scene",    "vertices",  "leaflet ", "solver  ", "steps",
+                                    "factored", "orderings", "broad",    "passes",   "linear",
+                                    "workers",  "shared",    "cpu s",    "wall s",   "residual N",
+                                    "at rest",  "crossings", "hole mm2", "rms mm",   "max mm"};
   for (const std::string &phase : phase_names) names.push_back(phase + " ms");
   names.push_back("other ms");
   return names;
@@ -80,6 +86,8 @@ void tell(Table &table, const Row &row, Converged &converged) {
                              profile.broad_phases,
                              profile.passes,
                              profile.linear_iterations,
+                             std::max(row.of.workers, 1u),
+                             row.shared,
                              row.closing.cpu(),
                              row.closing.wall(),
                              s.residual,
@@ -94,6 +102,20 @@ void tell(Table &table, const Row &row, Converged &converged) {
   table.row(cells);
 }
 
+// The median ratio of the wall times of runs beside each other: the first number of workers over
+// each other one.
+void tell_speedups(const std::vector<Case> &cases, const std::vector<Closing> &closings) {
+  for (size_t k = 1; k < cases.size(); ++k) {
+    std::vector<double> ratios;
+    for (size_t run = 0; run < closings[k].wall_s.size(); ++run) {
+      ratios.push_back(closings[0].wall_s[run] / closings[k].wall_s[run]);
+    }
+    std::printf("%s, %s: %u workers are %.2f times as fast as %u (wall), same bits: %s\n",
+                cases[k].scene.c_str(), cases[k].leaflet.c_str(), cases[k].workers, median(ratios),
+                cases[0].workers, closings[k].closed == closings[0].closed ? "yes" : "NO");
+  }
+}
+
 std::vector<Row> run_all(const Options &options) {
   Table table(columns(), options.csv);
   std::vector<Row> rows;
@@ -105,8 +127,13 @@ std::vector<Row> run_all(const Options &options) {
   for (const std::string &scene : options.scenes) {
     for (const std::string &leaflet : options.leaflets) {
       for (const std::string &solver : options.solvers) {
-        const Case of{scene, leaflet, solver, options.residual};
-        add({of, close(of, options.repeat)});
+        std::vector<Case> cases(options.workers.size(), {scene, leaflet, solver, options.residual});
+        for (size_t k = 0; k < cases.size(); ++k) cases[k].workers = options.workers[k];
+        const std::vector<Closing> closings = close_in_turn(cases, options.repeat);
+        for (size_t k = 0; k < cases.size(); ++k) {
+          add({cases[k], closings[k], cases[k].workers > 1 ? shared_part(cases[k]) : 0});
+        }
+        tell_speedups(cases, closings);
       }
     }
   }
@@ -180,6 +207,9 @@ void add_options(CLI::App &app, Options &options) {
   app.add_option("--repeat", options.repeat, "runs of each, explicit but once")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  app.add_option("--workers", options.workers, "threads, in turn")
+      ->capture_default_str()
+      ->check(CLI::Range(1, MVS_MAX_WORKERS));
   app.add_option("--csv", options.csv, "file to write the table to");
 }
 
@@ -190,6 +220,8 @@ int run(int argc, char **argv) {
   CLI11_PARSE(app, argc, argv);
   // naming solvers runs only those
   if (app.count("--solvers") > 0 && app.count("--explicit") == 0) options.explicit_scenes.clear();
+  if (app.count("--workers") > 0 && app.count("--explicit") == 0) options.explicit_scenes.clear();
+  if (app.count("--workers") > 0 && app.count("--relaxation") == 0) options.relaxed_scenes.clear();
   if (app.count("--solvers") > 0 && app.count("--relaxation") == 0) options.relaxed_scenes.clear();
   tell_ratios(run_all(options));
   return 0;

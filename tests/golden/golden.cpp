@@ -4,6 +4,8 @@
 //   golden TABLE [SCENE ...]     compares; exit code 1 and one line for each digest that differs
 //   golden --write TABLE         writes the table anew
 //   golden --hash [SCENE ...]    prints the snapshot hash of each scene, to compare two builds
+//   golden --workers N ...       the same with N worker threads, which change no bit; with the
+//                                environment variable MVS_WORKERS_LEAST_US=0 they share all loops
 //
 // A digest covers the bits of one array, not the snapshot hash, so that renaming a field or
 // reordering the hash leaves it unchanged. The digests are the same for every compiler,
@@ -135,10 +137,16 @@ void print_hashes(const std::vector<std::string> &prefixes) {
 }  // namespace
 
 int main(int argc, char **argv) {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() > 2 && arguments[0] == "--workers") {
+    golden::use_workers(static_cast<uint32_t>(std::atoi(arguments[1].c_str())));
+    arguments.erase(arguments.begin(), arguments.begin() + 2);
+  }
   const bool writes = arguments.size() == 2 && arguments[0] == "--write";
   if (arguments.empty() || (arguments[0] == "--write" && !writes)) {
-    std::fprintf(stderr, "usage: golden TABLE [SCENE ...] | --write TABLE | --hash [SCENE ...]\n");
+    std::fprintf(
+        stderr,
+        "usage: golden [--workers N] TABLE [SCENE ...] | --write TABLE | --hash [SCENE ...]\n");
     return 2;
   }
   if (arguments[0] == "--hash") {

@@ -19,11 +19,15 @@ Struct sized() {
   return made;
 }
 
+uint32_t worker_threads = 0;
+
 // A simulator with a parametric valve.
 class Sim {
  public:
   explicit Sim(uint32_t vertices, uint32_t law = MVS_LEAFLET_LAW_SPRING, uint32_t branching = 0) {
-    check(mvs_create(nullptr, &sim_));
+    auto how = sized<mvs_sim_desc>();
+    how.workers = worker_threads;
+    check(mvs_create(&how, &sim_));
     auto desc = sized<mvs_parametric_desc>();
     desc.shape = MVS_SHAPE_FOUNDING;
     desc.vertices = vertices;
@@ -343,6 +347,10 @@ void paths(const Record &record) {
 }
 
 }  // namespace
+
+void use_workers(uint32_t workers) {
+  worker_threads = workers;
+}
 
 void check(mvs_result result) {
   if (result == MVS_OK) return;

@@ -19,6 +19,9 @@ struct Group {
 };
 std::vector<Group> groups();
 
+// Worker threads of the simulators of all scenes made after the call; 0 at first.
+void use_workers(uint32_t workers);
+
 // Ends the program with the sentence of the library's last failure unless the call succeeded.
 void check(mvs_result result);
 

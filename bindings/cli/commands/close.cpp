@@ -63,7 +63,7 @@ struct Closed {
 
 Closed close_valve(const CloseOptions &options, const Console &console) {
   Progress progress(console);
-  mvs_sim_desc desc = {};
+  mvs_sim_desc desc = with_workers(console);
   desc.backend = backends().at(options.backend);
   mvs::Simulator sim = load_sim(options.in, progress, desc);
   set_tissue(sim, options.leaflet);
@@ -183,6 +183,7 @@ void add_close(CLI::App &app, Console &console) {
                       "report the distances of the closed valve from the shape in this file");
   add_unsettled_option(*command, options->allow_unsettled);
   add_ensemble_options(*command, options->ensemble);
+  add_workers_option(*command, console);
   add_progress_flag(*command, console);
 }
 

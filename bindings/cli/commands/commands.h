@@ -49,6 +49,9 @@ std::pair<CLI::App *, Options *> add_command(CLI::App &app, Console &console,
 // --progress
 void add_progress_flag(CLI::App &command, Console &console);
 
+// --workers.
+void add_workers_option(CLI::App &command, Console &console);
+
 // Accepts one of `names`; the error message lists them.
 CLI::Validator one_of(const std::vector<std::string> &names);
 

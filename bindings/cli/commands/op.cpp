@@ -32,7 +32,7 @@ struct Operated {
 // Both closures start from the shape in the file.
 Operated operate(const OpRequest &request, const Console &console) {
   Progress progress(console);
-  mvs::Simulator sim = load_sim(request.in, progress);
+  mvs::Simulator sim = load_sim(request.in, progress, with_workers(console));
   const mvs::Snapshot first = sim.snapshot();
   OpText op(request.kind);
   for (const auto &[name, given] : request.fields) op.set(name, given, first);
@@ -136,6 +136,7 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
                           "close and measure the valve before and after, at this pressure")
           ->expected(0, 1);
   add_unsettled_option(*command, request->allow_unsettled);
+  add_workers_option(*command, console);
   add_progress_flag(*command, console);
   command->callback([request, file, settle, &console] {
     request->settle = settle->count() > 0;

@@ -19,8 +19,8 @@ struct RepairOptions {
 void run_repair(const RepairOptions &options, Console &console) {
   const std::string plan = plan_text(options.plan);
   Progress progress(console);
-  mvs::Simulator unrepaired = load_sim(options.file, progress);
-  mvs::Simulator repaired = load_sim(options.file, progress);
+  mvs::Simulator unrepaired = load_sim(options.file, progress, with_workers(console));
+  mvs::Simulator repaired = load_sim(options.file, progress, with_workers(console));
   // an inapplicable plan fails before the closures, which take longer
   repaired.check_plan(plan);
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, unrepaired);
@@ -65,6 +65,7 @@ void add_repair(CLI::App &app, Console &console) {
                       "write the applied plan, with measures before and after each operation");
   add_pressure_option(*command, options->pressure_mmhg);
   add_unsettled_option(*command, options->allow_unsettled);
+  add_workers_option(*command, console);
 }
 
 }  // namespace cli

@@ -101,6 +101,12 @@ void Progress::show(double share, double residual) {
   line_open_ = terminal_;
 }
 
+mvs_sim_desc with_workers(const Console &console) {
+  mvs_sim_desc desc = {};
+  desc.workers = console.workers;
+  return desc;
+}
+
 mvs::Simulator load_sim(const std::string &path, Progress &progress, mvs_sim_desc desc) {
   desc.progress = Progress::callback;
   desc.user = &progress;

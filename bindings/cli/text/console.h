@@ -16,6 +16,7 @@ inline constexpr double pa_per_mmhg = 133.322;
 struct Console {
   bool json = false;      // --json: stdout holds one object and nothing else
   bool progress = false;  // --progress: show progress even if stderr is not a terminal
+  uint32_t workers = 0;   // --workers: threads that share a closure
   int exit_code = 0;      // of a command that ran and found a fault
 };
 
@@ -69,5 +70,8 @@ class Progress {
 // A simulator that holds the valve of a file and reports to `progress`, which must outlive it.
 // `desc` may set all fields except log and progress.
 mvs::Simulator load_sim(const std::string &path, Progress &progress, mvs_sim_desc desc = {});
+
+// The description of a simulator with the workers that the user asked for.
+mvs_sim_desc with_workers(const Console &console);
 
 }  // namespace cli

@@ -295,6 +295,7 @@ class Simulator:
         self,
         *,
         backend: Literal["default", "block", "cholmod", "eigen"] = "default",
+        workers: int = 1,
         log: Optional[Callable[[int, str], object]] = None,
     ) -> None: ...
     def load(self, path: _Path, *, format: _Format = "auto") -> None: ...

@@ -38,9 +38,11 @@ std::string backend_words() {
   return words;
 }
 
-Simulator::Simulator(const std::string &backend, py::object log) : log_(std::move(log)) {
+Simulator::Simulator(const std::string &backend, uint32_t workers, py::object log)
+    : log_(std::move(log)) {
   auto desc = sized<mvs_sim_desc>();
   desc.backend = backend_of(backend);
+  desc.workers = workers;
   desc.log = &Simulator::on_log;
   desc.progress = &Simulator::on_progress;
   desc.user = this;

@@ -23,7 +23,7 @@ namespace mvs_python {
 // callback that calls its own simulator is refused. A snapshot can be taken at any time.
 class Simulator {
  public:
-  Simulator(const std::string &backend, py::object log);
+  Simulator(const std::string &backend, uint32_t workers, py::object log);
   ~Simulator() { free_now(); }
   Simulator(const Simulator &) = delete;
   Simulator &operator=(const Simulator &) = delete;
