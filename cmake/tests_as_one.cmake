@@ -1,4 +1,4 @@
-# mvs_tests_as_one(OUT COUNT SOURCE ...): files of tests that are compiled as one, COUNT at a time.
+# mvs_tests_as_one(OUT COUNT SOURCE ...): files of tests of one room that are compiled as one, COUNT at a time.
 #
 # Tests use the same names in many files, so that CMake's unity build cannot join them. Here each file
 # stands in a namespace of its own: the headers of all come first, at file scope, and their include
@@ -8,7 +8,16 @@
 function(mvs_tests_as_one out count)
   set(result "")
   set(batch "")
+  set(room "")
   foreach(source ${ARGN})
+    # helpers of two rooms may use the same names
+    file(RELATIVE_PATH path ${CMAKE_CURRENT_SOURCE_DIR} ${source})
+    string(REGEX REPLACE "/.*" "" room_of_source ${path})
+    if(batch AND NOT room_of_source STREQUAL room)
+      mvs_join_tests(result ${batch})
+      set(batch "")
+    endif()
+    set(room ${room_of_source})
     file(STRINGS ${source} cases REGEX "^TEST_CASE" LIMIT_COUNT 1)
     file(STRINGS ${source} apart LIMIT_COUNT 1
       REGEX "^ *# *(if|define)|^#include .*[.]def\"|operator new|^extern|^namespace (std|bench|hd|mvs|mvs::core) ")
