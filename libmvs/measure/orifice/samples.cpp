@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
-#include "geometry/bvh.h"
-#include "model/sides.h"
+#include "geometry/distance.h"
+#include "measure/orifice/rim_parts.h"
 
 namespace mvs::core::orifice {
 namespace {
@@ -16,48 +17,23 @@ namespace {
 // to a tenth.
 constexpr double grain_of_seal = 0.75;
 // Finest spacing over the length of the rims and over the root of the sheet area: limits the work
-// for a tiny contact thickness or a torn sheet. A quarter of a millimetre for a mitral valve. Next,
-// the ratio of coarsest to finest spacing.
+// for a tiny contact thickness or a torn sheet. A quarter of a millimetre for a mitral valve.
 constexpr double grain_of_rim = 1e-3, grain_of_size = 1.0 / 150;
-constexpr double coarsest = 4;
-// Edge length over the distance to opposite tissue, and growth rate of edges away from a rim.
-constexpr double growth = 0.5;
-// Share of the contact thickness below which leaflets are in deep contact. Samples may be coarse
-// there: a ball that is stopped by them is stopped by the contact, too.
-constexpr double deep_of_seal = 0.8;
-// Tissue within 60 degrees of the normal faces a point, which excludes the neighbourhood of the
-// point itself.
-constexpr double facing_cosine = 0.5;
-
-bool faces_something(const TriangleBvh &tree, const Vec3 &p, const Vec3 &normal, double within) {
-  double limit2 = within * within;
-  bool found = false;
-  tree.visit_near(p, limit2, [&](uint32_t t) {
-    const TrianglePoint hit = tree.closest_on(t, p);
-    // excludes the triangle on which the point lies, for which the direction is rounding error
-    if (found || hit.distance2 >= limit2 || hit.distance2 < 1e-6 * within * within) return;
-    const Vec3 direction = tree.point_at(t, hit.weight) - p;
-    found = std::abs(direction.dot(normal)) > facing_cosine * std::sqrt(hit.distance2);
-    if (found) limit2 = 0;
-  });
-  return found;
-}
+// The first step of the wall over the finest spacing, and over the distance from the annulus to
+// another rim, which may be an opening.
+constexpr double wall_of_grain = 2, wall_of_distance = 0.5;
 
 Mesh refined(const Sheet &sheet) {
-  const std::vector<Tri> rim = as_triangles(sheet.rim);
-  const TriangleBvh rim_tree(rim, sheet.mesh.x), tree(sheet.mesh.triangles, sheet.mesh.x);
+  const Opposite tissue(sheet.mesh.triangles, sheet.mesh.x);
+  const Spacing spacing(sheet);
+  const RimParts rim(sheet, tissue, spacing);
   Mesh mesh = sheet.mesh;
   bisect(mesh, [&](const BisectEdge &edge) {
     const double length = (edge.b - edge.a).norm();
-    if (!(length > sheet.grain)) return false;
-    if (edge.on_rim || length > coarsest * sheet.grain) return true;
-    const Vec3 middle = 0.5 * (edge.a + edge.b), normal = edge.normal.normalized();
-    if (rim_tree.is_within(middle, (length - sheet.grain) / growth)) return true;
-    if (!faces_something(tree, middle, normal, length / growth)) return false;
-    const auto is_deep = [&](const Vec3 &p) {
-      return faces_something(tree, p, normal, deep_of_seal * sheet.seal);
-    };
-    return length > 2 * sheet.seal || !is_deep(middle) || !is_deep(edge.a) || !is_deep(edge.b);
+    if (!(length > spacing.finest)) return false;
+    if (length > spacing.coarsest) return true;
+    if (rim.is_too_long(0.5 * (edge.a + edge.b), length)) return true;
+    return !edge.on_rim && spacing.is_too_long(tissue, edge.a, edge.b, edge.normal.normalized());
   });
   return mesh;
 }
@@ -88,8 +64,26 @@ void add_ring(const Sheet &sheet, double outwards, double step, double shift, Sa
   }
 }
 
+// The distance from the annulus to the rest of the rim: free edges and holes.
+double distance_to_other_rim(const Sheet &sheet) {
+  double least2 = std::numeric_limits<double>::infinity();
+  for (const Edge &edge : sheet.rim) {
+    double middle2 = std::numeric_limits<double>::infinity();
+    const Vec3 middle = 0.5 * (sheet.mesh.x[edge[0]] + sheet.mesh.x[edge[1]]);
+    for (size_t k = 0; k < sheet.annulus.size(); ++k) {
+      const Vec3 &a = sheet.annulus.point(k), &b = sheet.annulus.point(k + 1);
+      middle2 = std::min(middle2, closest_on_segment(middle, a, b).distance2);
+    }
+    const double length2 = (sheet.mesh.x[edge[0]] - sheet.mesh.x[edge[1]]).squaredNorm();
+    if (middle2 > 1e-12 * length2) least2 = std::min(least2, middle2);
+  }
+  return std::sqrt(least2);
+}
+
 void add_wall(const Sheet &sheet, Samples &samples) {
-  double step = sheet.grain, outwards = 0, shift = 0.5;
+  double step = std::clamp(wall_of_distance * distance_to_other_rim(sheet), sheet.grain,
+                           wall_of_grain * sheet.grain);
+  double outwards = 0, shift = 0.5;
   while (outwards < 2 * sheet.radius) {
     outwards += 0.85 * step;
     add_ring(sheet, outwards, step, shift, samples);
@@ -111,13 +105,16 @@ Sheet local_sheet(const Model &model, const std::vector<Vec3> &local) {
   const Valve &valve = model.valve;
   Sheet sheet{compact_mesh(local, valve.triangles),
               {},
+              {},
               Loop(valve.annulus, local),
               valve.contact_thickness,
               0,
               0};
   const std::vector<Side> sides = sorted_sides(sheet.mesh.triangles);
   for_each_edge(sides, [&](size_t first, size_t last) {
-    if (last == first + 1) sheet.rim.push_back(sides[first].edge);
+    if (last != first + 1) return;
+    sheet.rim.push_back(sides[first].edge);
+    sheet.rim_sides.push_back(sides[first]);
   });
   double rim = 0;
   for (const Edge &e : sheet.rim) rim += (sheet.mesh.x[e[0]] - sheet.mesh.x[e[1]]).norm();

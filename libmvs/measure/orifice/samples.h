@@ -6,13 +6,15 @@
 #include "measure/annulus/landmarks.h"
 #include "measure/orifice/bisect.h"
 #include "model/model.h"
+#include "model/sides.h"
 
 namespace mvs::core::orifice {
 
 // The sheet in the valve's frame, z towards the atrium, with the nodes of its triangles only.
 struct Sheet {
   Mesh mesh;
-  std::vector<Edge> rim;  // edges of one triangle: annulus, free edges, holes
+  std::vector<Edge> rim;        // edges of one triangle: annulus, free edges, holes
+  std::vector<Side> rim_sides;  // the same with their triangles
   Loop annulus;
   double seal;    // m: a passage up to this width is sealed
   double grain;   // m: the finest spacing of samples
@@ -29,9 +31,9 @@ struct Samples {
   size_t on_sheet = 0;          // points from here on belong to the wall
 };
 
-// Samples the sheet with edges of `grain` at its rims and wherever another part of it is opposite,
-// and of half the distance to either elsewhere; then adds a wall that extends outwards from the
-// annulus to twice the radius, in rings of growing spacing.
+// Samples the sheet with edges of half the distance to tissue opposite to it or to its rim, from
+// `grain` to 4 `grain`, and growing edges around them; then adds a wall that extends outwards from
+// the annulus to twice the radius, in rings of growing spacing.
 Samples sample(const Sheet &sheet);
 
 }  // namespace mvs::core::orifice

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/bvh.h"
 #include "linalg/small_solve.h"
@@ -23,6 +24,8 @@ constexpr double enough = 1e-5;    // relative decrease of area in the last swee
 // A rim edge whose midpoint is farther from the sheet than this share of its length does not run
 // along the sheet. The value is 0.13 over a crease of 60 degrees, 0.5 across a sealed passage.
 constexpr double off_of_length = 0.15;
+// Radius around a node in which the triangles nearest to it are collected, in spacings of samples.
+constexpr double around_of_grain = 0.25;
 
 enum class Hold : uint8_t { free, slides, stays };
 enum class OnRim : uint8_t { unknown, no, yes };
@@ -33,14 +36,21 @@ class Shrinking {
   Mesh run();
 
  private:
+  // Triangles near a place of a node: no others matter for points near it.
+  struct Around {
+    Vec3 centre = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+    std::vector<uint32_t> triangles;
+  };
+
   void hold_rim(size_t on_samples);
   void list_triangles();
   double sweep();
   double area_around(uint32_t v, const Vec3 &p) const;
+  static void collect(const TriangleBvh &tree, double distance, Around &around);
   TriangleBvh::Hit nearest(uint32_t v, const Vec3 &p);
   Vec3 move_of(uint32_t v);
   Vec3 slide(uint32_t v, const Vec3 &p);
-  bool is_on_rim(const Vec3 &p) const;
+  bool is_on_rim(uint32_t v, const Vec3 &p);
   bool may_move(uint32_t v) const;
   double try_move(uint32_t v, const Vec3 &move);
 
@@ -52,6 +62,7 @@ class Shrinking {
   std::vector<Hold> hold_;
   std::vector<std::array<uint32_t, 2>> rim_;  // per node: the next ones along the rim, or none
   std::vector<uint32_t> nearest_;             // per node: the last triangle of the sheet found
+  std::vector<Around> around_, around_rim_;   // per node: of the sheet, and of its rim
   std::vector<OnRim> on_rim_;                 // per node: whether it lies on a rim of the sheet
   // Per node: the number of the move that brought it here, and of the moves before it failed to
   // move.
@@ -69,6 +80,8 @@ Shrinking::Shrinking(const Sheet &sheet, Mesh mesh, size_t on_samples)
       normal_(mvs::core::surface_of(sheet.mesh.triangles, sheet.mesh.x).node_normal),
       mesh_(std::move(mesh)) {
   nearest_.assign(mesh_.x.size(), none);
+  around_.resize(mesh_.x.size());
+  around_rim_.resize(mesh_.x.size());
   on_rim_.assign(mesh_.x.size(), OnRim::unknown);
   moved_.assign(mesh_.x.size(), 1);
   failed_.assign(mesh_.x.size(), 0);
@@ -122,9 +135,32 @@ double Shrinking::area_around(uint32_t v, const Vec3 &p) const {
   return 0.5 * twice;
 }
 
-// The point of the sheet nearest to a place of a node, which has moved little since the last time.
+// Lists the triangles of a tree whose boxes are within a distance of the centre.
+void Shrinking::collect(const TriangleBvh &tree, double distance, Around &around) {
+  const double limit = (1 + 1e-9) * distance, limit2 = limit * limit;
+  around.triangles.clear();
+  tree.visit_near(around.centre, limit2, [&](uint32_t t) {
+    if (tree.box_of(t).distance2(around.centre) <= limit2) around.triangles.push_back(t);
+  });
+}
+
+// The point of the sheet nearest to a place of a node. It has moved little since the last time, so
+// that the triangles around serve many times.
 TriangleBvh::Hit Shrinking::nearest(uint32_t v, const Vec3 &p) {
-  TriangleBvh::Hit hit = tree_.closest(p, nearest_[v]);
+  Around &around = around_[v];
+  const double radius = around_of_grain * sheet_.grain;
+  if (nearest_[v] == none) nearest_[v] = tree_.closest(p).triangle;
+  if (!((p - around.centre).squaredNorm() <= radius * radius)) {
+    // at a distance d from the centre, the sheet is within d + radius of points around it, whose
+    // closest triangles are within d + 2 radius of the centre
+    const double d = std::sqrt(tree_.closest_on(nearest_[v], p).distance2);
+    around.centre = p;
+    collect(tree_, d + 2 * radius, around);
+  }
+  ClosestSoFar best(tree_, p);
+  best.look_at(nearest_[v]);
+  for (const uint32_t t : around.triangles) best.look_at(t);
+  const TriangleBvh::Hit hit = best.hit();
   nearest_[v] = hit.triangle;
   return hit;
 }
@@ -171,12 +207,19 @@ Vec3 Shrinking::move_of(uint32_t v) {
 Vec3 Shrinking::slide(uint32_t v, const Vec3 &p) {
   const Vec3 &x = mesh_.x[v];
   const Vec3 there = nearest(v, p).point;
-  if (on_rim_[v] == OnRim::unknown) on_rim_[v] = is_on_rim(x) ? OnRim::yes : OnRim::no;
-  return on_rim_[v] == OnRim::yes && is_on_rim(there) ? x : there;
+  if (on_rim_[v] == OnRim::unknown) on_rim_[v] = is_on_rim(v, x) ? OnRim::yes : OnRim::no;
+  return on_rim_[v] == OnRim::yes && is_on_rim(v, there) ? x : there;
 }
 
-bool Shrinking::is_on_rim(const Vec3 &p) const {
-  return rim_tree_.is_within(p, 1e-3 * sheet_.grain);
+bool Shrinking::is_on_rim(uint32_t v, const Vec3 &p) {
+  Around &around = around_rim_[v];
+  const double radius = around_of_grain * sheet_.grain, on = 1e-3 * sheet_.grain;
+  if (!((p - around.centre).squaredNorm() <= radius * radius)) {
+    around.centre = p;
+    collect(rim_tree_, radius + on, around);
+  }
+  return std::any_of(around.triangles.begin(), around.triangles.end(),
+                     [&](uint32_t t) { return rim_tree_.closest_on(t, p).distance2 < on * on; });
 }
 
 // Applies the move, or a part of it, if that lowers the area; returns the decrease.
