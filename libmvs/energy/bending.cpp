@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/atan2_batch.h"
+#include "base/simd.h"
 
 namespace mvs::core {
 namespace {
@@ -63,7 +64,7 @@ void slope_of_weights(const Vec3 &e, double length, const Vec3 &c, uint32_t corn
 using Hessian = std::array<std::array<Mat3, 4>, 4>;
 
 // Second derivative of theta.
-void angle_hessian(const Vec3 &x0, const Vec3 &x2, const Vec3 &x3, const Parts &p, Hessian &h) {
+MVS_INLINE void angle_hessian(const Vec3 &x0, const Vec3 &x2, const Vec3 &x3, const Parts &p, Hessian &h) {
   std::array<std::array<Vec3, 4>, 4> da, db;
   slope_of_weights(p.e, p.length, x2 - x0, 2, da);
   slope_of_weights(p.e, p.length, x3 - x0, 3, db);
@@ -100,7 +101,7 @@ struct Fold {
   double cosine() const { return n1.dot(n2); }
 
   // Gradient of the angle by nodes. s is the position of the foot of a corner along the edge, m.
-  void slopes(Slope &slope) const {
+  MVS_INLINE void slopes(Slope &slope) const {
     const double per_length = 1 / length, s2 = c2.dot(e) * per_length, s3 = c3.dot(e) * per_length;
     const Vec3 m1 = 1 / n1.squaredNorm() * n1, m2 = 1 / n2.squaredNorm() * n2;
     slope.node(0) = (length - s2) * m1 + (length - s3) * m2;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "base/simd.h"
 #include "energy/node_parts.h"
 #include "linalg/block_matrix.h"
 #include "linalg/outer_product.h"
@@ -72,7 +73,7 @@ class HessianAssembler {
   void add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
                          double times);
 
-  void add_diagonal(uint32_t i, const Mat3 &block) {
+  MVS_INLINE void add_diagonal(uint32_t i, const Mat3 &block) {
     const uint32_t r = row_of[i];
     if (r != none) matrix.value[matrix.start[r]] += block;
   }
@@ -92,7 +93,7 @@ class HessianAssembler {
   uint32_t find(uint32_t r, uint32_t c) const {
     return r > c ? matrix.find(r, c) : matrix.find(c, r);
   }
-  void add_at(uint32_t slot, bool lower, const Mat3 &block) {
+  MVS_INLINE void add_at(uint32_t slot, bool lower, const Mat3 &block) {
     if (lower) {
       matrix.value[slot] += block;
     } else {

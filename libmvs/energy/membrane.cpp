@@ -132,7 +132,7 @@ struct Outer {
     f00[9] = f01[9] = f10[9] = f11[9] = 0;
   }
 
-  Mat3 block(const Mat2 &m, double s) const {
+  MVS_INLINE Mat3 block(const Mat2 &m, double s) const {
     const Flat b = m(0, 0) * f00 + m(0, 1) * f01 + m(1, 0) * f10 + m(1, 1) * f11;
     Mat3 result = Eigen::Map<const Mat3>(b.data());
     result.diagonal().array() += s;

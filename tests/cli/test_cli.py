@@ -109,6 +109,13 @@ class Close(Command):
     def test_residual_is_below_the_requested_one(self):
         self.assertLessEqual(self.json("close", "v.obj", "--residual", 1e-3)["residual_N"], 1e-3)
 
+    def test_workers_change_no_bit_of_the_result(self):
+        self.ok("close", "v.obj", "-o", "alone.obj")
+        self.ok("close", "v.obj", "-o", "shared.obj", "--workers", 2)
+        alone, shared = ((self.dir / name).read_bytes() for name in ("alone.obj", "shared.obj"))
+        self.assertEqual(alone, shared)
+        self.assertIn("--workers", self.misused("close", "v.obj", "--workers", 0))
+
     def test_a_valve_that_is_not_at_rest_is_written_marked_and_ends_with_1(self):
         early = ["close", "v.obj", "--json", "--max-iterations", 2, "-o", "early.obj"]
         done = mvs(*early, cwd=self.dir)

@@ -34,6 +34,18 @@ def test_rest_is_stable_and_the_mode_is_that_of_a_fold():
     assert np.all(lengths[closed.annulus_nodes] == 0)
 
 
+def test_workers_give_the_same_bits(monkeypatch):
+    monkeypatch.setenv("MVS_WORKERS_LEAST_US", "0")  # a small valve shares its loops, too
+    expected = settle_fresh(max_iterations=5)[1].hash
+    with mvs.Simulator(workers=3) as sim:
+        sim.generate(shape="founding")
+        sim.set_load(mvs.SYSTOLE_PA)
+        sim.settle(max_iterations=5)
+        assert sim.snapshot().hash == expected
+    with pytest.raises(mvs.ArgumentError, match="at most 256"):
+        mvs.Simulator(workers=257)
+
+
 def test_settling_twice_gives_the_same_bits():
     first, second = settle_fresh(max_iterations=20)[1], settle_fresh(max_iterations=20)[1]
     assert first.hash == second.hash

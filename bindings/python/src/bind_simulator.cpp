@@ -303,8 +303,7 @@ void bind_simulator(py::module_ &module) {
       "factorisation, one of " +
       backend_words() +
       "\nworkers: threads that share the work of a settle or step on a valve of more than about "
-      "1,000 "
-      "vertices, at most 256; no bit of a result depends on them"
+      "1,000 vertices, at most 256; no bit of a result depends on them"
       "\nlog: called with (level, text); None: warnings (level 2) become mvs.ValveWarning";
   py::class_<Simulator> type(module, "Simulator", about.c_str());
   type.def(py::init<const std::string &, uint32_t, py::object>(), py::kw_only(),

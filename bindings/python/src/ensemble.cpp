@@ -37,7 +37,7 @@ mvs_ensemble_summary summary_of(const Ensemble &self) {
 
 // Gives the warnings of Simulator.set_load.
 void check_load(const Snapshot &start, const mvs_load_case &load) {
-  Simulator sim("default", py::none());
+  Simulator sim("default", 1, py::none());
   sim.call([&](mvs_sim *held) {
     const mvs_result restored = mvs_restore(held, start.get());
     return restored == MVS_OK ? mvs_set_load(held, &load) : restored;
