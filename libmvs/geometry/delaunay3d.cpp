@@ -86,7 +86,8 @@ std::vector<uint32_t> insertion_order(const std::vector<LatticePoint> &points) {
   return order;
 }
 
-// Hash table of the edges of a cavity, which pairs the two new tetrahedra at each edge.
+// Table of the edges of a cavity, which pairs the two new tetrahedra at each edge. Its vertices
+// have numbers of their own, from 0.
 class EdgeTable {
  public:
   struct Side {
@@ -94,10 +95,36 @@ class EdgeTable {
     uint32_t tetrahedron, face;
   };
 
-  void clear(size_t edges) { slots_.assign(std::bit_ceil(2 * edges + 1), Side{empty, 0, 0}); }
+  // Begins a cavity with this many vertices.
+  void clear(size_t vertices) {
+    is_square_ = vertices <= largest_square;
+    if (is_square_) {
+      if (square_.empty()) square_.assign(largest_square * largest_square, Side{0, 0, 0});
+      ++cavity_;
+    } else {
+      // a triangulated sphere has 3 (vertices - 2) edges
+      slots_.assign(std::bit_ceil(6 * vertices + 1), Side{empty, 0, 0});
+    }
+  }
   // Returns the side stored at this edge, or stores this one and returns null.
   const Side *match(uint32_t a, uint32_t b, uint32_t tetrahedron, uint32_t face) {
-    const uint64_t edge = uint64_t{std::min(a, b)} << 32 | std::max(a, b);
+    if (a > b) std::swap(a, b);
+    return is_square_ ? match_in_square(a, b, tetrahedron, face)
+                      : match_in_slots(uint64_t{a} << 32 | b, tetrahedron, face);
+  }
+
+ private:
+  static constexpr uint64_t empty = UINT64_MAX;
+  static constexpr size_t largest_square = 64;  // nearly all cavities have fewer vertices
+
+  // An entry of an earlier cavity counts as empty.
+  const Side *match_in_square(uint32_t a, uint32_t b, uint32_t tetrahedron, uint32_t face) {
+    Side &side = square_[largest_square * a + b];
+    if (side.edge == cavity_) return &side;
+    side = {cavity_, tetrahedron, face};
+    return nullptr;
+  }
+  const Side *match_in_slots(uint64_t edge, uint32_t tetrahedron, uint32_t face) {
     size_t slot = (edge * 0x9e3779b97f4a7c15u) >> 32;
     for (;; ++slot) {
       Side &side = slots_[slot & (slots_.size() - 1)];
@@ -108,9 +135,9 @@ class EdgeTable {
     }
   }
 
- private:
-  static constexpr uint64_t empty = UINT64_MAX;
-  std::vector<Side> slots_;
+  bool is_square_ = false;
+  uint64_t cavity_ = 0;
+  std::vector<Side> square_, slots_;
 };
 
 class DelaunayBuilder {
@@ -125,7 +152,8 @@ class DelaunayBuilder {
   struct CavityFacet {
     std::array<uint32_t, 4> corner;  // the new vertex at `place`
     uint32_t place;
-    uint32_t outside;  // the tetrahedron on the other side, or `none`
+    uint32_t outside;  // the tetrahedron on the other side, or `none`,
+    uint32_t back;     // and its face
   };
 
   const LatticePoint &at(uint32_t vertex) const { return point_[vertex]; }
@@ -135,6 +163,7 @@ class DelaunayBuilder {
   uint32_t vacancy();
   void join_outside(const CavityFacet &facet, uint32_t t);
   void join_inside(const CavityFacet &facet, uint32_t t);
+  uint32_t number_in_cavity(uint32_t vertex);
 
   std::vector<LatticePoint> point_;
   std::vector<Tetrahedron> tetrahedra_;
@@ -145,6 +174,10 @@ class DelaunayBuilder {
   std::vector<uint32_t> cavity_, vacant_;
   std::vector<CavityFacet> facets_;
   EdgeTable table_;
+  // Of each vertex: the last insertion with it on the cavity, and its number there.
+  std::vector<uint64_t> on_cavity_;
+  std::vector<uint32_t> number_;
+  uint32_t numbers_ = 0;
 };
 
 // Divides the box into six tetrahedra around its diagonal.
@@ -162,6 +195,8 @@ DelaunayBuilder::DelaunayBuilder(const std::vector<LatticePoint> &points) : poin
                            {none, after, before, none}});
   }
   seen_.assign(tetrahedra_.size(), 0);
+  on_cavity_.assign(point_.size(), 0);
+  number_.assign(point_.size(), 0);
 }
 
 // Visibility walk: moves to the neighbour across a face that separates from p.
@@ -200,8 +235,12 @@ void DelaunayBuilder::find_cavity(uint32_t start, uint32_t vertex) {
         if (hit) cavity_.push_back(n);
       }
       if (n != none && seen_[n] == 2 * insertion_ + 1) continue;
-      CavityFacet facet{here.corner, k, n};
+      CavityFacet facet{here.corner, k, n, 0};
       facet.corner[k] = vertex;
+      if (n != none) {
+        const std::array<uint32_t, 4> &around = tetrahedra_[n].neighbour;
+        while (around[facet.back] != cavity_[i]) ++facet.back;
+      }
       facets_.push_back(facet);
     }
   }
@@ -223,35 +262,38 @@ uint32_t DelaunayBuilder::vacancy() {
 // Links the new tetrahedron of a facet with the old one outside.
 void DelaunayBuilder::join_outside(const CavityFacet &facet, uint32_t t) {
   tetrahedra_[t].neighbour[facet.place] = facet.outside;
-  if (facet.outside == none) return;
-  Tetrahedron &outside = tetrahedra_[facet.outside];
-  const auto is_shared = [&](uint32_t corner) {
-    return std::find(facet.corner.begin(), facet.corner.end(), corner) != facet.corner.end();
-  };
-  for (uint32_t k = 0; k < 4; ++k) {
-    if (!is_shared(outside.corner[k])) outside.neighbour[k] = t;
+  if (facet.outside != none) tetrahedra_[facet.outside].neighbour[facet.back] = t;
+}
+
+uint32_t DelaunayBuilder::number_in_cavity(uint32_t vertex) {
+  if (on_cavity_[vertex] != insertion_) {
+    on_cavity_[vertex] = insertion_;
+    number_[vertex] = numbers_++;
   }
+  return number_[vertex];
 }
 
 // Links it with the new ones across the edges of the facet that exist already.
 void DelaunayBuilder::join_inside(const CavityFacet &facet, uint32_t t) {
-  for (uint32_t k = 0; k < 4; ++k) {
+  std::array<uint32_t, 3> face, number;  // of the tetrahedron; number of its corner in the cavity
+  for (uint32_t k = 0, count = 0; k < 4; ++k) {
     if (k == facet.place) continue;
-    std::array<uint32_t, 2> edge;
-    size_t count = 0;
-    for (uint32_t j = 0; j < 4; ++j) {
-      if (j != k && j != facet.place) edge[count++] = facet.corner[j];
-    }
-    const EdgeTable::Side *other = table_.match(edge[0], edge[1], t, k);
+    number[count] = number_in_cavity(facet.corner[k]);
+    face[count++] = k;
+  }
+  for (size_t k = 0; k < 3; ++k) {
+    const EdgeTable::Side *other =
+        table_.match(number[k == 0 ? 1 : 0], number[k == 2 ? 1 : 2], t, face[k]);
     if (other == nullptr) continue;
-    tetrahedra_[t].neighbour[k] = other->tetrahedron;
+    tetrahedra_[t].neighbour[face[k]] = other->tetrahedron;
     tetrahedra_[other->tetrahedron].neighbour[other->face] = t;
   }
 }
 
 void DelaunayBuilder::fill_cavity() {
   vacant_.insert(vacant_.end(), cavity_.begin(), cavity_.end());
-  table_.clear(3 * facets_.size() / 2);
+  numbers_ = 0;
+  table_.clear(facets_.size() / 2 + 2);  // vertices of a triangulated sphere
   for (const CavityFacet &facet : facets_) {
     last_ = vacancy();
     tetrahedra_[last_].corner = facet.corner;
