@@ -90,6 +90,23 @@ describe('planner for everybody', () => {
     });
   });
 
+  it('ties_an_artificial_chord_with_the_keyboard_alone', async () => {
+    await on({}, async ({ page }) => {
+      await page.keyboard.press('r');
+      await tabTo(page, /neochord/);
+      await page.keyboard.press('Enter');
+      await page.waitForTimeout(200);
+      // from the middle of P2 towards its free edge
+      for (const key of ['ArrowRight', 'ArrowUp', 'Space']) await page.keyboard.press(key);
+      await page.waitForTimeout(150);
+      await closed(page);
+      await page.keyboard.press('Enter');
+      await page.getByTestId('form').waitFor({ state: 'detached' });
+      await closed(page);
+      assert.match((await figures(page)).history.at(-1).title, /P2/);
+    });
+  });
+
   for (const hash of ['#software', '#webgl']) {
     it(`draws_by_${hash.slice(1)}`, async () => {
       await on({ hash }, async ({ page }) => {

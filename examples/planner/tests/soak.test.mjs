@@ -38,6 +38,12 @@ const keys = [
   '+',
   '-',
   'Space',
+  'Backspace',
+  'Control+ArrowRight',
+  'q',
+  'e',
+  'a',
+  'd',
 ];
 
 async function event(page, random) {

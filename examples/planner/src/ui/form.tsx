@@ -83,8 +83,8 @@ export function OperationForm() {
           {state.draftMessage.value}
         </p>
       )}
-      <Opening kind={draft.kind} />
       <div class="form-foot">
+        <Opening kind={draft.kind} />
         <button
           type="submit"
           class="button main"

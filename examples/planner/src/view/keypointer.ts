@@ -39,8 +39,17 @@ export class KeyPointer {
     const hide = (): void => {
       if (!asked()) this.hide();
     };
-    state.picking.subscribe(hide);
+    state.picking.subscribe((field) => {
+      hide();
+      // the card that opened the form is gone: its keys go to the picture
+      if (field) requestAnimationFrame(() => this.takeFocus());
+    });
     state.imported.subscribe(hide);
+  }
+
+  private takeFocus(): void {
+    if (!state.picking.value || (document.activeElement ?? document.body) !== document.body) return;
+    this.view.renderer.canvas.focus({ preventScroll: true, focusVisible: false } as FocusOptions);
   }
 
   private hide(): void {
