@@ -2,6 +2,7 @@
 // samples, and shrinks it to a surface of least area. METHOD.md has definition, method and errors.
 #include "measure/orifice/orifice.h"
 
+#include "geometry/bvh.h"
 #include "measure/annulus/frame.h"
 #include "measure/orifice/samples.h"
 #include "measure/orifice/seal.h"
@@ -19,8 +20,9 @@ Orifice cut_orifice(const Model &model, const std::vector<Vec3> &x) {
   const Frame frame = valve_frame(model, x);
   const orifice::Sheet sheet = orifice::local_sheet(model, frame.local(x));
   const orifice::Samples samples = orifice::sample(sheet);
-  const std::vector<Tri> cut = orifice::smallest_cut(sheet, samples);
-  const orifice::Mesh surface = orifice::smallest_surface(sheet, samples, cut);
+  const TriangleBvh tree(sheet.mesh.triangles, sheet.mesh.x);
+  const std::vector<Tri> cut = orifice::smallest_cut(sheet, tree, samples);
+  const orifice::Mesh surface = orifice::smallest_surface(sheet, tree, samples, cut);
 
   Orifice result;
   result.area = orifice::area_of(surface);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/bvh.h"
 #include "geometry/delaunay3d.h"
 #include "geometry/max_flow.h"
 #include "model/sides.h"
@@ -45,7 +44,7 @@ Ball ball_through(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
 
 class Space {
  public:
-  Space(const Sheet &sheet, const Samples &samples);
+  Space(const Sheet &sheet, const TriangleBvh &tree, const Samples &samples);
 
   // Breadth-first search from the atrium through open triangles; returns whether it reaches the
   // ventricle.
@@ -64,7 +63,7 @@ class Space {
 
   const Sheet &sheet_;
   const Samples &samples_;
-  TriangleBvh tree_;
+  const TriangleBvh &tree_;
   Delaunay mesh_;
   std::vector<Vec3> vertex_;  // on the lattice, in m, so that every cell has positive volume
   std::vector<Ball> ball_;    // through the corners of each cell
@@ -76,8 +75,8 @@ class Space {
 // The bounding box is three times as large as the sheet, so that no cell joins its top and bottom
 // through the valve: the sphere of such a cell would contain a part of the wall. Cells outside the
 // wall do join both.
-Space::Space(const Sheet &sheet, const Samples &samples)
-    : sheet_(sheet), samples_(samples), tree_(sheet.mesh.triangles, sheet.mesh.x) {
+Space::Space(const Sheet &sheet, const TriangleBvh &tree, const Samples &samples)
+    : sheet_(sheet), samples_(samples), tree_(tree) {
   const double half = 3 * sheet.radius, unit = 2 * half / lattice_size;
   std::vector<LatticePoint> lattice;
   for (const Vec3 &p : samples.point) {
@@ -187,8 +186,8 @@ std::vector<Tri> Space::cut() {
 
 }  // namespace
 
-std::vector<Tri> smallest_cut(const Sheet &sheet, const Samples &samples) {
-  Space space(sheet, samples);
+std::vector<Tri> smallest_cut(const Sheet &sheet, const TriangleBvh &tree, const Samples &samples) {
+  Space space(sheet, tree, samples);
   return space.leaks() ? space.cut() : std::vector<Tri>{};
 }
 

@@ -3,12 +3,13 @@
 
 #include <vector>
 
+#include "geometry/bvh.h"
 #include "measure/orifice/samples.h"
 
 namespace mvs::core::orifice {
 
 // Returns the triangles of least area that close the valve, as indices of `samples`; empty for a
-// sealed valve.
-std::vector<Tri> smallest_cut(const Sheet &sheet, const Samples &samples);
+// sealed valve. `tree`: of the sheet.
+std::vector<Tri> smallest_cut(const Sheet &sheet, const TriangleBvh &tree, const Samples &samples);
 
 }  // namespace mvs::core::orifice

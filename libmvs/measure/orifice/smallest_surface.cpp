@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/bvh.h"
 #include "linalg/small_solve.h"
 #include "measure/tissue/surface.h"
 #include "model/sides.h"
@@ -32,7 +31,7 @@ enum class OnRim : uint8_t { unknown, no, yes };
 
 class Shrinking {
  public:
-  Shrinking(const Sheet &sheet, Mesh mesh, size_t on_samples);
+  Shrinking(const Sheet &sheet, const TriangleBvh &tree, Mesh mesh, size_t on_samples);
   Mesh run();
 
  private:
@@ -56,7 +55,8 @@ class Shrinking {
 
   const Sheet &sheet_;
   std::vector<Tri> rim_edges_;
-  TriangleBvh rim_tree_, tree_;
+  TriangleBvh rim_tree_;
+  const TriangleBvh &tree_;   // of the sheet
   std::vector<Vec3> normal_;  // of the sheet, per node
   Mesh mesh_;
   std::vector<Hold> hold_;
@@ -72,11 +72,11 @@ class Shrinking {
   std::vector<Edge> opposite_;
 };
 
-Shrinking::Shrinking(const Sheet &sheet, Mesh mesh, size_t on_samples)
+Shrinking::Shrinking(const Sheet &sheet, const TriangleBvh &tree, Mesh mesh, size_t on_samples)
     : sheet_(sheet),
       rim_edges_(as_triangles(sheet.rim)),
       rim_tree_(rim_edges_, sheet.mesh.x),
-      tree_(sheet.mesh.triangles, sheet.mesh.x),
+      tree_(tree),
       normal_(mvs::core::surface_of(sheet.mesh.triangles, sheet.mesh.x).node_normal),
       mesh_(std::move(mesh)) {
   nearest_.assign(mesh_.x.size(), none);
@@ -269,7 +269,8 @@ Mesh Shrinking::run() {
 
 }  // namespace
 
-Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vector<Tri> &cut) {
+Mesh smallest_surface(const Sheet &sheet, const TriangleBvh &tree, const Samples &samples,
+                      const std::vector<Tri> &cut) {
   Mesh mesh = compact_mesh(samples.point, cut);
   if (cut.empty()) return mesh;
   const size_t on_samples = mesh.x.size();
@@ -277,7 +278,7 @@ Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vec
   bisect(mesh, [&](const BisectEdge &edge) {
     return !edge.on_rim && (edge.b - edge.a).norm() > longest;
   });
-  return Shrinking(sheet, std::move(mesh), on_samples).run();
+  return Shrinking(sheet, tree, std::move(mesh), on_samples).run();
 }
 
 }  // namespace mvs::core::orifice

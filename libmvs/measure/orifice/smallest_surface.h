@@ -3,12 +3,14 @@
 
 #include <vector>
 
+#include "geometry/bvh.h"
 #include "measure/orifice/samples.h"
 
 namespace mvs::core::orifice {
 
 // Minimises the area of the cut: nodes of its rim slide along the sheet, or stay where the rim
-// crosses a sealed passage; inner nodes are free.
-Mesh smallest_surface(const Sheet &sheet, const Samples &samples, const std::vector<Tri> &cut);
+// crosses a sealed passage; inner nodes are free. `tree`: of the sheet.
+Mesh smallest_surface(const Sheet &sheet, const TriangleBvh &tree, const Samples &samples,
+                      const std::vector<Tri> &cut);
 
 }  // namespace mvs::core::orifice
