@@ -64,7 +64,8 @@ void slope_of_weights(const Vec3 &e, double length, const Vec3 &c, uint32_t corn
 using Hessian = std::array<std::array<Mat3, 4>, 4>;
 
 // Second derivative of theta.
-MVS_INLINE void angle_hessian(const Vec3 &x0, const Vec3 &x2, const Vec3 &x3, const Parts &p, Hessian &h) {
+MVS_INLINE void angle_hessian(const Vec3 &x0, const Vec3 &x2, const Vec3 &x3, const Parts &p,
+                              Hessian &h) {
   std::array<std::array<Vec3, 4>, 4> da, db;
   slope_of_weights(p.e, p.length, x2 - x0, 2, da);
   slope_of_weights(p.e, p.length, x3 - x0, 3, db);

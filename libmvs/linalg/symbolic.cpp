@@ -123,7 +123,8 @@ void Supernodes::place_panels() {
     s.row_start = begin;
     s.row_end = row.size();
     s.panel = numbers;
-    numbers += 3 * s.width() * s.height();
+    // kernels read a little past a panel, where another thread must not write
+    numbers += 3 * s.width() * s.height() + panel_slack;
   }
 }
 
