@@ -66,9 +66,16 @@ class Coarsener {
   // neighbours for an inner one. A vertex with chordae moves only to one with chordae, and never
   // from inside to the annulus.
   std::vector<uint32_t> targets(uint32_t vertex) const {
-    std::vector<uint32_t> along = sheet_.along_lines(vertex);
+    std::vector<uint32_t> around = sheet_.neighbours(vertex);
+    std::vector<uint32_t> along = sheet_.along_lines(vertex, around);
+    return targets(vertex, std::move(around), std::move(along));
+  }
+
+  // The same from all neighbours and those along lines.
+  std::vector<uint32_t> targets(uint32_t vertex, std::vector<uint32_t> around,
+                                std::vector<uint32_t> along) const {
     const bool inside = along.empty();
-    if (inside) along = sheet_.neighbours(vertex);
+    if (inside) along = std::move(around);
     if (!inside && along.size() != 2) along.clear();
     if (chordae_.end_at(vertex)) {
       std::erase_if(along,
@@ -79,9 +86,11 @@ class Coarsener {
 
   void weigh(uint32_t vertex) {
     const uint32_t stamp = ++stamp_[vertex];
-    const std::vector<uint32_t> around = targets(vertex);
-    if (around.empty() || chordae_.sewn(vertex)) return;
-    const std::vector<uint32_t> along = sheet_.along_lines(vertex);
+    if (chordae_.sewn(vertex)) return;
+    std::vector<uint32_t> neighbours = sheet_.neighbours(vertex);
+    const std::vector<uint32_t> along = sheet_.along_lines(vertex, neighbours);
+    const std::vector<uint32_t> around = targets(vertex, std::move(neighbours), along);
+    if (around.empty()) return;
     double weight = along.empty() ? weight_inside(vertex, around) : weight_on_line(vertex, along);
     if (chordae_.end_at(vertex)) weight *= chord_share;
     queue_.push({weight, vertex, stamp});

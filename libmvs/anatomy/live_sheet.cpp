@@ -95,10 +95,10 @@ bool LiveSheet::on_line(uint32_t a, uint32_t b) const {
   return pair.count == 1 || scallop_[pair.triangle[0]] != scallop_[pair.triangle[1]];
 }
 
-std::vector<uint32_t> LiveSheet::along_lines(uint32_t vertex) const {
-  std::vector<uint32_t> along = neighbours(vertex);
-  std::erase_if(along, [&](uint32_t other) { return !on_line(vertex, other); });
-  return along;
+std::vector<uint32_t> LiveSheet::along_lines(uint32_t vertex,
+                                             std::vector<uint32_t> neighbours) const {
+  std::erase_if(neighbours, [&](uint32_t other) { return !on_line(vertex, other); });
+  return neighbours;
 }
 
 // Link condition: the common neighbours of both vertices are exactly those opposite to the side

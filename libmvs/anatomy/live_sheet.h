@@ -21,7 +21,7 @@ class LiveSheet {
   std::vector<uint32_t> neighbours(uint32_t vertex) const;
   // Returns the neighbours along feature lines: boundaries, borders of leaflets and scallops. Zero
   // inside a scallop, two on a line, another number at junctions and ends of lines.
-  std::vector<uint32_t> along_lines(uint32_t vertex) const;
+  std::vector<uint32_t> along_lines(uint32_t vertex, std::vector<uint32_t> neighbours) const;
 
   // Returns the quality of the worst new triangle if `gone` is merged into `kept`; negative if that
   // is not allowed: the sheet stays manifold with the same boundaries and scallops, and no triangle

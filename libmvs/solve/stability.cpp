@@ -88,13 +88,14 @@ Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_ene
   std::vector<double> added = damping;
   for (double &number : added) number *= set::max_rate;
   const bool is_definite = factorise(system, added, stats);
-  double shift = 0;
+  double shift = is_definite ? 0 : last_shift_ / (set::shift_growth * set::shift_growth);
   while (!is_definite) {
     shift = std::max(set::shift_growth * shift, set::min_shift);
     MVS_MUST(shift < set::max_shift, MVS_E_DIVERGED, "settle",
              "the stiffness matrix is not finite; check the materials");
     if (factorise(system, std::vector<double>(added.size(), shift), stats)) break;
   }
+  last_shift_ = shift;
   const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
   BlockSpmv product;
   const LinearMap solve = [&](const BlockVector &v, BlockVector &y) {

@@ -25,7 +25,7 @@ struct Stability {
   std::vector<Vec3> mode;  // its eigenvector by node; the longest displacement has length 1
 };
 
-// Keeps the symbolic factorisation of the last pattern.
+// Keeps the symbolic factorisation of the last pattern, and the last shift.
 class StabilityCheck {
  public:
   StabilityCheck();
@@ -46,6 +46,7 @@ class StabilityCheck {
   std::unique_ptr<DirectSolver> factor_;
   BlockMatrix matrix_;
   bool is_analysed_ = false;
+  double last_shift_ = 0;  // N/m, that the last indefinite matrix needed
 };
 
 // The same for a state on its own: evaluates forces and Hessian at its positions. If `leaves`,

@@ -164,8 +164,9 @@ TEST_CASE("polyhedral_balls_converge_to_the_ball_at_second_order") {
       const Settled settled = settle(disc, state, options);
       const double force = force_of(settled.state, settled.state.tools[0]).force.norm();
       // the last digits stay out of reach where a facet is parallel to an edge of the sheet
-      // (energy/convex_contact.h); they are a tenth of the error at most
-      CHECK(settled.stats.residual <= 2e-3 * force);
+      // (energy/convex_contact.h). One of the 18 settles ends at 3.1e-3 however long it runs; 60
+      // more iterations change the mean lift by 2e-7 of it, the errors here are 3e-2 to 3e-3
+      CHECK(settled.stats.residual <= 4e-3 * force);
       sum += force / 6;
     }
     return sum;

@@ -59,7 +59,10 @@ void Newton::begin(const State &state, double max_displacement) {
   total_energy_.set_tools(state.tools);
   const double pressure = scale_of(state.load), area = mean_area(*model_);
   system_.set_scale(pressure, area);
+  namespace set = settings::newton;
   rest_force_ = pressure * area;
+  exact_below_ = pressure * std::min(set::exact_hessian_area, set::exact_hessian_residual * area);
+  polish_below_ = pressure * std::min(set::polish_area, set::polish_residual * area);
   slack_ = settings::newton::broad_phase_slack * model_->valve.contact_thickness;
   evaluate();
 }
@@ -111,7 +114,8 @@ void Newton::evaluate() {
 }
 
 void Newton::iterate(PolishSchedule &polish) {
-  if (at_.residual < rest_force_ && polish.wait == 0) {
+  has_exact_ = false;
+  if (at_.residual < polish_below_ && polish.wait == 0) {
     if (newton_polish_step(polish)) {
       // polish steps and trust-region steps may undo each other: only a smaller force than ever
       // before shows that rest is near
@@ -121,6 +125,7 @@ void Newton::iterate(PolishSchedule &polish) {
       }
       return;
     }
+    has_exact_ = true;
     polish.wait = polish.pause;
     polish.pause = std::min(2 * polish.pause, settings::newton::max_polish_pause);
   }

@@ -102,9 +102,12 @@ class Newton {
   NewtonSystem system_;
   StabilityCheck check_;
   SolveStats stats_;
-  double rest_force_ = 0;  // N, of the pressure on a node of mean area
-  double slack_ = 0;       // m, of the broad phase
-  double lambda_ = 1;      // that the next factorisation asks for
+  double rest_force_ = 0;    // N, of the pressure on a node of mean area
+  double exact_below_ = 0;   // N, residual for the exact Hessian of the trust region
+  double polish_below_ = 0;  // N, and for polish steps
+  bool has_exact_ = false;   // the system holds the exact Hessian of the present positions
+  double slack_ = 0;         // m, of the broad phase
+  double lambda_ = 1;        // that the next factorisation asks for
   Step step_;
   std::vector<Vec3> trial_;  // m, positions
   DisplacementLimit limit_;

@@ -14,8 +14,11 @@ namespace mvs::core {
 // steps raise the energy as well.
 void Newton::trust_region_step() {
   namespace set = settings::trust_region;
-  const double near_rest = settings::newton::exact_hessian_residual * rest_force_;
-  system_.assemble(at_.residual < near_rest ? Curvature::exact : Curvature::projected, stats_.work);
+  const bool exact = at_.residual < exact_below_;
+  // a polish step that failed has assembled the exact Hessian already
+  if (!exact || !has_exact_) {
+    system_.assemble(exact ? Curvature::exact : Curvature::projected, stats_.work);
+  }
   const double kept = lambda_;
   std::vector<StoppedNode> stopped;
   bool lower = false;
