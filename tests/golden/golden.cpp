@@ -139,7 +139,7 @@ void print_hashes(const std::vector<std::string> &prefixes) {
 int main(int argc, char **argv) {
   std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() > 2 && arguments[0] == "--workers") {
-    golden::use_workers(static_cast<uint32_t>(std::atoi(arguments[1].c_str())));
+    golden::use_workers(static_cast<uint32_t>(std::strtoul(arguments[1].c_str(), nullptr, 10)));
     arguments.erase(arguments.begin(), arguments.begin() + 2);
   }
   const bool writes = arguments.size() == 2 && arguments[0] == "--write";

@@ -60,9 +60,10 @@ void Newton::begin(const State &state, double max_displacement) {
   const double pressure = scale_of(state.load), area = mean_area(*model_);
   system_.set_scale(pressure, area);
   namespace set = settings::newton;
-  rest_force_ = pressure * area;
-  exact_below_ = pressure * std::min(set::exact_hessian_area, set::exact_hessian_residual * area);
-  polish_below_ = pressure * std::min(set::polish_area, set::polish_residual * area);
+  forces_.rest = pressure * area;
+  forces_.exact_below =
+      pressure * std::min(set::exact_hessian_area, set::exact_hessian_residual * area);
+  forces_.polish_below = pressure * std::min(set::polish_area, set::polish_residual * area);
   slack_ = settings::newton::broad_phase_slack * model_->valve.contact_thickness;
   evaluate();
 }
@@ -78,7 +79,7 @@ SolveStats Newton::finish(State &state) {
 }
 
 void Newton::presolve_locally(const Load &load) {
-  const std::vector<uint32_t> disturbed = disturbed_nodes(*model_, at_.gradient, rest_force_);
+  const std::vector<uint32_t> disturbed = disturbed_nodes(*model_, at_.gradient, forces_.rest);
   const size_t nodes = at_.x.size();
   if (disturbed.empty() || are_many(disturbed, nodes)) return;
   const auto most =
@@ -91,7 +92,7 @@ void Newton::presolve_locally(const Load &load) {
   state.load = load;
   SolveOptions options;
   options.max_iterations = settings::local_subproblem::max_iterations;
-  options.residual = settings::local_subproblem::residual * rest_force_;
+  options.residual = settings::local_subproblem::residual * forces_.rest;
   options.checks_stability = false;
   NewtonSettling settling(region.model, system_.factor(), state, options, {},
                           settings::local_subproblem::max_displacement);
@@ -115,7 +116,7 @@ void Newton::evaluate() {
 
 void Newton::iterate(PolishSchedule &polish) {
   has_exact_ = false;
-  if (at_.residual < polish_below_ && polish.wait == 0) {
+  if (at_.residual < forces_.polish_below && polish.wait == 0) {
     if (newton_polish_step(polish)) {
       // polish steps and trust-region steps may undo each other: only a smaller force than ever
       // before shows that rest is near
@@ -140,7 +141,7 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
   system_.assemble(Curvature::exact, stats_.work);
   if (!system_.try_factorise(0, stats_)) {
     ++stats_.shifted;
-    if (at_.residual > settings::stability::early_residual * rest_force_) return false;
+    if (at_.residual > settings::stability::early_residual * forces_.rest) return false;
     if (at_.residual > polish.stable_residual) {
       const Stability found = check_stability();
       if (!found.is_stable) {

@@ -39,6 +39,13 @@ struct StoppedNode {
   double share;  // its Newton step over the limited one
 };
 
+// Forces that an iteration compares its residual with, N.
+struct ForceLevels {
+  double rest = 0;          // of the pressure on a node of mean area
+  double exact_below = 0;   // for the exact Hessian of the trust region
+  double polish_below = 0;  // for polish steps
+};
+
 class Newton {
  public:
   Newton(const Model &model, DirectSolver &factor);
@@ -61,8 +68,8 @@ class Newton {
   SolveStats finish(State &state);
 
   const std::vector<Vec3> &x() const { return at_.x; }
-  double residual() const { return at_.residual; }   // N
-  double rest_force() const { return rest_force_; }  // N
+  double residual() const { return at_.residual; }    // N
+  double rest_force() const { return forces_.rest; }  // N
   bool reached_limit() const { return limit_.reached; }
   SolveStats &stats() { return stats_; }
 
@@ -102,12 +109,10 @@ class Newton {
   NewtonSystem system_;
   StabilityCheck check_;
   SolveStats stats_;
-  double rest_force_ = 0;    // N, of the pressure on a node of mean area
-  double exact_below_ = 0;   // N, residual for the exact Hessian of the trust region
-  double polish_below_ = 0;  // N, and for polish steps
-  bool has_exact_ = false;   // the system holds the exact Hessian of the present positions
-  double slack_ = 0;         // m, of the broad phase
-  double lambda_ = 1;        // that the next factorisation asks for
+  ForceLevels forces_;
+  bool has_exact_ = false;  // the system holds the exact Hessian of the present positions
+  double slack_ = 0;        // m, of the broad phase
+  double lambda_ = 1;       // that the next factorisation asks for
   Step step_;
   std::vector<Vec3> trial_;  // m, positions
   DisplacementLimit limit_;

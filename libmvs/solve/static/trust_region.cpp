@@ -14,7 +14,7 @@ namespace mvs::core {
 // steps raise the energy as well.
 void Newton::trust_region_step() {
   namespace set = settings::trust_region;
-  const bool exact = at_.residual < exact_below_;
+  const bool exact = at_.residual < forces_.exact_below;
   // a polish step that failed has assembled the exact Hessian already
   if (!exact || !has_exact_) {
     system_.assemble(exact ? Curvature::exact : Curvature::projected, stats_.work);
