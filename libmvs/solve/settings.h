@@ -79,10 +79,10 @@ inline constexpr double far_factor = 1.5;
 inline constexpr double broad_phase_slack = 0.02;
 // The trust region uses the exact Hessian, and polish steps are tried, where all forces are below
 // those of the pressure on these areas, m2, and below these multiples of the rest force. Meshes of
-// one valve need about the same force, so that the areas count on coarse ones: on 425 vertices 4 and
-// 1 rest forces, where the exact Hessian is indefinite, take 15 to 25 % more time than these areas
-// (springs and bilinear, each under five loads). On 6,800 vertices a quarter of the multiple takes
-// 15 iterations for 11.
+// one valve need about the same force, so that the areas count on coarse ones: on 425 vertices 4
+// and 1 rest forces, where the exact Hessian is indefinite, take 15 to 25 % more time than these
+// areas (springs and bilinear, each under five loads). On 6,800 vertices a quarter of the multiple
+// takes 15 iterations for 11.
 inline constexpr double exact_hessian_area = 0.65e-6, exact_hessian_residual = 4;
 inline constexpr double polish_area = 0.25e-6, polish_residual = 1;
 // Stiffness that lambda = 1 adds is pressure times element size. This least lambda keeps slack

@@ -87,7 +87,8 @@ TEST_CASE("clean_surface_does_not_depend_on_numbers_and_winding") {
   CHECK(boundary_loops(sheet).size() == 2);
   const Finding *turned = find(findings, "turned_triangles");
   REQUIRE(turned);
-  CHECK(turned->value[0] == double((p.sheet.triangles.size() + 2) / 3));
+  const size_t every_third = (p.sheet.triangles.size() + 2) / 3;
+  CHECK(turned->value[0] == static_cast<double>(every_third));
 }
 
 TEST_CASE("clean_surface_drops_collapsed_double_and_flat_triangles") {

@@ -58,7 +58,7 @@ TEST_CASE("find_rims_guesses_the_annulus_of_parametric_valves_however_they_lie")
       CHECK(find(findings, "annulus")->confidence > 0.5);
       CHECK(find(findings, "atrium")->confidence > 0.9);
       CHECK(find(findings, "orifice")->confidence == 1);
-      CHECK(loops_by_length(sheet).size() == 2);
+      CHECK(boundary_loops(sheet).size() == 2);
     }
   }
 }
@@ -161,7 +161,7 @@ TEST_CASE("rims_run_the_way_of_the_triangles_with_normals_into_the_atrium") {
     const SheetRims rims = find_rims(sheet, {}, findings);
     CHECK(shape_of(sheet, rims.annulus).area.z() > 0);
     CHECK(shape_of(sheet, rims.free_edge).area.z() < 0);
-    const std::vector<std::vector<uint32_t>> loops = loops_by_length(sheet);
+    const std::vector<std::vector<uint32_t>> loops = boundary_loops(sheet);
     REQUIRE(loops.size() == 2);
     CHECK(loops[0] == rims.annulus);
     CHECK(loops[1] == rims.free_edge);
@@ -174,7 +174,7 @@ TEST_CASE("rims_run_the_way_of_the_triangles_with_normals_into_the_atrium") {
 
 TEST_CASE("shape_of_a_circle_is_that_of_the_circle") {
   const LeafletSheet sheet = cleaned(funnel(200, 8));
-  const LoopShape shape = shape_of(sheet, loops_by_length(sheet)[0]);
+  const LoopShape shape = shape_of(sheet, boundary_loops(sheet)[0]);
   const double pi = 3.14159265358979;
   // a polygon of 200 sides: short by pi^2 / (6 n^2) of the length, 4 times that of the area
   CHECK(shape.length == doctest::Approx(2 * pi * 16e-3).epsilon(5e-5));
