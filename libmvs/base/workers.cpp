@@ -34,7 +34,7 @@ constexpr std::chrono::microseconds longest_spin{40};
 
 double least_from_environment() {
   const char *text = std::getenv("MVS_WORKERS_LEAST_US");  // NOLINT(concurrency-mt-unsafe)
-  return text == nullptr ? least_shared_us : std::atof(text);
+  return text == nullptr ? least_shared_us : std::strtod(text, nullptr);
 }
 
 // Waits until `done()`, at most longest_spin; returns whether it is.
