@@ -182,7 +182,8 @@ void Newton::leave(const Stability &unstable) {
   const double turn = dot(at_.gradient, unstable.mode) > 0 ? -1 : 1;
   double lowest = std::numeric_limits<double>::infinity();
   std::vector<Vec3> farthest;
-  for (double way = set::leave_by; way <= set::leave_at_most; way *= 2) {
+  double way = set::leave_by;
+  while (way <= set::leave_at_most) {
     step_.newton = unstable.mode;
     for (Vec3 &d : step_.newton) d *= turn * way;
     limit_step();
@@ -192,6 +193,7 @@ void Newton::leave(const Stability &unstable) {
     if (energy >= lowest) break;
     lowest = energy;
     farthest = trial_;
+    way *= 2;
   }
   at_.x = std::move(farthest);
   evaluate();
