@@ -67,7 +67,7 @@ typedef struct mvs_sim_desc {
   /* Calls task(context, index) for each index below `count`, in any order, on any threads, and
    * returns when all have returned. A loop takes tens of microseconds or more. A pool that runs
    * fewer tasks, runs one twice, or returns early changes no bit of a result: the calling thread
-   * does what is left, and a task that comes late returns at once; none may come after mvs_destroy.
+   * does the remaining work, and a late task returns at once; none may come after mvs_destroy.
    * A C++ exception that leaves the callback ends the call with MVS_E_INTERNAL. Nullable. */
   void (*run_tasks)(void *user, uint32_t count, mvs_task_fn task, void *context);
 } mvs_sim_desc;

@@ -1,4 +1,5 @@
-// Sets the processor to flush denormals to zero (FTZ, DAZ) while an object of this class lives.
+// How a thread rounds and treats denormals; FlushDenormals flushes them to zero (FTZ, DAZ) while it
+// lives.
 //
 // The fill-in of a factor in single precision decays with the distance on the mesh, below 1e-38 for
 // meshes of some thousand nodes. Arithmetic with denormals takes an Intel processor a hundred times
@@ -18,100 +19,68 @@
 
 namespace mvs::core {
 
+// The register that controls the floating-point arithmetic of the calling thread.
+namespace floating_point {
 #if defined(MVS_HAVE_MXCSR)
-class FlushDenormals {
- public:
-  FlushDenormals() { _mm_setcsr(before_ | results_and_operands); }
-  ~FlushDenormals() { _mm_setcsr(before_); }
-  FlushDenormals(const FlushDenormals &) = delete;
-  FlushDenormals &operator=(const FlushDenormals &) = delete;
+using Control = unsigned;
+inline constexpr Control initial = 0x1f80, flush_results_and_operands = 0x8040;
+inline Control get() {
+  return _mm_getcsr();
+}
+inline void set(Control control) {
+  _mm_setcsr(control);
+}
+#elif defined(__aarch64__) && defined(__GNUC__)
+using Control = uint64_t;
+inline constexpr Control initial = 0, flush_results_and_operands = Control{1} << 24;
+inline Control get() {
+  Control control;
+  __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+  return control;
+}
+inline void set(Control control) {
+  __asm__ volatile("msr fpcr, %0" ::"r"(control));
+}
+#else
+using Control = unsigned;
+inline constexpr Control initial = 0, flush_results_and_operands = 0;
+inline Control get() {
+  return initial;
+}
+inline void set(Control) {}
+#endif
+}  // namespace floating_point
 
- private:
-  static constexpr unsigned results_and_operands = 0x8040;
-  const unsigned before_ = _mm_getcsr();
-};
-
-// How a thread rounds and treats denormals.
 class FloatingPointMode {
  public:
-  static FloatingPointMode current() { return FloatingPointMode(_mm_getcsr()); }
-  FloatingPointMode() = default;
+  FloatingPointMode() = default;  // of a new process
+  static FloatingPointMode current() { return FloatingPointMode(floating_point::get()); }
+  FloatingPointMode with_flushed_denormals() const {
+    return FloatingPointMode(control_ | floating_point::flush_results_and_operands);
+  }
   // Sets a mode while an object of this class lives.
   class Scope {
    public:
-    explicit Scope(const FloatingPointMode &mode) { _mm_setcsr(mode.control_); }
-    ~Scope() { _mm_setcsr(before_); }
+    explicit Scope(const FloatingPointMode &mode) { floating_point::set(mode.control_); }
+    ~Scope() { floating_point::set(before_); }
     Scope(const Scope &) = delete;
     Scope &operator=(const Scope &) = delete;
 
    private:
-    const unsigned before_ = _mm_getcsr();
+    const floating_point::Control before_ = floating_point::get();
   };
 
  private:
-  explicit FloatingPointMode(unsigned control) : control_(control) {}
-  unsigned control_ = 0x1f80;  // of a new process
+  explicit FloatingPointMode(floating_point::Control control) : control_(control) {}
+  floating_point::Control control_ = floating_point::initial;
 };
-#elif defined(__aarch64__) && defined(__GNUC__)
+
 class FlushDenormals {
  public:
-  FlushDenormals() { set(before_ | results_and_operands); }
-  ~FlushDenormals() { set(before_); }
-  FlushDenormals(const FlushDenormals &) = delete;
-  FlushDenormals &operator=(const FlushDenormals &) = delete;
+  FlushDenormals() : scope_(FloatingPointMode::current().with_flushed_denormals()) {}
 
  private:
-  static constexpr uint64_t results_and_operands = uint64_t{1} << 24;
-  static uint64_t get() {
-    uint64_t control;
-    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
-    return control;
-  }
-  static void set(uint64_t control) { __asm__ volatile("msr fpcr, %0" ::"r"(control)); }
-  const uint64_t before_ = get();
+  const FloatingPointMode::Scope scope_;
 };
-
-class FloatingPointMode {
- public:
-  static FloatingPointMode current() { return FloatingPointMode(get()); }
-  FloatingPointMode() = default;
-  class Scope {
-   public:
-    explicit Scope(const FloatingPointMode &mode) { set(mode.control_); }
-    ~Scope() { set(before_); }
-    Scope(const Scope &) = delete;
-    Scope &operator=(const Scope &) = delete;
-
-   private:
-    const uint64_t before_ = get();
-  };
-
- private:
-  explicit FloatingPointMode(uint64_t control) : control_(control) {}
-  static uint64_t get() {
-    uint64_t control;
-    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
-    return control;
-  }
-  static void set(uint64_t control) { __asm__ volatile("msr fpcr, %0" ::"r"(control)); }
-  uint64_t control_ = 0;
-};
-#else
-class FlushDenormals {
- public:
-  FlushDenormals() {}  // not constexpr, nor trivial: no warning of an unused object
-  ~FlushDenormals() {}
-};
-
-class FloatingPointMode {
- public:
-  static FloatingPointMode current() { return {}; }
-  class Scope {
-   public:
-    explicit Scope(const FloatingPointMode &) {}
-    ~Scope() {}
-  };
-};
-#endif
 
 }  // namespace mvs::core

@@ -87,7 +87,7 @@ struct Workers::Loop {
   uint32_t failed_chunk = 0;
   std::exception_ptr error;
 
-  // After a failure the chunks that nobody has claimed are left out: all are later ones.
+  // A failure leaves out the unclaimed chunks, which all come after the claimed ones.
   void work() {
     const FloatingPointMode::Scope scope(mode);
     for (uint32_t k; (k = next.fetch_add(1, std::memory_order_relaxed)) < count;) {

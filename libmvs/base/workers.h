@@ -43,7 +43,7 @@ class Workers {
   bool pay_for(double microseconds) const { return width_ > 1 && microseconds >= least_; }
 
   // Calls run(chunk) for each chunk below `count`, in any order and at the same time, and returns
-  // when all have returned. If some throw, rethrows what a loop in ascending order would.
+  // when all have returned. If some throw, rethrows the exception of the lowest chunk.
   template <typename Run>
   void parallel_for(uint32_t count, const Run &run) {
     share(

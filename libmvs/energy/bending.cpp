@@ -150,24 +150,21 @@ BendingTerm::BendingTerm(const Model &model) {
   }
 }
 
+double BendingTerm::energy_of(const Hinge &h, const std::vector<Vec3> &x) {
+  const double bent =
+      wrap(hinge_angle(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]) - h.rest_angle);
+  return 0.5 * h.stiffness * bent * bent;
+}
+
 double BendingTerm::energy(const std::vector<Vec3> &x) const {
   double sum = 0;
-  for (const Hinge &h : hinges_) {
-    const double bent =
-        wrap(hinge_angle(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]) - h.rest_angle);
-    sum += 0.5 * h.stiffness * bent * bent;
-  }
+  for (const Hinge &h : hinges_) sum += energy_of(h, x);
   return sum;
 }
 
 void BendingTerm::energies(const std::vector<Vec3> &x, size_t first, size_t last,
                            double *to) const {
-  for (size_t k = first; k < last; ++k) {
-    const Hinge &h = hinges_[k];
-    const double bent =
-        wrap(hinge_angle(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]) - h.rest_angle);
-    to[k] = 0.5 * h.stiffness * bent * bent;
-  }
+  for (size_t k = first; k < last; ++k) to[k] = energy_of(hinges_[k], x);
 }
 
 double BendingTerm::sum_by_batches(const double *energies) const {

@@ -48,6 +48,7 @@ class BendingTerm {
     double stiffness;              // N m
     double rest_angle;             // rad
   };
+  static double energy_of(const Hinge &h, const std::vector<Vec3> &x);  // J
   template <typename Gradient>
   void add_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
                  Gradient &to) const;

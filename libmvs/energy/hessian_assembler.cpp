@@ -90,6 +90,19 @@ void HessianAssembler::keep_old_rows() {
   if (static_cast<double>(rows_.size()) > needed) rows_.swap(united_);
 }
 
+// Adds an outer product block by block.
+template <typename System>
+static void add_blocks(System &system, size_t k, const std::array<uint32_t, 4> &nodes,
+                       const Slope &slope, double times) {
+  for (uint32_t a = 0; a < 4; ++a) {
+    const Vec3 of_a = slope.node(a);
+    system.add_diagonal(nodes[a], times * (of_a * of_a.transpose()));
+    for (uint32_t b = 0; b < a; ++b, ++k) {
+      system.add(k, nodes[a], nodes[b], times * (of_a * slope.node(b).transpose()));
+    }
+  }
+}
+
 // Finds the blocks of an outer product. Returns false unless all are in the matrix.
 bool HessianAssembler::find_outer_product(size_t first, size_t k,
                                           const std::array<uint32_t, 4> &nodes,
@@ -116,13 +129,7 @@ void HessianAssembler::add_outer_product(size_t k, const std::array<uint32_t, 4>
     mvs::core::add_outer_product(slope, times, to);
     return;
   }
-  for (uint32_t a = 0; a < 4; ++a) {
-    const Vec3 of_a = slope.node(a);
-    add_diagonal(nodes[a], times * (of_a * of_a.transpose()));
-    for (uint32_t b = 0; b < a; ++b, ++k) {
-      add(k, nodes[a], nodes[b], times * (of_a * slope.node(b).transpose()));
-    }
-  }
+  add_blocks(*this, k, nodes, slope, times);
 }
 
 void HessianPart::clear() {
@@ -185,13 +192,7 @@ void HessianPart::add_outer_product(size_t k, const std::array<uint32_t, 4> &nod
     mvs::core::add_outer_product(slope, times, to);
     return;
   }
-  for (uint32_t a = 0; a < 4; ++a) {
-    const Vec3 of_a = slope.node(a);
-    add_diagonal(nodes[a], times * (of_a * of_a.transpose()));
-    for (uint32_t b = 0; b < a; ++b, ++k) {
-      add(k, nodes[a], nodes[b], times * (of_a * slope.node(b).transpose()));
-    }
-  }
+  add_blocks(*this, k, nodes, slope, times);
 }
 
 void HessianAssembler::set_order(const Model &model, const std::vector<uint32_t> &nodes) {

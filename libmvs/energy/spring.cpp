@@ -28,21 +28,19 @@ SpringTerm::SpringTerm(const Model &model) {
   }
 }
 
+double SpringTerm::energy_of(const Spring &s, const std::vector<Vec3> &x) const {
+  const double e = (x[s.j] - x[s.i]).norm() / s.length - 1;
+  return s.volume * laws_[s.law].energy(e);
+}
+
 double SpringTerm::energy(const std::vector<Vec3> &x) const {
   double sum = 0;
-  for (const Spring &s : springs_) {
-    const double e = (x[s.j] - x[s.i]).norm() / s.length - 1;
-    sum += s.volume * laws_[s.law].energy(e);
-  }
+  for (const Spring &s : springs_) sum += energy_of(s, x);
   return sum;
 }
 
 void SpringTerm::energies(const std::vector<Vec3> &x, size_t first, size_t last, double *to) const {
-  for (size_t k = first; k < last; ++k) {
-    const Spring &s = springs_[k];
-    const double e = (x[s.j] - x[s.i]).norm() / s.length - 1;
-    to[k] = s.volume * laws_[s.law].energy(e);
-  }
+  for (size_t k = first; k < last; ++k) to[k] = energy_of(springs_[k], x);
 }
 
 double SpringTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {

@@ -44,6 +44,7 @@ class SpringTerm {
     double volume;                       // t A, m3
     double per_length = 0, section = 0;  // 1 / L0, t A / L0
   };
+  double energy_of(const Spring &s, const std::vector<Vec3> &x) const;  // J
   std::vector<Spring> springs_;
   std::vector<Bilinear> laws_;
 };

@@ -28,13 +28,18 @@ async function tabTo(page, wanted) {
   throw new Error(`the keyboard does not reach ${wanted}`);
 }
 
+/** Opens the form of an operation. */
+async function openForm(page, operation) {
+  await page.keyboard.press('r');
+  await tabTo(page, operation);
+  await page.keyboard.press('Enter');
+}
+
 describe('planner for everybody', () => {
   it('is_used_with_the_keyboard_alone', async () => {
     await on({}, async ({ page }) => {
       const { hash } = await figures(page);
-      await page.keyboard.press('r');
-      await tabTo(page, /annulus_scale/);
-      await page.keyboard.press('Enter');
+      await openForm(page, /annulus_scale/);
       await page.waitForTimeout(150);
       await closed(page);
       await tabTo(page, /f-factor/);
@@ -57,9 +62,7 @@ describe('planner for everybody', () => {
 
   it('resects_along_an_outline_drawn_with_the_keyboard_alone', async () => {
     await on({}, async ({ page }) => {
-      await page.keyboard.press('r');
-      await tabTo(page, /resect/);
-      await page.keyboard.press('Enter');
+      await openForm(page, /resect/);
       await page.waitForTimeout(150);
       await closed(page);
       await tabTo(page, /Draw the cut/);
@@ -92,9 +95,7 @@ describe('planner for everybody', () => {
 
   it('ties_an_artificial_chord_with_the_keyboard_alone', async () => {
     await on({}, async ({ page }) => {
-      await page.keyboard.press('r');
-      await tabTo(page, /neochord/);
-      await page.keyboard.press('Enter');
+      await openForm(page, /neochord/);
       await page.waitForTimeout(200);
       // from the middle of P2 towards its free edge
       for (const key of ['ArrowRight', 'ArrowUp', 'Space']) await page.keyboard.press(key);

@@ -57,7 +57,7 @@ RimParts::RimParts(const Sheet &sheet, const Opposite &tissue, const Spacing &sp
     : spacing_(spacing) {
   const std::vector<Vec3> &x = sheet.mesh.x;
   std::vector<std::vector<RimEnd>> ends(x.size());
-  for (const Side &side : sheet.rim_sides) {
+  for (const Side &side : sheet.rim) {
     const Tri &t = sheet.mesh.triangles[side.triangle];
     const Vec3 &a = x[side.edge[0]], &b = x[side.edge[1]];
     const Vec3 inside = x[t[0]] + x[t[1]] + x[t[2]] - a - b - a;  // to the third corner

@@ -67,7 +67,8 @@ void add_ring(const Sheet &sheet, double outwards, double step, double shift, Sa
 // The distance from the annulus to the rest of the rim: free edges and holes.
 double distance_to_other_rim(const Sheet &sheet) {
   double least2 = std::numeric_limits<double>::infinity();
-  for (const Edge &edge : sheet.rim) {
+  for (const Side &side : sheet.rim) {
+    const Edge &edge = side.edge;
     double middle2 = std::numeric_limits<double>::infinity();
     const Vec3 middle = 0.5 * (sheet.mesh.x[edge[0]] + sheet.mesh.x[edge[1]]);
     for (size_t k = 0; k < sheet.annulus.size(); ++k) {
@@ -94,10 +95,10 @@ void add_wall(const Sheet &sheet, Samples &samples) {
 
 }  // namespace
 
-std::vector<Tri> as_triangles(const std::vector<Edge> &edges) {
+std::vector<Tri> as_triangles(const std::vector<Side> &sides) {
   std::vector<Tri> triangles;
-  triangles.reserve(edges.size());
-  for (const Edge &edge : edges) triangles.push_back({edge[0], edge[1], edge[1]});
+  triangles.reserve(sides.size());
+  for (const Side &s : sides) triangles.push_back({s.edge[0], s.edge[1], s.edge[1]});
   return triangles;
 }
 
@@ -105,19 +106,18 @@ Sheet local_sheet(const Model &model, const std::vector<Vec3> &local) {
   const Valve &valve = model.valve;
   Sheet sheet{compact_mesh(local, valve.triangles),
               {},
-              {},
               Loop(valve.annulus, local),
               valve.contact_thickness,
               0,
               0};
   const std::vector<Side> sides = sorted_sides(sheet.mesh.triangles);
   for_each_edge(sides, [&](size_t first, size_t last) {
-    if (last != first + 1) return;
-    sheet.rim.push_back(sides[first].edge);
-    sheet.rim_sides.push_back(sides[first]);
+    if (last == first + 1) sheet.rim.push_back(sides[first]);
   });
   double rim = 0;
-  for (const Edge &e : sheet.rim) rim += (sheet.mesh.x[e[0]] - sheet.mesh.x[e[1]]).norm();
+  for (const Side &s : sheet.rim) {
+    rim += (sheet.mesh.x[s.edge[0]] - sheet.mesh.x[s.edge[1]]).norm();
+  }
   for (const Vec3 &p : sheet.mesh.x) sheet.radius = std::max(sheet.radius, p.norm());
   sheet.grain = std::max({grain_of_seal * sheet.seal, grain_of_rim * rim,
                           grain_of_size * std::sqrt(area_of(sheet.mesh))});

@@ -13,15 +13,14 @@ namespace mvs::core::orifice {
 // The sheet in the valve's frame, z towards the atrium, with the nodes of its triangles only.
 struct Sheet {
   Mesh mesh;
-  std::vector<Edge> rim;        // edges of one triangle: annulus, free edges, holes
-  std::vector<Side> rim_sides;  // the same with their triangles
+  std::vector<Side> rim;  // without a triangle on the other side: annulus, free edges, holes
   Loop annulus;
   double seal;    // m: a passage up to this width is sealed
   double grain;   // m: the finest spacing of samples
   double radius;  // m: the sheet is inside the sphere of this size around the origin
 };
-// Returns edges as degenerate triangles for a TriangleBvh.
-std::vector<Tri> as_triangles(const std::vector<Edge> &edges);
+// Returns the edges of sides as degenerate triangles for a TriangleBvh.
+std::vector<Tri> as_triangles(const std::vector<Side> &sides);
 
 Sheet local_sheet(const Model &model, const std::vector<Vec3> &local);
 

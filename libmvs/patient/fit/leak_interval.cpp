@@ -72,9 +72,8 @@ std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, doubl
   std::string ranges = "lengths of chordae within that range";
   if (edge.geometry) {
     ranges += format(
-        ", a free edge up to %.1f mm farther out (%.1f mm2 with the lengths as they are) or %.1f "
-        "mm "
-        "farther in (%.1f mm2)",
+        ", a free edge up to %.1f mm farther out (%.1f mm2 with the lengths as they are) or "
+        "%.1f mm farther in (%.1f mm2)",
         edge.out * 1e3, interval.edge_leak[0] * 1e6, edge.in * 1e3, interval.edge_leak[1] * 1e6);
   }
   if (thickness_error > 0) {

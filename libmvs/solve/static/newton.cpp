@@ -115,7 +115,7 @@ void Newton::evaluate() {
 }
 
 void Newton::iterate(PolishSchedule &polish) {
-  has_exact_ = false;
+  bool has_exact = false;
   if (at_.residual < forces_.polish_below && polish.wait == 0) {
     if (newton_polish_step(polish)) {
       // polish steps and trust-region steps may undo each other: only a smaller force than ever
@@ -126,12 +126,12 @@ void Newton::iterate(PolishSchedule &polish) {
       }
       return;
     }
-    has_exact_ = true;
+    has_exact = true;  // a polish step that fails moves no node
     polish.wait = polish.pause;
     polish.pause = std::min(2 * polish.pause, settings::newton::max_polish_pause);
   }
   polish.wait = std::max(polish.wait - 1, 0);
-  trust_region_step();
+  trust_region_step(has_exact);
 }
 
 // A Newton step on the out-of-balance force with the exact Hessian, or a step that leaves an

@@ -93,7 +93,8 @@ class Newton {
   Stability check_stability();
   void leave(const Stability &unstable);
   bool search_on_force();
-  void trust_region_step();
+  // `has_exact`: the system holds the exact Hessian of the present positions.
+  void trust_region_step(bool has_exact);
   double try_step(double &predicted_reduction);
   double gain_ratio(double reduction, double predicted_reduction) const;
   void adapt_lambda(double gain);
@@ -110,9 +111,8 @@ class Newton {
   StabilityCheck check_;
   SolveStats stats_;
   ForceLevels forces_;
-  bool has_exact_ = false;  // the system holds the exact Hessian of the present positions
-  double slack_ = 0;        // m, of the broad phase
-  double lambda_ = 1;       // that the next factorisation asks for
+  double slack_ = 0;   // m, of the broad phase
+  double lambda_ = 1;  // that the next factorisation asks for
   Step step_;
   std::vector<Vec3> trial_;  // m, positions
   DisplacementLimit limit_;

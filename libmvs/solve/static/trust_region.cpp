@@ -12,11 +12,10 @@ namespace mvs::core {
 // shortens the Newton step instead, which takes no factorisation. If all trials fail and raise the
 // energy the valve stays where it is: such a step may bend stiff triangles so that all following
 // steps raise the energy as well.
-void Newton::trust_region_step() {
+void Newton::trust_region_step(bool has_exact) {
   namespace set = settings::trust_region;
   const bool exact = at_.residual < forces_.exact_below;
-  // a polish step that failed has assembled the exact Hessian already
-  if (!exact || !has_exact_) {
+  if (!exact || !has_exact) {
     system_.assemble(exact ? Curvature::exact : Curvature::projected, stats_.work);
   }
   const double kept = lambda_;

@@ -78,8 +78,8 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
 
 
 def edge_of_labels(voxel: float) -> dict[str, mvs.Finding]:
-    """What labels leave open at the free edge, by option of a build: half a voxel either way, and two
-    voxels of tissue that are missing.
+    """Findings on the free edge of labels, by option of a build: an error of half a voxel either way,
+    and two voxels of missing tissue.
 
     At the published errors of a network (0.45 mm in the mean, voxels of 0.7 mm) the true free edges of
     three phantoms lie 1.1 to 1.5 mm RMS from those of the labels, mostly farther out.
