@@ -70,7 +70,9 @@ auto shortened(double share) {
   };
 }
 
-// The anterior leaflet as soft as the limits of the law, the posterior a million times stiffer.
+// The anterior leaflet is ten times softer than the founding tissue, the posterior as stiff as the
+// law allows. (A softer anterior leaflet cannot carry the pressure at all: `settle` refuses it as
+// yielding without end.)
 void stiff_beside_soft(Watch &watch, const std::string &name) {
   make_valve(watch.sim(), name);
   const auto leaflets = watch.sim().snapshot().parts(MVS_PART_LEAFLET);
@@ -78,8 +80,8 @@ void stiff_beside_soft(Watch &watch, const std::string &name) {
     const double scale = leaflet.index == 0 ? 1 : 1e6;
     mvs_leaflet_desc tissue = {};
     tissue.law = MVS_LEAFLET_LAW_SPRING;
-    tissue.constants[0] = 1e3 * scale;
-    tissue.constants[1] = 6e4 * scale;
+    tissue.constants[0] = 1e4 * scale;
+    tissue.constants[1] = 6e5 * scale;
     tissue.constants[2] = 0.25;
     watch.sim().set_leaflet(tissue, leaflet.id);
   }
