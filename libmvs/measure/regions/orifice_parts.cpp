@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -89,33 +90,130 @@ void sort_parts(OrificeParts &found) {
   for (uint32_t &part : found.of_triangle) part = place[part];
 }
 
-void sample_orifice(const Model &model, const std::vector<Vec3> &x, const Orifice &orifice,
-                    OrificeParts &found) {
-  const TriangleBvh tree(model.valve.triangles, x);
-  const double spacing = spacing_of_thickness * model.valve.contact_thickness;
-  uint32_t nearest = none;  // to the sample before, most often near this one, too
-  for (uint32_t t = 0; t < orifice.triangles.size(); ++t) {
-    const Tri &c = orifice.triangles[t];
-    const Vec3 &p = orifice.vertices[c[0]], &q = orifice.vertices[c[1]],
-               &r = orifice.vertices[c[2]];
+// Distributes samples of the orifice to the regions of their nearest tissue, and looks for the
+// widest ball of each part and region. Where all tissue that can be nearest to a sample of a
+// triangle belongs to the same regions, only samples that may widen a gap look for their distance.
+class OrificeSampling {
+ public:
+  OrificeSampling(const Model &model, const std::vector<Vec3> &x, const RegionMap &map,
+                  const Orifice &orifice, OrificeParts &found)
+      : map_(map),
+        orifice_(orifice),
+        found_(found),
+        tree_(model.valve.triangles, x),
+        spacing_(spacing_of_thickness * model.valve.contact_thickness) {
+    found.gap_of_region.assign(map.size(), 0);
+  }
+
+  void run() {
+    std::vector<Piece> pieces;
+    for (uint32_t t = 0; t < orifice_.triangles.size(); ++t) pieces.push_back(piece_of(t));
+    std::vector<uint32_t> order(pieces.size());
+    std::iota(order.begin(), order.end(), 0u);
+    // the widest first, so that few of the others can widen a gap
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return pieces[a].widest > pieces[b].widest; });
+    for (const uint32_t t : order) {
+      if (pieces[t].is_of_one) widen(t, pieces[t]);
+    }
+    for (uint32_t t = 0; t < pieces.size(); ++t) {
+      const Piece &piece = pieces[t];
+      if (piece.is_of_one) {
+        found_.samples.push_back(
+            {piece.area, piece.parts * piece.parts, piece.tissue, found_.of_triangle[t]});
+      } else {
+        distribute(t, piece);
+      }
+    }
+  }
+
+ private:
+  // A triangle of the orifice.
+  struct Piece {
+    size_t parts;  // of a side
+    double area;   // m2, of a sample
+    Vec3 centre;
+    double radius;    // m
+    double widest;    // m: no ball around a sample is wider
+    uint32_t tissue;  // nearest to the centre
+    bool is_of_one;   // whether all tissue that may be nearest is of the same regions
+  };
+
+  std::array<Vec3, 3> corners(uint32_t t) const {
+    const Tri &c = orifice_.triangles[t];
+    return {orifice_.vertices[c[0]], orifice_.vertices[c[1]], orifice_.vertices[c[2]]};
+  }
+
+  Piece piece_of(uint32_t t) {
+    const auto [p, q, r] = corners(t);
     const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
-    const auto parts =
-        static_cast<size_t>(std::clamp(std::ceil(longest / spacing), 1.0, most_parts));
-    const double area = area_vector(orifice, t).norm() / static_cast<double>(parts * parts);
-    const Vec3 centre = (p + q + r) / 3;
-    const double radius = std::max({(p - centre).norm(), (q - centre).norm(), (r - centre).norm()});
-    const ClosestNearby tissue(tree, centre, radius, nearest);
-    nearest = tissue.closest_to_centre();
-    for_each_part(parts, [&](const std::array<double, 3> &w) {
-      const TriangleBvh::Hit hit = tissue.closest(w[0] * p + w[1] * q + w[2] * r, nearest);
-      nearest = hit.triangle;
-      const double width = 2 * std::sqrt(hit.distance2);
-      found.samples.push_back({area, width, hit.triangle, found.of_triangle[t]});
-      OrificePart &part = found.parts[found.of_triangle[t]];
-      part.gap = std::max(part.gap, width);
+    Piece piece;
+    piece.parts = static_cast<size_t>(std::clamp(std::ceil(longest / spacing_), 1.0, most_parts));
+    piece.area = area_vector(orifice_, t).norm() / static_cast<double>(piece.parts * piece.parts);
+    piece.centre = (p + q + r) / 3;
+    piece.radius =
+        std::max({(p - piece.centre).norm(), (q - piece.centre).norm(), (r - piece.centre).norm()});
+    const ClosestNearby tissue(tree_, piece.centre, piece.radius, nearest_);
+    nearest_ = piece.tissue = tissue.closest_to_centre();
+    piece.widest = 2 * (tissue.distance_of_centre() + piece.radius) * with_rounding;
+    piece.is_of_one = map_.same_regions(tissue.triangles());
+    return piece;
+  }
+
+  // The narrowest of the gaps that a sample may widen.
+  double narrowest(uint32_t part, uint32_t tissue) const {
+    double gap = found_.parts[part].gap;
+    map_.for_each(tissue, [&](uint32_t r) { gap = std::min(gap, found_.gap_of_region[r]); });
+    return gap;
+  }
+  void add_width(uint32_t part, uint32_t tissue, double width) {
+    double &gap = found_.parts[part].gap;
+    gap = std::max(gap, width);
+    map_.for_each(tissue, [&](uint32_t r) {
+      found_.gap_of_region[r] = std::max(found_.gap_of_region[r], width);
     });
   }
-}
+
+  void widen(uint32_t t, const Piece &piece) {
+    const uint32_t part = found_.of_triangle[t];
+    if (piece.widest <= narrowest(part, piece.tissue)) return;
+    const auto [p, q, r] = corners(t);
+    const ClosestNearby tissue(tree_, piece.centre, piece.radius, piece.tissue);
+    uint32_t nearest = piece.tissue;
+    for_each_part(piece.parts, [&](const std::array<double, 3> &w) {
+      const Vec3 sample = w[0] * p + w[1] * q + w[2] * r;
+      const double off = (sample - piece.centre).norm();
+      const double most = 2 * (tissue.distance_of_centre() + off) * with_rounding;
+      if (most <= narrowest(part, piece.tissue)) return;
+      const TriangleBvh::Hit hit = tissue.closest(sample, nearest);
+      nearest = hit.triangle;
+      add_width(part, piece.tissue, 2 * std::sqrt(hit.distance2));
+    });
+  }
+
+  void distribute(uint32_t t, const Piece &piece) {
+    const uint32_t part = found_.of_triangle[t];
+    const auto [p, q, r] = corners(t);
+    const ClosestNearby tissue(tree_, piece.centre, piece.radius, piece.tissue);
+    uint32_t nearest = piece.tissue;
+    for_each_part(piece.parts, [&](const std::array<double, 3> &w) {
+      const TriangleBvh::Hit hit = tissue.closest(w[0] * p + w[1] * q + w[2] * r, nearest);
+      nearest = hit.triangle;
+      found_.samples.push_back({piece.area, 1, nearest, part});
+      add_width(part, nearest, 2 * std::sqrt(hit.distance2));
+    });
+  }
+
+  // Above the rounding of the distances that a bound is compared with.
+  static constexpr double with_rounding = 1 + 1e-9;
+
+  const RegionMap &map_;
+  const Orifice &orifice_;
+  OrificeParts &found_;
+  TriangleBvh tree_;
+  double spacing_;
+  uint32_t nearest_ = none;  // to the triangle before, most often near this one, too
+};
 
 void add_name(const std::string &name, std::string &names) {
   names += (names.empty() ? "" : "+") + name;
@@ -123,8 +221,10 @@ void add_name(const std::string &name, std::string &names) {
 
 void name_sides(const Model &model, const RegionMap &map, OrificeParts &found) {
   std::vector<std::vector<double>> area(found.parts.size(), std::vector<double>(map.size()));
-  for (const OrificeSample &sample : found.samples) {
-    map.for_each(sample.tissue, [&](uint32_t region) { area[sample.part][region] += sample.area; });
+  for (const OrificeSamples &samples : found.samples) {
+    map.for_each(samples.tissue, [&](uint32_t region) {
+      for (size_t k = 0; k < samples.count; ++k) area[samples.part][region] += samples.area;
+    });
   }
   const uint32_t anterior = anterior_leaflet(model.valve);
   for (size_t k = 0; k < found.parts.size(); ++k) {
@@ -151,7 +251,7 @@ OrificeParts find_orifice_parts(const Model &model, const std::vector<Vec3> &x,
   found.parts.resize(number_parts(orifice.triangles, found.of_triangle));
   add_triangles(orifice, found);
   sort_parts(found);
-  sample_orifice(model, x, orifice, found);
+  OrificeSampling(model, x, map, orifice, found).run();
   name_sides(model, map, found);
   return found;
 }
