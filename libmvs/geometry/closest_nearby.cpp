@@ -16,8 +16,7 @@ ClosestNearby::ClosestNearby(const TriangleBvh &tree, const Vec3 &centre, double
     : tree_(tree) {
   const TriangleBvh::Hit hit = tree.closest(centre, hint);
   first_ = hit.triangle;
-  distance_ = std::sqrt(hit.distance2);
-  const double limit = (distance_ + 2 * radius) * with_rounding;
+  const double limit = (std::sqrt(hit.distance2) + 2 * radius) * with_rounding;
   const double limit2 = limit * limit;
   tree.visit_near(centre, limit2, [&](uint32_t t) {
     if (tree.box_of(t).distance2(centre) <= limit2) triangles_.push_back(t);

@@ -7,10 +7,12 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "geometry/closest_nearby.h"
 #include "measure/annulus/landmarks.h"
 #include "measure/coaptation/coaptation_parts.h"
+#include "measure/regions/region_search.h"
 #include "model/sides.h"
 
 namespace mvs::core {
@@ -91,8 +93,7 @@ void sort_parts(OrificeParts &found) {
 }
 
 // Distributes samples of the orifice to the regions of their nearest tissue, and looks for the
-// widest ball of each part and region. Where all tissue that can be nearest to a sample of a
-// triangle belongs to the same regions, only samples that may widen a gap look for their distance.
+// widest ball of each part and region: only samples that may widen a gap look for their distance.
 class OrificeSampling {
  public:
   OrificeSampling(const Model &model, const std::vector<Vec3> &x, const RegionMap &map,
@@ -101,6 +102,7 @@ class OrificeSampling {
         orifice_(orifice),
         found_(found),
         tree_(model.valve.triangles, x),
+        search_(tree_, map),
         spacing_(spacing_of_thickness * model.valve.contact_thickness) {
     found.gap_of_region.assign(map.size(), 0);
   }
@@ -113,51 +115,54 @@ class OrificeSampling {
     // the widest first, so that few of the others can widen a gap
     std::stable_sort(order.begin(), order.end(),
                      [&](uint32_t a, uint32_t b) { return pieces[a].widest > pieces[b].widest; });
-    for (const uint32_t t : order) {
-      if (pieces[t].is_of_one) widen(t, pieces[t]);
-    }
-    for (uint32_t t = 0; t < pieces.size(); ++t) {
-      const Piece &piece = pieces[t];
-      if (piece.is_of_one) {
-        found_.samples.push_back(
-            {piece.area, piece.parts * piece.parts, piece.tissue, found_.of_triangle[t]});
-      } else {
-        distribute(t, piece);
-      }
-    }
+    for (const uint32_t t : order) widen(found_.of_triangle[t], pieces[t]);
   }
 
  private:
   // A triangle of the orifice.
   struct Piece {
-    size_t parts;  // of a side
-    double area;   // m2, of a sample
     Vec3 centre;
-    double radius;    // m
-    double widest;    // m: no ball around a sample is wider
-    uint32_t tissue;  // nearest to the centre
-    bool is_of_one;   // whether all tissue that may be nearest is of the same regions
+    double radius;  // m
+    double widest;  // m: no ball around a sample is wider
+    std::vector<Vec3> samples;
+    std::vector<uint32_t> tissue;  // of the regions nearest to each
+    uint32_t nearest;              // to the centre
   };
 
-  std::array<Vec3, 3> corners(uint32_t t) const {
-    const Tri &c = orifice_.triangles[t];
-    return {orifice_.vertices[c[0]], orifice_.vertices[c[1]], orifice_.vertices[c[2]]};
-  }
-
   Piece piece_of(uint32_t t) {
-    const auto [p, q, r] = corners(t);
+    const Tri &c = orifice_.triangles[t];
+    const Vec3 &p = orifice_.vertices[c[0]], &q = orifice_.vertices[c[1]],
+               &r = orifice_.vertices[c[2]];
     const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
+    const auto parts =
+        static_cast<size_t>(std::clamp(std::ceil(longest / spacing_), 1.0, most_parts));
     Piece piece;
-    piece.parts = static_cast<size_t>(std::clamp(std::ceil(longest / spacing_), 1.0, most_parts));
-    piece.area = area_vector(orifice_, t).norm() / static_cast<double>(piece.parts * piece.parts);
     piece.centre = (p + q + r) / 3;
     piece.radius =
         std::max({(p - piece.centre).norm(), (q - piece.centre).norm(), (r - piece.centre).norm()});
-    const ClosestNearby tissue(tree_, piece.centre, piece.radius, nearest_);
-    nearest_ = piece.tissue = tissue.closest_to_centre();
-    piece.widest = 2 * (tissue.distance_of_centre() + piece.radius) * with_rounding;
-    piece.is_of_one = map_.same_regions(tissue.triangles());
+    places_.clear();
+    for_each_part(parts, [&](const std::array<double, 3> &w) {
+      piece.samples.push_back(w[0] * p + w[1] * q + w[2] * r);
+      places_.push_back({piece.samples.back(), piece.samples.size() - 1});
+    });
+    search_.find(places_);
+    piece.tissue.resize(places_.size());
+    for (const RegionPlace &place : places_) piece.tissue[place.index] = place.tissue;
+    const TriangleBvh::Hit hit = tree_.closest(piece.centre, nearest_);
+    nearest_ = piece.nearest = hit.triangle;
+    piece.widest = 2 * (std::sqrt(hit.distance2) + piece.radius) * with_rounding;
+    add_samples(t, area_vector(orifice_, t).norm() / static_cast<double>(parts * parts), piece);
     return piece;
+  }
+
+  void add_samples(uint32_t t, double area, const Piece &piece) {
+    const size_t first = found_.samples.size();
+    for (const uint32_t tissue : piece.tissue) {
+      const bool is_new = found_.samples.size() == first ||
+                          !map_.same_regions(found_.samples.back().tissue, tissue);
+      if (is_new) found_.samples.push_back({area, 0, tissue, found_.of_triangle[t]});
+      ++found_.samples.back().count;
+    }
   }
 
   // The narrowest of the gaps that a sample may widen.
@@ -166,42 +171,23 @@ class OrificeSampling {
     map_.for_each(tissue, [&](uint32_t r) { gap = std::min(gap, found_.gap_of_region[r]); });
     return gap;
   }
-  void add_width(uint32_t part, uint32_t tissue, double width) {
-    double &gap = found_.parts[part].gap;
-    gap = std::max(gap, width);
-    map_.for_each(tissue, [&](uint32_t r) {
-      found_.gap_of_region[r] = std::max(found_.gap_of_region[r], width);
-    });
-  }
 
-  void widen(uint32_t t, const Piece &piece) {
-    const uint32_t part = found_.of_triangle[t];
-    if (piece.widest <= narrowest(part, piece.tissue)) return;
-    const auto [p, q, r] = corners(t);
-    const ClosestNearby tissue(tree_, piece.centre, piece.radius, piece.tissue);
-    uint32_t nearest = piece.tissue;
-    for_each_part(piece.parts, [&](const std::array<double, 3> &w) {
-      const Vec3 sample = w[0] * p + w[1] * q + w[2] * r;
-      const double off = (sample - piece.centre).norm();
-      const double most = 2 * (tissue.distance_of_centre() + off) * with_rounding;
-      if (most <= narrowest(part, piece.tissue)) return;
-      const TriangleBvh::Hit hit = tissue.closest(sample, nearest);
+  void widen(uint32_t part, const Piece &piece) {
+    std::optional<ClosestNearby> nearby;
+    uint32_t nearest = piece.nearest;
+    const double at_centre = piece.widest - 2 * piece.radius;
+    for (size_t k = 0; k < piece.samples.size(); ++k) {
+      const double off = (piece.samples[k] - piece.centre).norm();
+      if ((at_centre + 2 * off) * with_rounding <= narrowest(part, piece.tissue[k])) continue;
+      if (!nearby) nearby.emplace(tree_, piece.centre, piece.radius, nearest);
+      const TriangleBvh::Hit hit = nearby->closest(piece.samples[k], nearest);
       nearest = hit.triangle;
-      add_width(part, piece.tissue, 2 * std::sqrt(hit.distance2));
-    });
-  }
-
-  void distribute(uint32_t t, const Piece &piece) {
-    const uint32_t part = found_.of_triangle[t];
-    const auto [p, q, r] = corners(t);
-    const ClosestNearby tissue(tree_, piece.centre, piece.radius, piece.tissue);
-    uint32_t nearest = piece.tissue;
-    for_each_part(piece.parts, [&](const std::array<double, 3> &w) {
-      const TriangleBvh::Hit hit = tissue.closest(w[0] * p + w[1] * q + w[2] * r, nearest);
-      nearest = hit.triangle;
-      found_.samples.push_back({piece.area, 1, nearest, part});
-      add_width(part, nearest, 2 * std::sqrt(hit.distance2));
-    });
+      const double width = 2 * std::sqrt(hit.distance2);
+      found_.parts[part].gap = std::max(found_.parts[part].gap, width);
+      map_.for_each(piece.tissue[k], [&](uint32_t r) {
+        found_.gap_of_region[r] = std::max(found_.gap_of_region[r], width);
+      });
+    }
   }
 
   // Above the rounding of the distances that a bound is compared with.
@@ -211,7 +197,9 @@ class OrificeSampling {
   const Orifice &orifice_;
   OrificeParts &found_;
   TriangleBvh tree_;
+  RegionSearch search_;
   double spacing_;
+  std::vector<RegionPlace> places_;
   uint32_t nearest_ = none;  // to the triangle before, most often near this one, too
 };
 

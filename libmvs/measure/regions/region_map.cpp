@@ -61,11 +61,6 @@ RegionMap::RegionMap(const Model &model)
   find_commissures(model);
 }
 
-bool RegionMap::same_regions(const std::vector<uint32_t> &triangles) const {
-  return std::all_of(triangles.begin(), triangles.end(),
-                     [&](uint32_t t) { return same_regions(t, triangles.front()); });
-}
-
 void RegionMap::find_commissures(const Model &model) {
   const Valve &valve = model.valve;
   const std::vector<Vec3> &rest = valve.rest;

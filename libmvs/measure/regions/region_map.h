@@ -29,8 +29,6 @@ class RegionMap {
   bool same_regions(uint32_t a, uint32_t b) const {
     return scallop_of_[a] == scallop_of_[b] && commissure_of_[a] == commissure_of_[b];
   }
-  // Whether all of these triangles do.
-  bool same_regions(const std::vector<uint32_t> &triangles) const;
 
  private:
   void find_commissures(const Model &model);
