@@ -19,6 +19,8 @@ class ClosestNearby {
   TriangleBvh::Hit closest(const Vec3 &p, uint32_t hint = none) const;
   // The triangle closest to the centre; `none` without triangles.
   uint32_t closest_to_centre() const { return first_; }
+  // Every triangle that can be closest to a point of the ball.
+  const std::vector<uint32_t> &triangles() const { return triangles_; }
 
  private:
   const TriangleBvh &tree_;

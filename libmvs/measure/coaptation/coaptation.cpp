@@ -25,17 +25,25 @@ double station_spacing(const Model &model) {
   return 2 * model.valve.contact_thickness;
 }
 
-// A sample that faces tissue of a leaflet.
-struct Coapted {
-  CoaptedPiece piece;  // area of one side
-  uint32_t leaflet, other;
+// Samples that face tissue of a leaflet, with the area of one side, by pair of leaflets.
+class Coapted {
+ public:
+  explicit Coapted(size_t leaflets) : leaflets_(leaflets), pieces_(leaflets * leaflets) {}
+
+  std::vector<CoaptedPiece> &of(uint32_t a, uint32_t b) {
+    return pieces_[std::min(a, b) * leaflets_ + std::max(a, b)];
+  }
+
+ private:
+  size_t leaflets_;
+  std::vector<std::vector<CoaptedPiece>> pieces_;
 };
 
 // Returns the coapted samples of all triangles; fills `share` and the area.
-std::vector<Coapted> sample(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
-                            FacingWeight &facing, Coaptation &coaptation) {
+Coapted sample(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
+               FacingWeight &facing, Coaptation &coaptation) {
   const Valve &valve = model.valve;
-  std::vector<Coapted> samples;
+  Coapted samples(valve.leaflets.size());
   for (uint32_t t = 0; t < valve.triangles.size(); ++t) {
     const Tri &c = valve.triangles[t];
     double sum = 0;
@@ -52,10 +60,9 @@ std::vector<Coapted> sample(const Model &model, const std::vector<Vec3> &x, cons
         for (const FacedLeaflet &f : all[k].leaflets) {
           // each side contributes half of the area of one side
           const Vec3 centre(centres.x[k], centres.y[k], centres.z[k]);
-          samples.push_back({{0.5 * (centre + f.point), surface.normal[t] - f.normal,
-                              0.5 * area * all[k].weight * f.share},
-                             valve.triangle_leaflet[t],
-                             f.leaflet});
+          samples.of(valve.triangle_leaflet[t], f.leaflet)
+              .push_back({0.5 * (centre + f.point), surface.normal[t] - f.normal,
+                          0.5 * area * all[k].weight * f.share});
         }
       }
     }
@@ -94,17 +101,14 @@ Vec3 find_pole(const Model &model, const Loop &annulus, const std::array<uint32_
 // Returns one line for each pair of leaflets in contact; a leaflet in contact with itself has a
 // line only if the valve has no other leaflet.
 std::vector<CoaptationLine> find_lines(const Model &model, const std::vector<Vec3> &x,
-                                       const std::vector<Coapted> &samples, const Frame &frame) {
+                                       Coapted &samples, const Frame &frame) {
   const Loop annulus(model.valve.annulus, x);
   const Vec3 axis = frame.axes.row(2);
   const uint32_t leaflets = static_cast<uint32_t>(model.valve.leaflets.size());
   std::vector<CoaptationLine> lines;
   for (uint32_t l = 0; l < leaflets; ++l) {
     for (uint32_t r = leaflets > 1 ? l + 1 : l; r < leaflets; ++r) {
-      std::vector<CoaptedPiece> pieces;
-      for (const Coapted &s : samples) {
-        if (std::minmax(s.leaflet, s.other) == std::minmax(l, r)) pieces.push_back(s.piece);
-      }
+      const std::vector<CoaptedPiece> &pieces = samples.of(l, r);
       if (pieces.empty()) continue;
       const Vec3 pole = find_pole(model, annulus, {l, r}, mean_of(pieces));
       lines.push_back(find_coaptation_line(pieces, pole, axis, station_spacing(model)));
@@ -143,7 +147,7 @@ Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x) {
                                            : std::numeric_limits<double>::infinity());
   }
   FacingWeight facing(model, x, surface, tree);
-  const std::vector<Coapted> samples = sample(model, x, surface, facing, coaptation);
+  Coapted samples = sample(model, x, surface, facing, coaptation);
   summarise(find_lines(model, x, samples, frame), coaptation);
   measure_central_section(model, frame.local(x), x, facing, coaptation);
   return coaptation;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstring>
 
 #include "geometry/simd_points.h"
 
@@ -114,9 +115,30 @@ MVS_INLINE void weigh_all(const Vec3 &normal, double reach, FacingPairs &pairs) 
 // The bounds by planes have a relative rounding error far below this.
 constexpr double rounding_of_planes = 1e-9;
 
+// Bit k is set where element k of a mask is.
 template <typename V>
-MVS_INLINE void bound_all(const FacingBounds &bounds, const FacingPoints &points, double *squares) {
+MVS_INLINE uint32_t bits_of_doubles(const typename V::Mask &mask) {
+  uint32_t bits = 0;
+#if defined(__SSE2__) && defined(__GNUC__)
+  for (uint32_t k = 0; k < V::width; k += 2) {
+    __m128d half;
+    std::memcpy(&half, reinterpret_cast<const char *>(&mask) + sizeof(double) * k, sizeof half);
+    bits |= static_cast<uint32_t>(_mm_movemask_pd(half)) << k;
+  }
+#elif defined(__GNUC__)
+  for (uint32_t k = 0; k < V::width; ++k) bits |= static_cast<uint32_t>(mask[k] & (1 << k));
+#else
+  bits = mask ? 1 : 0;
+#endif
+  return bits;
+}
+
+template <typename V>
+MVS_INLINE void mark_all(const FacingBounds &bounds, const FacingPoints &points, double limit2,
+                         NearFours &near) {
   using Value = typename V::Value;
+  const Value zero = {}, limit = zero + limit2;
+  for (size_t k = 0; 4 * k < points.count; ++k) near[k] = 0;
   for (size_t first = 0; first < points.count; first += V::width) {
     typename FacingKernel<V>::Point p;
     load<V>(p.x, &points.x[first]);
@@ -130,7 +152,8 @@ MVS_INLINE void bound_all(const FacingBounds &bounds, const FacingPoints &points
       most = most < out ? out : most;
     }
     const Value to_planes = (height * height + most * most) * (1 - rounding_of_planes);
-    store<V>(squares + first, to_box < to_planes ? to_planes : to_box);
+    const Value least = to_box < to_planes ? to_planes : to_box;
+    near[first / 4] |= static_cast<uint8_t>(bits_of_doubles<V>(least < limit) << first % 4);
   }
 }
 
@@ -148,10 +171,12 @@ FacingBounds bounds_of(const std::array<Vec3, 3> &corner, const Vec3 &normal, co
   return bounds;
 }
 
-void least_squares_to(const FacingBounds &bounds, const FacingPoints &points,
-                      FacingPoints::Row &squares) {
-  static const auto kernel = simd_kernel<&bound_all<Double2>, &bound_all<Double4>>();
-  kernel(bounds, points, squares.data());
+void mark_near(const FacingBounds &bounds, const FacingPoints &points, double limit2,
+               NearFours &near) {
+  static const auto kernel = simd_kernel<&mark_all<Double2>, &mark_all<Double4>>();
+  kernel(bounds, points, limit2, near);
+  const size_t beyond = points.count % 4;
+  if (beyond != 0) near[points.count / 4] &= static_cast<uint8_t>((1u << beyond) - 1);
 }
 
 void weigh_pairs(const Vec3 &normal, double reach, FacingPairs &pairs) {

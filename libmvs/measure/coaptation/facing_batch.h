@@ -66,9 +66,11 @@ struct FacingBounds {
 };
 FacingBounds bounds_of(const std::array<Vec3, 3> &corner, const Vec3 &normal, const Aabb &box);
 
-// Lower bounds of the squared distances of points to a triangle.
-void least_squares_to(const FacingBounds &bounds, const FacingPoints &points,
-                      FacingPoints::Row &squares);
+// Sets near[k] to the bits of the points 4 k to 4 k + 3 that may be nearer to a triangle than the
+// root of `limit2`.
+using NearFours = std::array<uint8_t, FacingPoints::most / 4>;
+void mark_near(const FacingBounds &bounds, const FacingPoints &points, double limit2,
+               NearFours &near);
 
 // Points, each with a triangle that it may face, as a structure of arrays: one register holds pairs
 // of different triangles.

@@ -25,8 +25,9 @@ class FacingTree : public BoxedTriangles {
                   Visit &&visit) const {
     bvh_.for_nearest(
         [&](const Volume &volume) {
-          const bool may_face = least_cosine(volume.normals, {normal, normal}) <= cosine + rounding;
-          return may_face ? volume.box.distance2(p) : HUGE_VAL;
+          const double distance2 = volume.box.distance2(p);
+          if (distance2 > limit2) return HUGE_VAL;
+          return least_cosine(volume.normals, normal) <= cosine + rounding ? distance2 : HUGE_VAL;
         },
         limit2, visit);
   }
@@ -35,8 +36,8 @@ class FacingTree : public BoxedTriangles {
   template <typename Visit>
   void for_near_pairs(double cosine, double limit2, Visit &&visit) const {
     const auto apart = [&](const Volume &a, const Volume &b) {
-      return least_cosine(a.normals, b.normals) > cosine + rounding ||
-             a.box.distance2(b.box) > limit2;
+      return a.box.distance2(b.box) > limit2 ||
+             least_cosine(a.normals, b.normals) > cosine + rounding;
     };
     bvh_.for_near_triangles(apart, visit);
   }
@@ -58,6 +59,12 @@ class FacingTree : public BoxedTriangles {
       sum += std::min(std::min(a.low[k] * b.low[k], a.low[k] * b.high[k]),
                       std::min(a.high[k] * b.low[k], a.high[k] * b.high[k]));
     }
+    return sum;
+  }
+
+  static double least_cosine(const Aabb &a, const Vec3 &normal) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += std::min(a.low[k] * normal[k], a.high[k] * normal[k]);
     return sum;
   }
 

@@ -6,6 +6,13 @@
 #include <cmath>
 
 namespace mvs::core {
+namespace {
+
+// The number of the lowest bit of four.
+constexpr std::array<uint8_t, 16> lowest_of_four = {0, 0, 1, 0, 2, 0, 1, 0, 3, 0, 1, 0, 2, 0, 1, 0};
+
+}  // namespace
+
 FacingWeight::FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
                            const FacingTree &tree)
     : model_(model), x_(x), surface_(surface), tree_(tree), reach_(model.valve.contact_thickness) {
@@ -116,7 +123,9 @@ void FacingWeight::weigh(Visit &visit) {
     if (pairs_.weight[pair] == 0) continue;
     const Vec3 p(pairs_.p.x[pair], pairs_.p.y[pair], pairs_.p.z[pair]);
     const uint32_t t = pair_triangle_[pair];
-    const double weight = within_borders(t, p, pairs_.weight[pair]);
+    const bool has_border = first_border_[t] < first_border_[t + 1];
+    const double weight =
+        has_border ? within_borders(t, p, pairs_.weight[pair]) : pairs_.weight[pair];
     if (weight != 0) visit(t, pair_point_[pair], pair, weight);
   }
   pairs_.count = 0;
@@ -126,23 +135,26 @@ void FacingWeight::weigh(Visit &visit) {
 template <typename Visit>
 void FacingWeight::for_each_faced(const FacingPoints &points, Visit visit) {
   const double limit = distance_ramp.to * reach_;
-  FacingPoints::Row squares;
+  NearFours near;
   pairs_.count = 0;
   for (uint32_t i = first_candidate_[triangle_]; i < first_candidate_[triangle_ + 1]; ++i) {
     const uint32_t t = candidate_[i].triangle;
     const Tri &c = model_.valve.triangles[t];
-    least_squares_to(bounds_[t], points, squares);
-    for (uint32_t k = 0; k < points.count; ++k) {
-      if (!(squares[k] < limit * limit)) continue;
-      if (pairs_.count == FacingPairs::most) weigh(visit);
-      const size_t pair = pairs_.count++;
-      pairs_.p.set(pair, {points.x[k], points.y[k], points.z[k]});
-      pairs_.a.set(pair, x_[c[0]]);
-      pairs_.b.set(pair, x_[c[1]]);
-      pairs_.c.set(pair, x_[c[2]]);
-      pairs_.normals[pair] = candidate_[i].normals;
-      pair_point_[pair] = k;
-      pair_triangle_[pair] = t;
+    const Vec3 a = x_[c[0]], b = x_[c[1]], d = x_[c[2]];
+    mark_near(bounds_[t], points, limit * limit, near);
+    for (uint32_t first = 0; first < points.count; first += 4) {
+      for (uint32_t bits = near[first / 4]; bits != 0; bits &= bits - 1) {
+        const uint32_t k = first + lowest_of_four[bits];
+        if (pairs_.count == FacingPairs::most) weigh(visit);
+        const size_t pair = pairs_.count++;
+        pairs_.p.set(pair, {points.x[k], points.y[k], points.z[k]});
+        pairs_.a.set(pair, a);
+        pairs_.b.set(pair, b);
+        pairs_.c.set(pair, d);
+        pairs_.normals[pair] = candidate_[i].normals;
+        pair_point_[pair] = k;
+        pair_triangle_[pair] = t;
+      }
     }
   }
   weigh(visit);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <optional>
 
 #include "geometry/bvh.h"
@@ -18,73 +17,70 @@ constexpr int places = 16;
 // place of the line is 0.2 to 0.5 of it from tissue, so that shares change over half of it.
 constexpr double ramp_of_thickness = 0.125;
 
-// Some triangles, to find the distance of a point.
-class Tissue {
- public:
-  Tissue(std::vector<Tri> triangles, const std::vector<Vec3> &x)
-      : triangles_(std::move(triangles)) {
-    if (!triangles_.empty()) tree_.emplace(triangles_, x);
-  }
-  Tissue(const Tissue &) = delete;
-
-  bool is_empty() const { return triangles_.empty(); }
-  // Infinite without triangles.
-  double distance(const Vec3 &p) {
-    if (!tree_) return std::numeric_limits<double>::infinity();
-    const TriangleBvh::Hit hit = tree_->closest(p, nearest_);
-    nearest_ = hit.triangle;
-    return std::sqrt(hit.distance2);
-  }
-
- private:
-  std::vector<Tri> triangles_;
-  std::optional<TriangleBvh> tree_;
-  uint32_t nearest_ = none;  // to the last point, most often near the next one, too
-};
-
 // The tissue of one leaflet by region.
 class LeafletRegions {
  public:
   LeafletRegions(const Model &model, const std::vector<Vec3> &x, const RegionMap &map,
                  uint32_t leaflet)
-      : scallops_(map.scallops()), ramp_(ramp_of_thickness * model.valve.contact_thickness) {
-    std::vector<std::vector<Tri>> inside(map.size()), outside(map.size());
+      : map_(map),
+        ramp_(ramp_of_thickness * model.valve.contact_thickness),
+        exists_(map.size(), 0),
+        inside_(map.size()),
+        outside_(map.size()) {
     for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
       if (model.valve.triangle_leaflet[t] != leaflet) continue;
-      std::vector<uint8_t> belongs(map.size(), 0);
-      map.for_each(t, [&](uint32_t region) { belongs[region] = 1; });
-      for (size_t r = 0; r < map.size(); ++r) {
-        (belongs[r] ? inside : outside)[r].push_back(model.valve.triangles[t]);
-      }
+      map.for_each(t, [&](uint32_t region) { exists_[region] = 1; });
+      number_.push_back(t);
+      triangles_.push_back(model.valve.triangles[t]);
     }
-    for (size_t r = 0; r < map.size(); ++r) {
-      const bool is_scallop = r < scallops_;
-      inside_.push_back(std::make_unique<Tissue>(std::move(inside[r]), x));
-      // the rest of the leaflet is the other scallops
-      outside_.push_back(
-          std::make_unique<Tissue>(is_scallop ? std::vector<Tri>() : std::move(outside[r]), x));
-    }
+    tree_.emplace(triangles_, x);
   }
+  LeafletRegions(const LeafletRegions &) = delete;  // the tree refers to another member
 
-  // The share of a place that belongs to each region.
-  std::vector<double> shares(const Vec3 &p) {
-    std::vector<double> near(inside_.size()), shares(inside_.size(), 0);
-    for (size_t r = 0; r < near.size(); ++r) near[r] = inside_[r]->distance(p);
-    for (size_t r = 0; r < near.size(); ++r) {
-      if (inside_[r]->is_empty()) continue;
-      double other = outside_[r]->distance(p);
-      for (size_t k = 0; r < scallops_ && k < scallops_; ++k) {
-        if (k != r) other = std::min(other, near[k]);
-      }
-      shares[r] = std::clamp(0.5 + (other - near[r]) / (2 * ramp_), 0.0, 1.0);
+  // The share of a place that belongs to each region. Tissue further than the ramp beyond the
+  // nearest makes shares of 0 and 1 alone: it is not looked at.
+  const std::vector<double> &shares(const Vec3 &p) {
+    constexpr double nothing = std::numeric_limits<double>::infinity();
+    inside_.assign(inside_.size(), nothing);
+    outside_.assign(outside_.size(), nothing);
+    const TriangleBvh::Hit hit = tree_->closest(p, nearest_);
+    nearest_ = hit.triangle;
+    const double limit = (std::sqrt(hit.distance2) + ramp_) * (1 + 1e-9);  // above rounding
+    const double limit2 = limit * limit;
+    tree_->visit_near(p, limit2, [&](uint32_t t) {
+      if (tree_->box_of(t).distance2(p) > limit2) return;
+      add(number_[t], tree_->closest_on(t, p).distance2);
+    });
+    shares_.assign(inside_.size(), 0);
+    for (size_t r = 0; r < shares_.size(); ++r) {
+      if (exists_[r] == 0 || inside_[r] == nothing) continue;
+      const double near = std::sqrt(inside_[r]), other = std::sqrt(outside_[r]);
+      shares_[r] = std::clamp(0.5 + (other - near) / (2 * ramp_), 0.0, 1.0);
     }
-    return shares;
+    return shares_;
   }
 
  private:
-  size_t scallops_;
+  // Lowers the squared distances for a triangle: from its regions, and from the rest of the
+  // leaflet for all others.
+  void add(uint32_t triangle, double distance2) {
+    belongs_.assign(inside_.size(), 0);
+    map_.for_each(triangle, [&](uint32_t region) { belongs_[region] = 1; });
+    for (size_t r = 0; r < inside_.size(); ++r) {
+      double &least = belongs_[r] != 0 ? inside_[r] : outside_[r];
+      least = std::min(least, distance2);
+    }
+  }
+
+  const RegionMap &map_;
   double ramp_;
-  std::vector<std::unique_ptr<Tissue>> inside_, outside_;
+  std::vector<uint32_t> number_;  // of each triangle in the model
+  std::vector<Tri> triangles_;
+  std::optional<TriangleBvh> tree_;
+  uint32_t nearest_ = none;  // to the last point, most often near the next one, too
+  // Per region: whether the leaflet has tissue of it, and squared distances from it and the rest.
+  std::vector<uint8_t> exists_, belongs_;
+  std::vector<double> inside_, outside_, shares_;
 };
 
 // A place of the line in a region: its share of the line there, m, and the coaptation length.
@@ -127,7 +123,7 @@ void add_coaptation_lengths(const Model &model, const std::vector<Vec3> &x, cons
         const double along = (b.point - a.point).norm() / places;
         for (int i = 0; i < places; ++i) {
           const double at = (i + 0.5) / places;
-          const std::vector<double> shares = regions.shares(a.point + at * (b.point - a.point));
+          const std::vector<double> &shares = regions.shares(a.point + at * (b.point - a.point));
           const double length = a.length + at * (b.length - a.length);
           for (size_t r = 0; r < shares.size(); ++r) {
             if (shares[r] > 0) found[r].push_back({shares[r], along, length});

@@ -4,12 +4,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "geometry/closest_nearby.h"
 #include "measure/annulus/landmarks.h"
 #include "measure/coaptation/coaptation_parts.h"
+#include "measure/regions/region_search.h"
 #include "model/sides.h"
 
 namespace mvs::core {
@@ -89,33 +92,116 @@ void sort_parts(OrificeParts &found) {
   for (uint32_t &part : found.of_triangle) part = place[part];
 }
 
-void sample_orifice(const Model &model, const std::vector<Vec3> &x, const Orifice &orifice,
-                    OrificeParts &found) {
-  const TriangleBvh tree(model.valve.triangles, x);
-  const double spacing = spacing_of_thickness * model.valve.contact_thickness;
-  uint32_t nearest = none;  // to the sample before, most often near this one, too
-  for (uint32_t t = 0; t < orifice.triangles.size(); ++t) {
-    const Tri &c = orifice.triangles[t];
-    const Vec3 &p = orifice.vertices[c[0]], &q = orifice.vertices[c[1]],
-               &r = orifice.vertices[c[2]];
+// Distributes samples of the orifice to the regions of their nearest tissue, and looks for the
+// widest ball of each part and region: only samples that may widen a gap look for their distance.
+class OrificeSampling {
+ public:
+  OrificeSampling(const Model &model, const std::vector<Vec3> &x, const RegionMap &map,
+                  const Orifice &orifice, OrificeParts &found)
+      : map_(map),
+        orifice_(orifice),
+        found_(found),
+        tree_(model.valve.triangles, x),
+        search_(tree_, map),
+        spacing_(spacing_of_thickness * model.valve.contact_thickness) {
+    found.gap_of_region.assign(map.size(), 0);
+  }
+
+  void run() {
+    std::vector<Piece> pieces;
+    for (uint32_t t = 0; t < orifice_.triangles.size(); ++t) pieces.push_back(piece_of(t));
+    std::vector<uint32_t> order(pieces.size());
+    std::iota(order.begin(), order.end(), 0u);
+    // the widest first, so that few of the others can widen a gap
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return pieces[a].widest > pieces[b].widest; });
+    for (const uint32_t t : order) widen(found_.of_triangle[t], pieces[t]);
+  }
+
+ private:
+  // A triangle of the orifice.
+  struct Piece {
+    Vec3 centre;
+    double radius;  // m
+    double widest;  // m: no ball around a sample is wider
+    std::vector<Vec3> samples;
+    std::vector<uint32_t> tissue;  // of the regions nearest to each
+    uint32_t nearest;              // to the centre
+  };
+
+  Piece piece_of(uint32_t t) {
+    const Tri &c = orifice_.triangles[t];
+    const Vec3 &p = orifice_.vertices[c[0]], &q = orifice_.vertices[c[1]],
+               &r = orifice_.vertices[c[2]];
     const double longest = std::max({(q - p).norm(), (r - q).norm(), (p - r).norm()});
     const auto parts =
-        static_cast<size_t>(std::clamp(std::ceil(longest / spacing), 1.0, most_parts));
-    const double area = area_vector(orifice, t).norm() / static_cast<double>(parts * parts);
-    const Vec3 centre = (p + q + r) / 3;
-    const double radius = std::max({(p - centre).norm(), (q - centre).norm(), (r - centre).norm()});
-    const ClosestNearby tissue(tree, centre, radius, nearest);
-    nearest = tissue.closest_to_centre();
+        static_cast<size_t>(std::clamp(std::ceil(longest / spacing_), 1.0, most_parts));
+    Piece piece;
+    piece.centre = (p + q + r) / 3;
+    piece.radius =
+        std::max({(p - piece.centre).norm(), (q - piece.centre).norm(), (r - piece.centre).norm()});
+    places_.clear();
     for_each_part(parts, [&](const std::array<double, 3> &w) {
-      const TriangleBvh::Hit hit = tissue.closest(w[0] * p + w[1] * q + w[2] * r, nearest);
+      piece.samples.push_back(w[0] * p + w[1] * q + w[2] * r);
+      places_.push_back({piece.samples.back(), piece.samples.size() - 1});
+    });
+    search_.find(places_);
+    piece.tissue.resize(places_.size());
+    for (const RegionPlace &place : places_) piece.tissue[place.index] = place.tissue;
+    const TriangleBvh::Hit hit = tree_.closest(piece.centre, nearest_);
+    nearest_ = piece.nearest = hit.triangle;
+    piece.widest = 2 * (std::sqrt(hit.distance2) + piece.radius) * with_rounding;
+    add_samples(t, area_vector(orifice_, t).norm() / static_cast<double>(parts * parts), piece);
+    return piece;
+  }
+
+  void add_samples(uint32_t t, double area, const Piece &piece) {
+    const size_t first = found_.samples.size();
+    for (const uint32_t tissue : piece.tissue) {
+      const bool is_new = found_.samples.size() == first ||
+                          !map_.same_regions(found_.samples.back().tissue, tissue);
+      if (is_new) found_.samples.push_back({area, 0, tissue, found_.of_triangle[t]});
+      ++found_.samples.back().count;
+    }
+  }
+
+  // The narrowest of the gaps that a sample may widen.
+  double narrowest(uint32_t part, uint32_t tissue) const {
+    double gap = found_.parts[part].gap;
+    map_.for_each(tissue, [&](uint32_t r) { gap = std::min(gap, found_.gap_of_region[r]); });
+    return gap;
+  }
+
+  void widen(uint32_t part, const Piece &piece) {
+    std::optional<ClosestNearby> nearby;
+    uint32_t nearest = piece.nearest;
+    const double at_centre = piece.widest - 2 * piece.radius;
+    for (size_t k = 0; k < piece.samples.size(); ++k) {
+      const double off = (piece.samples[k] - piece.centre).norm();
+      if ((at_centre + 2 * off) * with_rounding <= narrowest(part, piece.tissue[k])) continue;
+      if (!nearby) nearby.emplace(tree_, piece.centre, piece.radius, nearest);
+      const TriangleBvh::Hit hit = nearby->closest(piece.samples[k], nearest);
       nearest = hit.triangle;
       const double width = 2 * std::sqrt(hit.distance2);
-      found.samples.push_back({area, width, hit.triangle, found.of_triangle[t]});
-      OrificePart &part = found.parts[found.of_triangle[t]];
-      part.gap = std::max(part.gap, width);
-    });
+      found_.parts[part].gap = std::max(found_.parts[part].gap, width);
+      map_.for_each(piece.tissue[k], [&](uint32_t r) {
+        found_.gap_of_region[r] = std::max(found_.gap_of_region[r], width);
+      });
+    }
   }
-}
+
+  // Above the rounding of the distances that a bound is compared with.
+  static constexpr double with_rounding = 1 + 1e-9;
+
+  const RegionMap &map_;
+  const Orifice &orifice_;
+  OrificeParts &found_;
+  TriangleBvh tree_;
+  RegionSearch search_;
+  double spacing_;
+  std::vector<RegionPlace> places_;
+  uint32_t nearest_ = none;  // to the triangle before, most often near this one, too
+};
 
 void add_name(const std::string &name, std::string &names) {
   names += (names.empty() ? "" : "+") + name;
@@ -123,8 +209,10 @@ void add_name(const std::string &name, std::string &names) {
 
 void name_sides(const Model &model, const RegionMap &map, OrificeParts &found) {
   std::vector<std::vector<double>> area(found.parts.size(), std::vector<double>(map.size()));
-  for (const OrificeSample &sample : found.samples) {
-    map.for_each(sample.tissue, [&](uint32_t region) { area[sample.part][region] += sample.area; });
+  for (const OrificeSamples &samples : found.samples) {
+    map.for_each(samples.tissue, [&](uint32_t region) {
+      for (size_t k = 0; k < samples.count; ++k) area[samples.part][region] += samples.area;
+    });
   }
   const uint32_t anterior = anterior_leaflet(model.valve);
   for (size_t k = 0; k < found.parts.size(); ++k) {
@@ -151,7 +239,7 @@ OrificeParts find_orifice_parts(const Model &model, const std::vector<Vec3> &x,
   found.parts.resize(number_parts(orifice.triangles, found.of_triangle));
   add_triangles(orifice, found);
   sort_parts(found);
-  sample_orifice(model, x, orifice, found);
+  OrificeSampling(model, x, map, orifice, found).run();
   name_sides(model, map, found);
   return found;
 }

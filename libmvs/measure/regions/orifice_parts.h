@@ -9,10 +9,11 @@
 
 namespace mvs::core {
 
-// A small piece of the orifice and the tissue that is nearest to its centre.
-struct OrificeSample {
-  double area;      // m2
-  double width;     // m: diameter of the ball at the centre that touches the tissue
+// Small pieces of the orifice that follow each other, and tissue of the regions that are nearest to
+// their centres.
+struct OrificeSamples {
+  double area;  // m2, of each
+  size_t count;
   uint32_t tissue;  // triangle of the sheet
   uint32_t part;
 };
@@ -30,7 +31,8 @@ struct OrificePart {
 struct OrificeParts {
   std::vector<OrificePart> parts;     // the largest first
   std::vector<uint32_t> of_triangle;  // per triangle of the orifice: its part
-  std::vector<OrificeSample> samples;
+  std::vector<OrificeSamples> samples;
+  std::vector<double> gap_of_region;  // m; empty without an orifice
 };
 OrificeParts find_orifice_parts(const Model &model, const std::vector<Vec3> &x,
                                 const RegionMap &map, const Orifice &orifice);

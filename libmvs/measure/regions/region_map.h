@@ -25,6 +25,11 @@ class RegionMap {
     if (commissure_of_[triangle] != none) visit(commissure_of_[triangle]);
   }
 
+  // Whether two triangles belong to the same regions.
+  bool same_regions(uint32_t a, uint32_t b) const {
+    return scallop_of_[a] == scallop_of_[b] && commissure_of_[a] == commissure_of_[b];
+  }
+
  private:
   void find_commissures(const Model &model);
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/closest_nearby.h"
 #include "measure/regions/line_regions.h"
+#include "measure/regions/region_search.h"
 #include "measure/tissue/surface.h"
 
 namespace mvs::core {
@@ -23,55 +23,49 @@ void add_areas(const Model &model, const std::vector<Vec3> &x, const RegionMap &
 
 void add_orifice(const RegionMap &map, const OrificeParts &orifice,
                  std::vector<RegionMeasures> &measures) {
-  for (const OrificeSample &sample : orifice.samples) {
-    map.for_each(sample.tissue, [&](uint32_t region) {
-      measures[region].orifice_area += sample.area;
-      measures[region].gap = std::max(measures[region].gap, sample.width);
+  for (const OrificeSamples &samples : orifice.samples) {
+    map.for_each(samples.tissue, [&](uint32_t region) {
+      for (size_t k = 0; k < samples.count; ++k) measures[region].orifice_area += samples.area;
     });
+  }
+  for (size_t r = 0; r < orifice.gap_of_region.size(); ++r) {
+    measures[r].gap = orifice.gap_of_region[r];
   }
 }
 
 // Cells of a side of a block, which look for their tissue together.
-constexpr int block = 4;
+constexpr int block = 32;
+static_assert(AnnulusMap::across % block == 0);
 
-// A cell that is measured, and its place in the frame of the valve.
-struct Cell {
-  size_t cell;
-  Vec3 place;
-};
-
-// The measured cells of a block.
-std::vector<Cell> cells_of_block(const AtrialSurface &atrial, int first_column, int first_row) {
-  std::vector<Cell> cells;
+// The measured cells of a block, in the frame of the valve.
+void list_cells(const AtrialSurface &atrial, int first_column, int first_row,
+                std::vector<RegionPlace> &cells) {
+  cells.clear();
   const AnnulusMap &map = *atrial.map;
-  for (int row = first_row; row < std::min(first_row + block, AnnulusMap::across); ++row) {
-    for (int column = first_column; column < std::min(first_column + block, AnnulusMap::across);
-         ++column) {
+  for (int row = first_row; row < first_row + block; ++row) {
+    for (int column = first_column; column < first_column + block; ++column) {
       const size_t cell = AnnulusMap::at(column, row);
       const double height = atrial.heights[cell];
       if (!map.inside(cell) || !std::isfinite(height)) continue;
-      cells.push_back({cell, Vec3(map.u()[static_cast<size_t>(column)],
-                                  map.v()[static_cast<size_t>(row)], height)});
+      cells.push_back(
+          {{map.u()[static_cast<size_t>(column)], map.v()[static_cast<size_t>(row)], height},
+           cell});
     }
   }
-  return cells;
 }
 
-// The triangle closest to each cell; `none` for cells that are not measured.
-std::vector<uint32_t> tissue_of_cells(const Model &model, const AtrialSurface &atrial) {
+// Tissue of the regions closest to each cell; `none` for cells that are not measured.
+std::vector<uint32_t> tissue_of_cells(const Model &model, const AtrialSurface &atrial,
+                                      const RegionMap &map) {
   std::vector<uint32_t> tissue(atrial.heights.size(), none);
   const TriangleBvh tree(model.valve.triangles, atrial.local);
-  uint32_t nearest = none;  // to the cell before, most often near this one, too
+  RegionSearch search(tree, map);
+  std::vector<RegionPlace> cells;
   for (int row = 0; row < AnnulusMap::across; row += block) {
     for (int column = 0; column < AnnulusMap::across; column += block) {
-      const std::vector<Cell> cells = cells_of_block(atrial, column, row);
-      if (cells.empty()) continue;
-      const Vec3 centre = cells[cells.size() / 2].place;
-      double radius = 0;
-      for (const Cell &c : cells) radius = std::max(radius, (c.place - centre).norm());
-      const ClosestNearby near(tree, centre, radius, nearest);
-      for (const Cell &c : cells)
-        tissue[c.cell] = nearest = near.closest(c.place, nearest).triangle;
+      list_cells(atrial, column, row, cells);
+      search.find(cells);
+      for (const RegionPlace &cell : cells) tissue[cell.index] = cell.tissue;
     }
   }
   return tissue;
@@ -79,7 +73,7 @@ std::vector<uint32_t> tissue_of_cells(const Model &model, const AtrialSurface &a
 
 void add_tenting_billow(const Model &model, const AtrialSurface &atrial, const RegionMap &map,
                         std::vector<RegionMeasures> &measures) {
-  const std::vector<uint32_t> tissue = tissue_of_cells(model, atrial);
+  const std::vector<uint32_t> tissue = tissue_of_cells(model, atrial, map);
   for (size_t cell = 0; cell < tissue.size(); ++cell) {
     if (tissue[cell] == none) continue;
     const double rise = atrial.rise(cell), depth = -atrial.map->share(cell) * atrial.heights[cell];

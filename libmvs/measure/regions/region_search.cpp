@@ -1,0 +1,102 @@
+// Recursive division of places, with the triangles near a ball around them.
+#include "measure/regions/region_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/closest_nearby.h"
+
+namespace mvs::core {
+namespace {
+
+// Divides places at the median of their longest extent.
+std::span<RegionPlace>::iterator divide(std::span<RegionPlace> places) {
+  Aabb box;
+  for (const RegionPlace &p : places) box.add(p.place);
+  Eigen::Index axis;
+  (box.high - box.low).maxCoeff(&axis);
+  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
+  std::nth_element(
+      places.begin(), middle, places.end(),
+      [axis](const RegionPlace &a, const RegionPlace &b) { return a.place[axis] < b.place[axis]; });
+  return middle;
+}
+
+}  // namespace
+
+// The mean is inside the convex hull of the places, so that it is inside every ball around them.
+RegionSearch::Ball RegionSearch::ball_of(std::span<const RegionPlace> places) {
+  Ball ball = {Vec3::Zero(), 0};
+  for (const RegionPlace &p : places) ball.centre += p.place;
+  ball.centre /= static_cast<double>(places.size());
+  double radius2 = 0;
+  for (const RegionPlace &p : places) {
+    radius2 = std::max(radius2, (p.place - ball.centre).squaredNorm());
+  }
+  ball.radius = std::sqrt(radius2);
+  return ball;
+}
+
+// Keeps the triangles that can be closest to a point of the ball: they are at most twice its radius
+// further from its centre than the one that is closest to the centre.
+void RegionSearch::narrow(const Ball &ball, const std::vector<uint32_t> &among) {
+  near_.clear();
+  double least = HUGE_VAL, limit2 = HUGE_VAL;
+  for (const uint32_t t : among) {
+    if (tree_.box_of(t).distance2(ball.centre) > limit2) continue;
+    const double distance2 = tree_.closest_on(t, ball.centre).distance2;
+    if (distance2 > limit2) continue;
+    near_.push_back({t, distance2});
+    if (distance2 > least || (distance2 == least && t > nearest_)) continue;
+    least = distance2;
+    nearest_ = t;
+    const double limit = (std::sqrt(least) + 2 * ball.radius) * (1 + 1e-9);  // above rounding
+    limit2 = limit * limit;
+  }
+  near_.erase(std::remove_if(near_.begin(), near_.end(),
+                             [&](const Near &n) { return n.distance2 > limit2; }),
+              near_.end());
+}
+
+void RegionSearch::fill(std::span<RegionPlace> places, const Ball &ball,
+                        const std::vector<uint32_t> &among, size_t depth) {
+  narrow(ball, among);
+  const bool is_of_one = std::all_of(near_.begin(), near_.end(), [&](const Near &n) {
+    return map_.same_regions(n.triangle, nearest_);
+  });
+  if (is_of_one || places.size() == 1) {
+    for (RegionPlace &p : places) p.tissue = nearest_;
+    return;
+  }
+  if (left_.size() == depth) left_.emplace_back();
+  left_[depth].clear();
+  // the closest first, which is often the closest to the quarters, too
+  left_[depth].push_back(nearest_);
+  for (const Near &n : near_) {
+    if (n.triangle != nearest_) left_[depth].push_back(n.triangle);
+  }
+  const auto middle = divide(places);
+  for (const std::span<RegionPlace> half :
+       {std::span(places.begin(), middle), std::span(middle, places.end())}) {
+    if (half.size() == 1) {
+      fill(half, ball_of(half), left_[depth], depth + 1);
+      continue;
+    }
+    const auto quarter = divide(half);
+    for (const std::span<RegionPlace> part :
+         {std::span(half.begin(), quarter), std::span(quarter, half.end())}) {
+      fill(part, ball_of(part), left_[depth], depth + 1);
+    }
+  }
+}
+
+void RegionSearch::find(std::span<RegionPlace> places) {
+  if (places.empty()) return;
+  const Ball ball = ball_of(places);
+  const ClosestNearby near(tree_, ball.centre, ball.radius, nearest_);
+  nearest_ = near.closest_to_centre();
+  left_.reserve(32);  // references into it stay
+  fill(places, ball, near.triangles(), 0);
+}
+
+}  // namespace mvs::core
