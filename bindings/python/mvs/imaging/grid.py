@@ -53,6 +53,19 @@ class Grid:
         )
         return np.asarray(values, float).reshape(points.shape[:-1])
 
+    def part(self, volume: Volume, margin: int) -> tuple["Grid", Volume]:
+        """The box of a volume (z, y, x) around its voxels above 0, `margin` voxels wider where the grid
+        has them."""
+        box = box_of(volume > 0)
+        if box is None:
+            return self, volume
+        first = np.maximum(box[0] - margin, 0)
+        last = np.minimum(box[1] + margin + 1, np.array(self.shape))
+        x, y, z = (slice(int(a), int(b)) for a, b in zip(first, last))
+        size = (x.stop - x.start, y.stop - y.start, z.stop - z.start)
+        return (Grid(self.step, self.place(first[None])[0], self.axes, size),
+                np.ascontiguousarray(volume[z, y, x]))
+
 
 def spacing_of(image: Any) -> float:
     """The geometric mean of the voxel's edges, m."""

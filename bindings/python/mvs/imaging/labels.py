@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
-from .grid import Grid, Volume, crop, isotropic, spacing_of
+from .grid import Grid, Points, Volume, box_of, crop, isotropic, spacing_of
 from .mesh import (Sheet, areas, boundary_loops, handles, is_crumpled, largest_piece, loop_length,
                    pieces)
 from .needs import need
@@ -159,12 +159,33 @@ def tissue_on_grid(image: Any, mask: NDArray[np.bool_], step: float,
     return isotropic(part, step, 0.0)
 
 
+SHARE_OF_WIDTH = 0.2
+"""Edge of a grid's voxel over the width of the tissue: finer ones move the mid-surface of a phantom by less
+than a fiftieth of a voxel."""
+
+
 def grid_step(image: Any, mask: NDArray[np.bool_], most: int = 30_000_000) -> float:
-    """Half of the smallest edge of a voxel, more where the grid would have more than `most` voxels."""
+    """Half of the smallest edge of a voxel; up to a whole one where the tissue is wide, and more where the
+    grid would have more than `most` voxels."""
     spacing = np.array(image.GetSpacing()) * 1e-3
-    where = np.argwhere(mask)
-    extent = (np.ptp(where, axis=0)[::-1] + 1) * spacing + 8e-3
-    return float(max(spacing.min() / 2, (np.prod(extent) / most) ** (1 / 3)))
+    first, last = box_of(mask) or (np.zeros(3), np.zeros(3))
+    extent = (last - first + 1) * spacing + 8e-3
+    least = spacing.min()
+    step = np.clip(SHARE_OF_WIDTH * width_of(mask, spacing), least / 2, least)
+    return float(max(step, (np.prod(extent) / most) ** (1 / 3)))
+
+
+def width_of(mask: NDArray[np.bool_], spacing: Points) -> float:
+    """About how wide tissue is, m, in voxels of a size (x, y, z): twice its volume over its surface.
+
+    The faces of voxels have 1.5 times the area of a surface that looks in all directions alike.
+    """
+    faces = 0.0
+    for axis, across in enumerate(spacing[::-1]):
+        other = np.prod(spacing) / across
+        faces += other * float(np.count_nonzero(np.diff(mask, axis=axis)))
+    volume = float(np.count_nonzero(mask) * np.prod(spacing))
+    return 1.5 * 2 * volume / faces if faces else 0.0
 
 
 def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,

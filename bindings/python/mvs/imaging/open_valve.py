@@ -70,8 +70,8 @@ def fill_hole(found: Leaflets, loop: NDArray[np.int64]) -> None:
         sheet.values[name] = np.append(value, value[loop].mean())
     after = np.roll(loop, -1)
     # against the edge of the triangle beside, so that both wind alike
-    edges = {(int(a), int(b)) for a, b in edges_with_triangles(sheet.triangles)[0]}
-    if (int(loop[0]), int(after[0])) not in edges:
+    edges = edges_with_triangles(sheet.triangles)[0]
+    if not (edges == [loop[0], after[0]]).all(axis=1).any():
         loop, after = after, loop
     fan = np.column_stack([after, loop, np.full(len(loop), middle)])
     beside = found.leaflet[np.isin(sheet.triangles, loop).any(axis=1)]

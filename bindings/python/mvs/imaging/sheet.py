@@ -10,6 +10,8 @@
 from __future__ import annotations
 
 import dataclasses
+from typing import Union
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -47,22 +49,23 @@ def mid_surface(grid: Grid, tissue: Volume, settings: SheetSettings) -> Sheet:
 
 def ridge_of(grid: Grid, tissue: Volume, blur: float, rim: float) -> Sheet:
     """The height ridge of the blurred tissue, ending at its rims."""
-    image = need("scipy.ndimage")
-    voxels = np.argwhere(tissue > 0.5)
-    if len(voxels) < 20:
+    if np.count_nonzero(tissue > 0.5) < 20:
         raise ArgumentError("the image has no sheet of tissue in it", "image")
     sigma = blur / grid.step
+    # beyond three deviations of the tissue all fields are 0
+    grid, tissue = grid.part(tissue, int(np.ceil(3 * sigma)) + 2)
+    voxels = np.argwhere(tissue > 0.5)
     across = orient(directions(tissue, voxels, sigma), neighbour_pairs(tissue.shape, voxels))
-    weight = image.gaussian_filter(tissue, sigma, truncate=3)
+    weight = gaussian(tissue, sigma)
     slope = np.zeros_like(weight)
     strength = np.zeros_like(weight)
     for axis in range(3):
         field = np.zeros_like(weight)
         field[tuple(voxels.T)] = across[:, axis]
-        field = image.gaussian_filter(field, sigma, truncate=3)
+        field = gaussian(field, sigma)
         order = [0, 0, 0]
         order[2 - axis] = 1
-        slope += field * image.gaussian_filter(tissue, sigma, order=order, truncate=3)
+        slope += field * gaussian(tissue, sigma, order)
         strength += field * field
     strength = np.sqrt(strength)
     share = weight / _inner_weight(weight, sigma)
@@ -73,14 +76,18 @@ def ridge_of(grid: Grid, tissue: Volume, blur: float, rim: float) -> Sheet:
     return _cut_at_rim(grid, _marching(grid, height, inside), share, rim)
 
 
+def gaussian(field: Volume, sigma: float, order: Union[int, list[int]] = 0) -> Volume:
+    """A Gaussian, or its derivatives, of a field that is 0 outside of its grid."""
+    return np.asarray(need("scipy.ndimage").gaussian_filter(
+        field, sigma, order=order, mode="constant", truncate=3))
+
+
 def _inner_weight(weight: Volume, sigma: float) -> Volume:
     """The blurred tissue inside of the sheet: the largest value within three deviations, averaged."""
-    image = need("scipy.ndimage")
     size = 2 * int(np.ceil(3 * sigma)) + 1
-    largest = image.maximum_filter(weight, size)
-    mean = image.gaussian_filter(largest * weight, 2 * sigma, truncate=3)
-    return np.maximum(mean / np.maximum(image.gaussian_filter(weight, 2 * sigma, truncate=3), 1e-6),
-                      1e-6)
+    largest = need("scipy.ndimage").maximum_filter(weight, size)
+    mean = gaussian(largest * weight, 2 * sigma)
+    return np.maximum(mean / np.maximum(gaussian(weight, 2 * sigma), 1e-6), 1e-6)
 
 
 def _marching(grid: Grid, height: Volume, inside: NDArray[np.bool_]) -> Sheet:
@@ -106,7 +113,9 @@ def _cut_at_rim(grid: Grid, sheet: Sheet, share: Volume, rim: float) -> Sheet:
     triangles = mesh.regular_faces.astype(np.int64)
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]
-    _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
+    order = np.lexsort(np.sort(triangles, axis=1).T[::-1])
+    corners = np.sort(triangles[order], axis=1)
+    first = order[np.r_[True, (corners[1:] != corners[:-1]).any(axis=1)]]
     points = np.asarray(mesh.points, float) * 1e-3
     return Sheet(points, manifold(triangles[np.sort(first)], points))
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..mesh import Sheet
 from ..needs import need
 from ..orientation import neighbour_pairs
-from .segment import EVERYWHERE, Mask, Thick, Tissue
+from .segment import EVERYWHERE, Mask, Thick, Tissue, nearest_voxels
 
 Points = NDArray[np.float64]
 REACH = 1.5e-3
@@ -66,7 +66,7 @@ def muscles_of(results: Mapping[str, Any]) -> Muscles:
 
 def paths_of(results: Mapping[str, Any]) -> Paths:
     """The shortest path along the skeleton from the muscles to each end on a leaflet (Dijkstra)."""
-    image, sparse, search = need("scipy.ndimage"), need("scipy.sparse"), need("scipy.sparse.csgraph")
+    sparse, search = need("scipy.sparse"), need("scipy.sparse.csgraph")
     tissue: Tissue = results["tissue"]
     muscles: Muscles = results["muscles"]
     leaflets = near_sheet(tissue, results["sheet"])
@@ -83,12 +83,12 @@ def paths_of(results: Mapping[str, Any]) -> Paths:
     length = np.linalg.norm(voxels[pairs[:, 0]] - voxels[pairs[:, 1]], axis=1) * step
     links = sparse.coo_matrix((length, pairs.T), (len(voxels),) * 2).tocsr()
     degree = np.bincount(pairs.ravel(), minlength=len(voxels))
-    to_leaflet = image.distance_transform_edt(~leaflets)[rows] * step
-    far, nearest = image.distance_transform_edt(~muscles.mask, return_indices=True)
-    to_muscle = far[rows] * step
-    own = results["thick"].label[tuple(nearest[k][rows] for k in range(3))]
-    starts = np.flatnonzero(to_muscle == 0)
-    ends = np.flatnonzero((to_leaflet < REACH) & (to_muscle > 0) & (degree == 1))
+    to_leaflet = np.where(leaflets[rows], 0, nearest_voxels(leaflets, voxels)[0]) * step
+    in_muscle = muscles.mask[rows]
+    nearest = np.where(in_muscle[:, None], voxels, nearest_voxels(muscles.mask, voxels)[1])
+    own = results["thick"].label[tuple(nearest.T)]
+    starts = np.flatnonzero(in_muscle)
+    ends = np.flatnonzero((to_leaflet < REACH) & ~in_muscle & (degree == 1))
     if not len(starts) or not len(ends):
         return none
     distance, before, source = search.dijkstra(
