@@ -157,6 +157,8 @@ export interface Shown {
 export interface Motion {
   picture: Picture;
   share: number;
+  /** As in `Figures`; of a picture that is shown before any figures. */
+  frame?: number[];
 }
 
 /** A place on a leaflet, as operations take it. */

@@ -1,5 +1,6 @@
 // Opening: shipped valves, valve files, sessions, and surfaces that become a valve.
 import { batch } from '@preact/signals';
+import { shippedVertices } from '../shipped';
 import { leaveTexts, t } from '../text/texts';
 import type { Shown } from '../protocol';
 import { discard } from './edit';
@@ -48,9 +49,6 @@ async function comeBack(left: Left): Promise<void> {
   state.tour.value = left.tour;
   state.changed.value = true;
 }
-
-/** Vertices of the shipped valves. */
-export const shippedVertices = 425;
 
 function begun(shown: Shown | null, title: string, left: Left | null): void {
   if (!shown) return;

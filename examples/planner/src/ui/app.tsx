@@ -1,5 +1,5 @@
 // The page: bar, picture, panels, dialogs, keys.
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { apply, discard, pickField } from '../store/edit';
 import { openFile } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
@@ -108,7 +108,8 @@ function Busy() {
 
 function Picture() {
   const host = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  // before the page is painted for the first time: the valve is in that picture
+  useLayoutEffect(() => {
     const wanted = /#(webgl|software)/.exec(location.hash)?.[1] ?? '';
     viewport = new Viewport(host.current!, wanted as 'webgl' | 'software' | '');
     Object.assign(window, { planner: { state, viewport } });

@@ -32,6 +32,7 @@ export class Viewport {
   private lastMotion = 0;
   private lastFrame = 0;
   private drawnFully = false;
+  private begun = false;
   private framed = '';
   private builtFrom: unknown[] = [];
   private overlaid: unknown[] = [];
@@ -85,14 +86,13 @@ export class Viewport {
 
   private makeRenderer(wanted: 'webgl' | 'software' | ''): Renderer {
     if (wanted === 'software') return new Raster();
+    const lost = () => (this.dirty = false);
+    const restored = () => this.touchScene();
     try {
-      return new WebGl(
-        wanted === 'webgl',
-        () => (this.dirty = false),
-        () => this.touchScene(),
-      );
+      // a browser without WebGL, or one that emulates it more slowly than the rasteriser; it is asked without an
+      // exception, for whose place the whole script would be parsed once more
+      return WebGl.make(wanted === 'webgl', lost, restored) ?? new Raster();
     } catch {
-      // a browser without WebGL, or one that emulates it more slowly than the rasteriser
       return new Raster();
     }
   }
@@ -136,7 +136,11 @@ export class Viewport {
   }
 
   frameOf(): number[] {
-    return (state.preview.value ?? state.main.value)?.figures.frame ?? this.guessedFrame();
+    return (
+      (state.preview.value ?? state.main.value)?.figures.frame ??
+      state.motion.value?.frame ??
+      this.guessedFrame()
+    );
   }
 
   /** Frame of a picture that has no figures yet: centre and normal of the annulus. */
@@ -272,8 +276,16 @@ export class Viewport {
     this.labels.update(this);
     this.dirty = false;
     this.drawnFully = !fast;
+    this.markFirst();
     this.times.push(performance.now() - begin);
     if (this.times.length > 400) this.times.shift();
+  }
+
+  /** A mark of performance measurements: the first picture with a valve. */
+  private markFirst(): void {
+    if (this.begun || !this.meshes.length) return;
+    this.begun = true;
+    performance.mark('first picture');
   }
 
   /** A PNG picture of the present view, as a data URL. */
