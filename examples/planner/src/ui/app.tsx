@@ -106,6 +106,22 @@ function Busy() {
   );
 }
 
+/** The valve before in picture and figures, to compare. */
+function Compare() {
+  if (!state.earlier.value || state.motion.value || state.surface.value) return null;
+  const past = state.inPast.value;
+  return (
+    <div class="compare group" role="group" aria-label={appTexts.compare}>
+      <Button keys="W" pressed={past} onClick={() => (state.past.value = true)}>
+        {appTexts.before}
+      </Button>
+      <Button keys="W" pressed={!past} onClick={() => (state.past.value = false)}>
+        {state.preview.value ? appTexts.preview : appTexts.now}
+      </Button>
+    </div>
+  );
+}
+
 function Picture() {
   const host = useRef<HTMLDivElement>(null);
   // before the page is painted for the first time: the valve is in that picture
@@ -130,6 +146,7 @@ function Picture() {
         {help.picture}
       </p>
       <Scale />
+      <Compare />
       <Busy />
       <ViewBar go={go} />
     </main>
@@ -178,6 +195,7 @@ function onKey(event: KeyboardEvent): void {
   if (panel) state.panel.value = panel[0];
   else if (key === 'o' && state.main.value && !state.draft.value)
     void openTo(state.openness.value >= 1 ? 0 : 1);
+  else if (key === 'w') state.past.value = !state.inPast.value;
   else if (key === 'x') state.sectionOn.value = !state.sectionOn.value;
   else if (key === 'c') state.chordsOn.value = !state.chordsOn.value;
   else if (key === 'n') state.labelsOn.value = !state.labelsOn.value;

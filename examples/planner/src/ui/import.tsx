@@ -31,7 +31,7 @@ export function ImportPanel() {
         <small>{importTexts.size(extent(imported.surface.points))}</small>
       </div>
       {kinds.map((kind) => (
-        <div class="row">
+        <div class="row points">
           <Button pressed={state.importing.value === kind} onClick={() => (state.importing.value = kind)}>
             {importTexts.points[kind]}
           </Button>

@@ -13,7 +13,7 @@ import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
 import { sceneMeshes } from './scene';
 import type { Mesh } from './mesh';
-import { surfaceMesh } from './surface';
+import { surfaceFrame, surfaceMesh, type SurfaceFrame } from './surface';
 import { WebGl } from './webgl';
 
 /** ms without motion until the picture is drawn in full. */
@@ -40,6 +40,7 @@ export class Viewport {
   readonly times: number[] = [];
   /** A surface to show instead of a valve, during an import. */
   surface: Mesh | null = null;
+  private found: SurfaceFrame | null = null;
 
   constructor(
     readonly host: HTMLElement,
@@ -65,8 +66,7 @@ export class Viewport {
       this.moved();
     });
     effect(() => {
-      const shown = state.imported.value;
-      this.showSurface(shown && !shown.findings.length ? shown : null);
+      this.showSurface(state.surface.value);
     });
     effect(() => {
       const wanted = state.wantedView.value;
@@ -78,10 +78,14 @@ export class Viewport {
   /** Shows the surface of an import instead of the valve. */
   private showSurface(shown: state.Imported | null): void {
     const fresh = shown && this.surface?.positions !== shown.surface.points;
-    if (!shown) this.surface = null;
-    else if (fresh) this.surface = surfaceMesh(shown.surface.points, shown.surface.triangles);
+    if (!shown) [this.surface, this.found] = [null, null];
+    else {
+      const { points, triangles } = shown.surface;
+      this.found = surfaceFrame(points, triangles, shown.points);
+      if (fresh) this.surface = surfaceMesh(points, triangles, this.found.outward);
+    }
     this.touchScene();
-    if (fresh && shown) this.camera.lookAtBox(shown.surface.points, shown.surface.triangles);
+    if (fresh && shown) this.go('surgeon', true);
   }
 
   private makeRenderer(wanted: 'webgl' | 'software' | ''): Renderer {
@@ -137,6 +141,7 @@ export class Viewport {
 
   frameOf(): number[] {
     return (
+      this.found?.frame ??
       (state.preview.value ?? state.main.value)?.figures.frame ??
       state.motion.value?.frame ??
       this.guessedFrame()
@@ -154,8 +159,9 @@ export class Viewport {
     return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
   }
 
-  /** Radius of the annulus, mm. */
+  /** Radius of the annulus or of a surface, mm. */
   radius(): number {
+    if (this.found) return this.found.radius;
     const picture = state.main.value?.picture ?? state.picture.value;
     const topology = picture && state.topologyOf(picture);
     if (!picture || !topology) return 20;
@@ -169,7 +175,7 @@ export class Viewport {
   }
 
   plane(): CutPlane | null {
-    if (!state.sectionOn.value) return null;
+    if (!state.sectionOn.value || this.surface) return null;
     const f = this.frameOf();
     const normal: [number, number, number] = [f[6], f[7], f[8]];
     return { normal, offset: f[0] * f[6] + f[1] * f[7] + f[2] * f[8] + state.sectionAt.value };
@@ -194,7 +200,7 @@ export class Viewport {
       this.meshes = [];
       return;
     }
-    const shown = state.motion.value ? null : (state.preview.value ?? state.main.value);
+    const shown = state.motion.value ? null : state.shown.value;
     const figures = shown?.figures ?? null;
     const choice = state.choice.value;
     const chord = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
@@ -217,7 +223,7 @@ export class Viewport {
 
   /** Distance of each node from its place in the valve before, matched by origin. */
   private distances(): Float32Array | null {
-    const now = (state.preview.value ?? state.main.value)?.picture;
+    const now = state.shown.value?.picture;
     const then = (state.compared.value ?? (state.preview.value ? state.main.value : state.first.value))
       ?.picture;
     const [a, b] = [now && state.topologyOf(now), then && state.topologyOf(then)];
@@ -252,7 +258,7 @@ export class Viewport {
     const plane = this.plane();
     if (plane && topology && !this.surface)
       meshes.push(cutMesh(topology, picture, plane, this.frameOf(), this.radius()));
-    const marks = marksMesh(state.sectionOn.value ? this.handle() : null);
+    const marks = marksMesh(state.sectionOn.value && !this.surface ? this.handle() : null);
     if (marks) meshes.push(marks);
     return { meshes, background, plane };
   }
