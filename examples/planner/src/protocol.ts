@@ -256,6 +256,8 @@ export interface Spread {
   rows: SpreadRow[];
 }
 
+export type SurfaceKind = '' | 'mid' | 'atrial' | 'skin';
+
 export interface Surface {
   points: Float32Array;
   triangles: Uint32Array;
@@ -263,6 +265,8 @@ export interface Surface {
 }
 
 export interface BuildRequest {
+  /** What the surface is of the leaflets; '' leaves it to the library. */
+  kind: SurfaceKind;
   annulus: number[][];
   tips: number[][];
   commissures: number[][];

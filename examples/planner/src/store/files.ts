@@ -109,6 +109,7 @@ export async function beginImport(name: string, bytes: Uint8Array, unit = 'mm'):
       name,
       bytes,
       unit,
+      kind: '',
       surface,
       points: { annulus: [], commissures: [], anterior: [], tips: [] },
       findings: [],
@@ -124,7 +125,7 @@ export async function buildValve(): Promise<void> {
   if (!from) return;
   const title = from.name.replace(/\.\w+$/, '');
   const left = await leave();
-  const built = await run(t.building, 'build', { ...from.points, name: title });
+  const built = await run(t.building, 'build', { ...from.points, kind: from.kind, name: title });
   if (!built) return;
   state.tour.value = null;
   begun(built.shown, title, left);

@@ -12,6 +12,7 @@ import type {
   Shown,
   Spread,
   Surface,
+  SurfaceKind,
   Topology,
 } from '../protocol';
 import type { MapName } from '../view/colours';
@@ -98,6 +99,7 @@ export interface Imported {
   name: string;
   bytes: Uint8Array;
   unit: string;
+  kind: SurfaceKind;
   surface: Surface;
   points: { annulus: number[][]; commissures: number[][]; anterior: number[][]; tips: number[][] };
   findings: Finding[];

@@ -148,6 +148,9 @@ export function say(sentence: string): string {
       /(-?\d+(?:\.\d+)?(?:e-?\d+)?) m\b(?![m²/])/g,
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
+    .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
+    .replace(/\bmm2\b/g, 'mm²')
+    .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
     .replace(/^mvs_\w+: /, '');
 }
 
@@ -256,7 +259,7 @@ export const help = {
   keys: [
     ['1 2 3 4', 'Views: surgeon, ventricle, side, section'],
     ['Arrows, + −', 'Turn, zoom (in the picture)'],
-    ['V R P L', 'Panels: Valve, Repair, Plan, Learn'],
+    ['V R P L I', 'Panels: Valve, Repair, Plan, Learn, Import'],
     ['O', 'Open and close the valve'],
     ['W', 'The valve before, and the present one again'],
     ['X', 'Cut the picture at the section plane'],
@@ -302,6 +305,14 @@ export const importTexts = {
   intro:
     'Mark what you know by clicking on the surface; the rest is guessed from its shape and listed afterwards. The two commissures help most.',
   unit: 'Unit of the file',
+  tab: 'Import',
+  kind: 'What the surface is',
+  kinds: {
+    '': 'Not known',
+    atrial: 'Atrial side of the leaflets',
+    mid: 'Middle of the leaflets',
+    skin: 'Both sides, closed',
+  },
   size: (mm: number) => `The surface is ${mm.toFixed(1)} mm wide. An open valve is 30 to 60 mm wide.`,
   points: {
     commissures: 'Both commissures',
@@ -310,6 +321,8 @@ export const importTexts = {
     tips: 'Papillary tips',
   },
   tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
+  again: 'Change and build again',
+  kindGuessed: '; if it is not, choose what it is by “Change and build again”',
   found: 'What was found and what was guessed',
   sources: ['', 'given', 'measured', 'guessed', 'normal anatomy'],
 };

@@ -142,18 +142,22 @@ export function ReportDialog() {
       reportTexts.fileName(state.title.value),
       'text/html',
     );
+  // the markup is made above; texts of the user are escaped there
+  const body = { __html: html.value };
   return (
-    <Modal title={reportTexts.title} wide>
-      <div class="row no-print">
-        <Button kind="main" icon={<Download size={16} />} onClick={save}>
-          {reportTexts.save}
-        </Button>
-        <Button icon={<Printer size={16} />} onClick={() => window.print()}>
-          {reportTexts.print}
-        </Button>
-      </div>
-      {/* the markup is made above; texts of the user are escaped there */}
-      <div class="report" data-testid="report" dangerouslySetInnerHTML={{ __html: html.value }} />
-    </Modal>
+    <>
+      <Modal title={reportTexts.title} wide>
+        <div class="row">
+          <Button kind="main" icon={<Download size={16} />} onClick={save}>
+            {reportTexts.save}
+          </Button>
+          <Button icon={<Printer size={16} />} onClick={() => window.print()}>
+            {reportTexts.print}
+          </Button>
+        </div>
+        <div class="report" data-testid="report" dangerouslySetInnerHTML={body} />
+      </Modal>
+      <div class="report paper" dangerouslySetInnerHTML={body} />
+    </>
   );
 }

@@ -16,8 +16,8 @@ const directions = 16;
 const distances = [48, 72, 100];
 /** A covered label counts as much as this many lines. */
 const labelWeight = 4;
-/** Lines that another place must save before the label moves to it: it rests while the camera turns. */
-const patience = 2;
+/** How much better another place must be before the label moves to it: it rests while the camera turns. */
+const patience = 0.75;
 
 /** Whether a line meets a box: Liang and Barsky's clipping. */
 export function meets([ax, ay, bx, by]: Line, box: Box): boolean {

@@ -2,11 +2,12 @@
 // shape and from the points that were clicked.
 import { tissue } from './colours';
 import { vertexNormals, type Colour, type Mesh } from './mesh';
+import { rims } from './rims';
 import type { Imported } from '../store/state';
 
 type Vector = [number, number, number];
 
-/** The frame of a surface as in `Figures`, the largest distance of a point from its middle, mm, and whether the normals of
+/** The frame of a surface as in `Figures`, the radius of its annulus, mm, and whether the normals of
  *  its triangles point into the atrium. */
 export interface SurfaceFrame {
   frame: number[];
@@ -25,13 +26,13 @@ const scale = (a: Vector, s: number): Vector => [a[0] * s, a[1] * s, a[2] * s];
 const unit = (a: Vector): Vector => scale(a, 1 / (Math.hypot(...a) || 1));
 const pointOf = (x: ArrayLike<number>, i: number): Vector => [x[3 * i], x[3 * i + 1], x[3 * i + 2]];
 
-/** Vector areas below this share of the area say nothing: a closed wall, or triangles without a common orientation. */
-const least = 0.15;
-
-/** Middle and sides of the box around the triangles' points. */
-function boxOf(points: Float32Array, triangles: Uint32Array): { middle: Vector; size: Vector } {
-  const [low, high] = [pointOf(points, triangles[0]), pointOf(points, triangles[0])];
-  for (const node of triangles)
+/** Middle and sides of the box around points. */
+function boxOf(
+  points: Float32Array,
+  nodes: ArrayLike<number> & Iterable<number>,
+): { middle: Vector; size: Vector } {
+  const [low, high] = [pointOf(points, nodes[0]), pointOf(points, nodes[0])];
+  for (const node of nodes)
     for (let c = 0; c < 3; ++c) {
       low[c] = Math.min(low[c], points[3 * node + c]);
       high[c] = Math.max(high[c], points[3 * node + c]);
@@ -42,21 +43,42 @@ function boxOf(points: Float32Array, triangles: Uint32Array): { middle: Vector; 
   };
 }
 
-/** The sum of the triangles' areas as vectors: that of the annulus less that of the free edge, both across the axis of the
- *  valve. Where it is too small, the shortest axis of the box. */
-function axisOf(points: Float32Array, triangles: Uint32Array, size: Vector): Vector {
+/** The area of a loop as a vector. */
+function areaOf(points: Float32Array, loop: number[]): Vector {
+  const origin = pointOf(points, loop[0]);
   const sum: Vector = [0, 0, 0];
-  let area = 0;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const [a, b, c] = [0, 1, 2].map((k) => pointOf(points, triangles[t + k]));
-    const normal = cross(minus(b, a), minus(c, a));
-    for (let k = 0; k < 3; ++k) sum[k] += normal[k];
-    area += Math.hypot(...normal);
-  }
-  if (Math.hypot(...sum) > least * area) return unit(sum);
+  loop.forEach((node, k) => {
+    const next = loop[(k + 1) % loop.length];
+    const part = cross(minus(pointOf(points, node), origin), minus(pointOf(points, next), origin));
+    for (let c = 0; c < 3; ++c) sum[c] += 0.5 * part[c];
+  });
+  return sum;
+}
+
+/** The annulus: the loop of the boundary with the largest area. */
+function annulusOf(points: Float32Array, triangles: Uint32Array): { nodes: number[]; axis: Vector } | null {
+  const loops = rims(triangles).map((nodes) => ({ nodes, axis: areaOf(points, nodes) }));
+  const size = (loop: { axis: Vector }) => Math.hypot(...loop.axis);
+  const largest = loops.sort((a, b) => size(b) - size(a))[0];
+  return largest && size(largest) > 0 ? { ...largest, axis: unit(largest.axis) } : null;
+}
+
+/** Of a surface without a boundary: all of its points, and the shortest axis of the box around them. */
+function wholeOf(points: Float32Array, triangles: Uint32Array): { nodes: number[]; axis: Vector } {
+  const { size } = boxOf(points, triangles);
   const shortest: Vector = [0, 0, 0];
   shortest[size.indexOf(Math.min(...size))] = 1;
-  return shortest;
+  return { nodes: Array.from(triangles), axis: shortest };
+}
+
+/** Whether most normals of triangles, by area, have a part along a direction. */
+function faces(points: Float32Array, triangles: Uint32Array, direction: Vector): boolean {
+  let sum = 0;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const [a, b, c] = [0, 1, 2].map((k) => pointOf(points, triangles[t + k]));
+    sum += dot(cross(minus(b, a), minus(c, a)), direction);
+  }
+  return sum > 0;
 }
 
 /** Leaflets narrow towards the ventricle: whether heights along an axis grow with the distance from it. */
@@ -71,13 +93,30 @@ function widensAlong(points: Float32Array, triangles: Uint32Array, middle: Vecto
   return hr / n >= (h / n) * (r / n);
 }
 
-/** The direction from front to back that the clicked points give, else any. */
-function forward(up: Vector, middle: Vector, { commissures, anterior }: Imported['points']): Vector {
+/** The direction across the axis along which the points spread least: an annulus is wider from side to side than from
+ *  front to back. */
+function narrowest(points: Float32Array, triangles: Uint32Array, middle: Vector, up: Vector): Vector {
+  const p = unit(cross(up, Math.abs(up[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0]));
+  const q = cross(up, p);
+  let [pp, pq, qq] = [0, 0, 0];
+  for (const node of triangles) {
+    const from = minus(pointOf(points, node), middle);
+    const [a, b] = [dot(from, p), dot(from, q)];
+    [pp, pq, qq] = [pp + a * a, pq + a * b, qq + b * b];
+  }
+  // the angle of the widest direction in the plane, and a right angle more
+  const angle = 0.5 * Math.atan2(2 * pq, pp - qq) + Math.PI / 2;
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  return [c * p[0] + s * q[0], c * p[1] + s * q[1], c * p[2] + s * q[2]];
+}
+
+/** The direction to the front, across the axis: as the clicked points say, else `narrow` or its opposite. */
+function forward(up: Vector, middle: Vector, narrow: Vector, marks: Imported['points']): Vector {
   const across = (v: Vector) => minus(v, scale(up, dot(v, up)));
-  const towards = anterior.length ? across(minus(anterior[0] as Vector, middle)) : null;
-  if (commissures.length < 2) return unit(towards ?? across(Math.abs(up[1]) < 0.9 ? [0, 1, 0] : [1, 0, 0]));
-  const ap = cross(up, unit(across(minus(commissures[1] as Vector, commissures[0] as Vector))));
-  return towards && dot(towards, ap) < 0 ? scale(ap, -1) : ap;
+  const [one, other] = marks.commissures as Vector[];
+  const ap = other ? cross(up, unit(across(minus(other, one)))) : narrow;
+  const anterior = marks.anterior[0] as Vector | undefined;
+  return anterior && dot(minus(anterior, middle), ap) < 0 ? scale(ap, -1) : ap;
 }
 
 export function surfaceFrame(
@@ -85,15 +124,18 @@ export function surfaceFrame(
   triangles: Uint32Array,
   marks: Imported['points'],
 ): SurfaceFrame {
-  const { middle, size } = boxOf(points, triangles);
-  const axis = axisOf(points, triangles, size);
-  const outward = widensAlong(points, triangles, middle, axis);
-  const up = outward ? axis : scale(axis, -1);
-  const ap = forward(up, middle, marks);
+  const { nodes, axis } = annulusOf(points, triangles) ?? wholeOf(points, triangles);
+  const { middle } = boxOf(points, nodes);
+  const up = widensAlong(points, triangles, middle, axis) ? axis : scale(axis, -1);
+  const ap = forward(up, middle, narrowest(points, triangles, middle, up), marks);
   let radius = 0;
   for (const node of triangles)
     radius = Math.max(radius, Math.hypot(...minus(pointOf(points, node), middle)));
-  return { frame: [...middle, ...ap, ...cross(ap, up), ...up], radius, outward };
+  return {
+    frame: [...middle, ...ap, ...cross(ap, up), ...up],
+    radius,
+    outward: faces(points, triangles, up),
+  };
 }
 
 export function surfaceMesh(positions: Float32Array, index: Uint32Array, outward: boolean): Mesh {
