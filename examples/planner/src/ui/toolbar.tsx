@@ -215,7 +215,7 @@ export function Scale() {
   const surface = !!state.surface.value;
   if (name === 'tissue' || surface) {
     return (
-      <div class="scale" aria-hidden="true">
+      <div class="scale tissue" aria-hidden="true">
         <span>
           <i class="key key-atrial" /> {barTexts.atrial}
         </span>

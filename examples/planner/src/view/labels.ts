@@ -132,7 +132,7 @@ export class Labels {
       // a scallop gives way to labels in front of it
       const covered =
         label.kind === 'scallop' &&
-        taken.some(({ x, y, width, height }) => Math.hypot(x + width / 2 - px, y + height / 2 - py) < 24);
+        taken.some(({ x, y, width, height }) => Math.hypot(x + width / 2 - px, y + height / 2 - py) < 32);
       element.hidden = label.kind !== 'handle' && (covered || this.hidden(view, label, px, py));
       if (!element.hidden) taken.push({ x: px - 12, y: py - 9, width: 24, height: 18 });
       element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(${label.kind === 'handle' ? '24px' : '-50%'}, -50%)`;

@@ -18,6 +18,13 @@ import { WebGl } from './webgl';
 
 /** ms without motion until the picture is drawn in full. */
 const still = 140;
+/** Whether a field of the form is answered by a click on what the leaflets hide. */
+function hidesFromAtrium(field: string): boolean {
+  const kind = state.draft.peek()?.kind;
+  const info = state.operations.peek().find((operation) => operation.name === kind);
+  return ['chord', 'head'].includes(info?.fields.find(({ name }) => name === field)?.type ?? '');
+}
+
 const background: [number, number, number] = [0.925, 0.937, 0.949];
 
 export class Viewport {
@@ -72,7 +79,19 @@ export class Viewport {
       const wanted = state.wantedView.value;
       if (wanted) this.go(wanted.preset);
     });
+    effect(() => {
+      const field = state.picking.value;
+      if (field && hidesFromAtrium(field) && this.fromAtrium()) this.go('ventricle');
+    });
     requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Whether the eye looks at the leaflets from above, where they hide chordae and papillary heads. */
+  private fromAtrium(): boolean {
+    const { target } = this.camera;
+    const back = this.camera.position().sub(target).normalize();
+    const frame = this.frameOf();
+    return back.x * frame[9] + back.y * frame[10] + back.z * frame[11] > 0.5;
   }
 
   /** Shows the surface of an import instead of the valve. */
