@@ -4,12 +4,13 @@ import { defineConfig } from 'vite';
 import { resolve } from 'node:path';
 import { onePage } from './build/one_page';
 import { library } from './build/library';
+import { shipped } from './build/shipped';
 
 export default defineConfig({
   root: resolve(__dirname, 'src'),
   esbuild: { legalComments: 'none' },
   worker: { format: 'iife', plugins: () => [library()] },
-  plugins: [onePage()],
+  plugins: [shipped(), onePage()],
   build: {
     target: 'es2022',
     outDir: resolve(__dirname, 'dist'),

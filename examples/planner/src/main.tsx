@@ -1,4 +1,6 @@
-// Starts the page: the worker with the library, then the shipped valve.
+// Starts the page: the picture of the open shipped valve, which the page brings along; the worker with the library, which
+// closes it. Marks of performance measurements say when each was there.
+import firstPicture from 'first-picture';
 import { render } from 'preact';
 import { App } from './ui/app';
 import { openShipped } from './store/files';
@@ -7,22 +9,38 @@ import { findCopy, keepCopy, visited, writeKeptFile } from './store/keep';
 import * as state from './store/state';
 import { watchOpening } from './store/opening';
 import { watchTour } from './store/tour';
-import { barTexts } from './text/texts';
+import { barTexts, t } from './text/texts';
+import { decode } from './shipped';
 import './style.css';
 
+/** Shows the open valve while the library is compiled. */
+function showFirst(): void {
+  const motion = decode(firstPicture);
+  state.receive(motion.picture);
+  state.motion.value = motion;
+}
+
 async function start(): Promise<void> {
+  performance.mark('page script');
   const library = document.getElementById('library')?.textContent ?? '';
   connect();
   if (visited()) state.panel.value = 'valve';
+  showFirst();
+  const starting = { text: t.starting, share: 0 };
+  state.busy.value = starting;
   render(<App />, document.getElementById('app')!);
   try {
     const { version, operations } = await request('start', { library });
     state.version.value = version;
     state.operations.value = operations;
+    performance.mark('library ready');
     document.getElementById('library')?.remove();
-    await openShipped('healthy', barTexts.healthy);
+    // unless another valve was asked for in the meantime
+    if (state.busy.value === starting) await openShipped('healthy', barTexts.healthy);
+    performance.mark('closed valve');
     state.ready.value = true;
   } catch (error) {
+    state.busy.value = null;
     fail(error);
   }
   watchTour();

@@ -157,6 +157,8 @@ export interface Shown {
 export interface Motion {
   picture: Picture;
   share: number;
+  /** As in `Figures`; of a picture that is shown before any figures. */
+  frame?: number[];
 }
 
 /** A place on a leaflet, as operations take it. */
@@ -254,6 +256,8 @@ export interface Spread {
   rows: SpreadRow[];
 }
 
+export type SurfaceKind = '' | 'mid' | 'atrial' | 'skin';
+
 export interface Surface {
   points: Float32Array;
   triangles: Uint32Array;
@@ -261,6 +265,8 @@ export interface Surface {
 }
 
 export interface BuildRequest {
+  /** What the surface is of the leaflets; '' leaves it to the library. */
+  kind: SurfaceKind;
   annulus: number[][];
   tips: number[][];
   commissures: number[][];

@@ -176,7 +176,7 @@ describe('planner features', () => {
     await closed(page);
     await apply(page);
     await openPanel(page, 'Valve');
-    const [, wide, deep] = /ring\s+([\d.]+) mm wide, ([\d.]+) mm front/.exec(
+    const [, wide, deep] = /ring\s+([\d.]+)\smm wide, ([\d.]+)\smm front/.exec(
       await page.getByTestId('devices').innerText(),
     );
     // the library lays the ring on the annulus, a few degrees off its axes
@@ -199,7 +199,7 @@ describe('planner features', () => {
     await openPanel(page, 'Plan');
     await page.getByRole('button', { name: 'Report' }).click();
     await page.getByTestId('report').getByText('Before').first().waitFor();
-    assert.match(await page.getByTestId('report').innerText(), /gradient at 200 ml\/s\s+[\d.]+ mmHg/);
+    assert.match(await page.getByTestId('report').innerText(), /gradient at 200\sml\/s\s+[\d.]+\smmHg/);
     await page.keyboard.press('Escape');
   });
 
@@ -286,7 +286,7 @@ describe('planner features', () => {
     const opens = async () => {
       const line = page.getByTestId('opening');
       await line.getByText(/Opens to \d/).waitFor({ timeout: 30_000 });
-      const [, area, goal] = /Opens to ([\d.]+) cm².*goal ([\d.]+)/.exec(await line.innerText());
+      const [, area, goal] = /Opens to ([\d.]+)\scm².*goal ([\d.]+)/.exec(await line.innerText());
       return { area: +area, goal: +goal };
     };
     const large = await opens();
@@ -312,7 +312,7 @@ describe('planner features', () => {
     await closed(page);
     assert.ok(await answer(), 'a chord is picked');
     const look = async () => ({
-      card: await page.getByTestId('chosen').innerText(),
+      card: (await page.getByTestId('chosen').innerText()).replaceAll('\u00a0', ' '),
       tag: await page.locator('.label-chord').innerText(),
       length: await page.locator('#f-length').inputValue(),
     });

@@ -3,11 +3,14 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { after, before, describe, it } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
 import { unzipSync } from 'fflate';
 import { closed, figures, openBrowser, openPlanner, page_path } from './browser.mjs';
 import { apply, begin, cameraRests, chooseAnyChord, chordNames, open, openPanel, save } from './person.mjs';
+
+const library = resolve(dirname(fileURLToPath(import.meta.url)), '../../../build/js/dist/index.mjs');
 
 /** Repeats a session with the native command; returns the hash that it finds. */
 function nativeHash(session) {
@@ -25,6 +28,55 @@ function nativeHash(session) {
   ]);
   return JSON.parse(String(told)).hash;
 }
+
+/** The share of the picture that shows tissue. */
+function shareOfTissue(page) {
+  return page.evaluate(() => {
+    const source = window.planner.viewport.snapshot();
+    return new Promise((resolve) => {
+      const image = new Image();
+      image.onload = () => {
+        const canvas = document.createElement('canvas');
+        [canvas.width, canvas.height] = [image.width, image.height];
+        const paint = canvas.getContext('2d');
+        paint.drawImage(image, 0, 0);
+        const { data } = paint.getImageData(0, 0, image.width, image.height);
+        let pink = 0;
+        for (let i = 0; i < data.length; i += 4) pink += data[i] > data[i + 2] + 20 ? 1 : 0;
+        resolve(pink / (data.length / 4));
+      };
+      image.src = source;
+    });
+  });
+}
+
+describe('opening', () => {
+  it('shows_the_open_valve_before_the_library_answers', async () => {
+    const { context } = await openBrowser();
+    try {
+      const page = await context.newPage();
+      await page.addInitScript(() => {
+        window.Worker = class {
+          postMessage() {}
+        };
+      });
+      await page.goto(pathToFileURL(page_path).href);
+      const share = await shareOfTissue(page);
+      assert.ok(share > 0.15 && share < 0.6, `share of tissue ${share}`);
+      const shown = await page.evaluate(() => [...window.planner.state.picture.value.positions]);
+      const { loadMvs } = await import(pathToFileURL(library).href);
+      const sim = (await loadMvs()).simulator();
+      sim.generateValve({ vertices: 425 });
+      const made = sim.read((snapshot) => Array.from(snapshot.array('node_position'), (v) => 1e3 * v));
+      sim.dispose();
+      assert.equal(shown.length, made.length);
+      // half a unit of the last digit that the page keeps, and single precision at 40 mm
+      assert.ok(made.every((v, i) => Math.abs(v - shown[i]) < 5e-6 + 2e-6));
+    } finally {
+      await context.close();
+    }
+  });
+});
 
 describe('planner', () => {
   let context, page, errors, requests;
@@ -48,25 +100,9 @@ describe('planner', () => {
   });
 
   it('draws_the_valve', async () => {
-    const colours = await page.evaluate(() => {
-      const source = window.planner.viewport.snapshot();
-      return new Promise((resolve) => {
-        const image = new Image();
-        image.onload = () => {
-          const canvas = document.createElement('canvas');
-          [canvas.width, canvas.height] = [image.width, image.height];
-          const paint = canvas.getContext('2d');
-          paint.drawImage(image, 0, 0);
-          const { data } = paint.getImageData(0, 0, image.width, image.height);
-          let pink = 0;
-          for (let i = 0; i < data.length; i += 4) pink += data[i] > data[i + 2] + 20 ? 1 : 0;
-          resolve(pink / (data.length / 4));
-        };
-        image.src = source;
-      });
-    });
     // the annulus spans about two thirds of the height: tissue is a fifth to a half of the picture
-    assert.ok(colours > 0.15 && colours < 0.6, `share of tissue ${colours}`);
+    const share = await shareOfTissue(page);
+    assert.ok(share > 0.15 && share < 0.6, `share of tissue ${share}`);
   });
 
   it('opens_and_closes', async () => {

@@ -114,6 +114,22 @@ function reportStages(title, from, prefix, trace) {
   }
 }
 
+/** Prints when each part of the page was there after it was opened, and the CPU of page and worker until then. */
+function reportOpening({ main, worker, marks }) {
+  const at = (name) => marks.find((mark) => mark.name === name).time;
+  const begin = Math.max(
+    ...marks
+      .filter((mark) => mark.name === 'navigationStart' && mark.time < at('page script'))
+      .map((m) => m.time),
+  );
+  for (const name of ['page script', 'first picture', 'library ready', 'closed valve']) {
+    const end = at(name);
+    console.log(
+      `  ${`opening to ${name}`.padEnd(32)} CPU ${ms(cpuBetween(main, begin, end))} + ${ms(cpuBetween(worker, begin, end))}, clock ${ms(end - begin)}`,
+    );
+  }
+}
+
 function report(trace, frames) {
   reportStages('change', 'changed', '', trace);
   const cpu = trace.main.map((task) => task.cpu);
@@ -130,14 +146,11 @@ async function measure(vertices) {
   const { context } = await openBrowser();
   try {
     const page = context.pages()[0] ?? (await context.newPage());
-    const begun = performance.now();
-    await page.goto(pathToFileURL(page_path).href);
-    await page.evaluate(async () => {
-      while (!window.planner?.state.picture.value) await new Promise((done) => setTimeout(done, 5));
-      await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    const opening = await traced(page, async () => {
+      await page.goto(pathToFileURL(page_path).href);
+      await closed(page);
+      await page.waitForTimeout(200);
     });
-    const first = performance.now() - begun;
-    await closed(page);
     await open(page, path);
     await closed(page, 300_000);
     await installClocks(page);
@@ -146,7 +159,7 @@ async function measure(vertices) {
     await page.evaluate(() => (window.frameTimes.length = 0));
     const trace = await traced(page, () => changeForm(page));
     console.log(`${vertices} vertices, ${faces} faces`);
-    console.log(`  first picture of the page            ${ms(first)}`);
+    reportOpening(opening);
     report(trace, await page.evaluate(() => window.frameTimes));
     await page.keyboard.press('Escape');
     reportStages('Enter', 'pressed', 'applied ', await traced(page, () => applyTyped(page)));

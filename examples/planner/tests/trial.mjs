@@ -5,15 +5,16 @@
 //   node tests/trial.mjs look                     writes a picture of the window, prints its path
 //   node tests/trial.mjs click X Y                also: double X Y, right X Y, move X Y
 //   node tests/trial.mjs drag X1 Y1 X2 Y2 [right] also: wheel X Y AMOUNT (positive is towards the person)
+//   node tests/trial.mjs drop X Y FILE           a file is dropped on the page
 //   node tests/trial.mjs key Control+z            names of keys as playwright has them; also: type TEXT
 //   node tests/trial.mjs wait SECONDS             no action
 //   node tests/trial.mjs stop
 //
 // Lists that the browser opens over the page are missing from the pictures: choose in them with the arrow keys.
-import { mkdirSync, rmSync } from 'node:fs';
+import { mkdirSync, readFileSync, rmSync } from 'node:fs';
 import { createServer, request } from 'node:http';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { basename, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { openBrowser, page_path } from './browser.mjs';
 
@@ -28,6 +29,23 @@ const numbers = (words) =>
     if (!Number.isFinite(value)) throw new Error(`${word} is not a number`);
     return value;
   });
+
+/** Drops a file at a place, as a file manager does. */
+async function dropFile(page, x, y, path) {
+  const bytes = readFileSync(path).toString('base64');
+  await page.evaluate(
+    ([x, y, name, text]) => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
+      const target = document.elementFromPoint(x, y);
+      for (const type of ['dragover', 'drop'])
+        target.dispatchEvent(
+          new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true }),
+        );
+    },
+    [x, y, basename(path), bytes],
+  );
+}
 
 const actions = {
   click: (page, [x, y]) => page.mouse.click(x, y),
@@ -45,6 +63,7 @@ const actions = {
     await page.mouse.move(x2, y2, { steps: 12 });
     await page.mouse.up({ button });
   },
+  drop: (page, [x, y], words) => dropFile(page, x, y, words[2]),
   key: (page, _, [name]) => page.keyboard.press(name),
   type: (page, _, words) => page.keyboard.type(words.join(' ')),
 };
@@ -67,7 +86,7 @@ function performer(page) {
     const textual = command === 'key' || command === 'type';
     await actions[command](
       page,
-      textual ? [] : numbers(words.slice(0, 4).filter((w) => w !== 'right')),
+      textual ? [] : numbers(words.slice(0, command === 'drop' ? 2 : 4).filter((w) => w !== 'right')),
       words,
     );
     await page.waitForTimeout(reaction);

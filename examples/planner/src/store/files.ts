@@ -1,5 +1,6 @@
 // Opening: shipped valves, valve files, sessions, and surfaces that become a valve.
 import { batch } from '@preact/signals';
+import { shippedVertices } from '../shipped';
 import { leaveTexts, t } from '../text/texts';
 import type { Shown } from '../protocol';
 import { discard } from './edit';
@@ -48,9 +49,6 @@ async function comeBack(left: Left): Promise<void> {
   state.tour.value = left.tour;
   state.changed.value = true;
 }
-
-/** Vertices of the shipped valves. */
-export const shippedVertices = 425;
 
 function begun(shown: Shown | null, title: string, left: Left | null): void {
   if (!shown) return;
@@ -111,6 +109,7 @@ export async function beginImport(name: string, bytes: Uint8Array, unit = 'mm'):
       name,
       bytes,
       unit,
+      kind: '',
       surface,
       points: { annulus: [], commissures: [], anterior: [], tips: [] },
       findings: [],
@@ -126,7 +125,7 @@ export async function buildValve(): Promise<void> {
   if (!from) return;
   const title = from.name.replace(/\.\w+$/, '');
   const left = await leave();
-  const built = await run(t.building, 'build', { ...from.points, name: title });
+  const built = await run(t.building, 'build', { ...from.points, kind: from.kind, name: title });
   if (!built) return;
   state.tour.value = null;
   begun(built.shown, title, left);

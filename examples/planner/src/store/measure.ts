@@ -23,7 +23,7 @@ export async function compareCheckpoint(name: string | null): Promise<void> {
 }
 
 export async function measureCost(): Promise<void> {
-  const figures = state.figures.value;
+  const figures = (state.preview.value ?? state.main.value)?.figures;
   if (!figures) return;
   const value = await run(t.measuring, 'cost', {
     which: state.preview.value ? 'preview' : 'main',

@@ -1,5 +1,5 @@
 // The state of the page as signals: valve, preview, choice, form, running request.
-import { computed, signal } from '@preact/signals';
+import { computed, effect, signal } from '@preact/signals';
 import type {
   Cost,
   FieldValue,
@@ -12,6 +12,7 @@ import type {
   Shown,
   Spread,
   Surface,
+  SurfaceKind,
   Topology,
 } from '../protocol';
 import type { MapName } from '../view/colours';
@@ -40,6 +41,8 @@ export const preview = signal<Shown | null>(null);
 /** The form that the preview, or its refusal, belongs to. */
 export const previewed = signal<Draft | null>(null);
 export const motion = signal<Motion | null>(null);
+/** Picture and figures show the valve before instead of the present one. */
+export const past = signal(false);
 /** The first closed valve of the plan, for "before". */
 export const first = signal<Shown | null>(null);
 
@@ -96,11 +99,17 @@ export interface Imported {
   name: string;
   bytes: Uint8Array;
   unit: string;
+  kind: SurfaceKind;
   surface: Surface;
   points: { annulus: number[][]; commissures: number[][]; anterior: number[][]; tips: number[][] };
   findings: Finding[];
 }
 export const imported = signal<Imported | null>(null);
+/** The surface that is shown instead of a valve. */
+export const surface = computed(() => {
+  const { value } = imported;
+  return value && !value.findings.length ? value : null;
+});
 /** Which points the next clicks on the surface set. */
 export const importing = signal<keyof Imported['points']>('commissures');
 export const dialog = signal<'keys' | 'report' | 'about' | 'recover' | 'notes' | null>(null);
@@ -116,14 +125,22 @@ export function topologyOf(picture: Picture): Topology | undefined {
   return topologies.get(picture.topology);
 }
 
-/** The figures beside the picture: those of the preview if there is one. */
-export const figures = computed<Figures | null>(() => (preview.value ?? main.value)?.figures ?? null);
-/** The figures before the preview, or before the whole plan. */
-export const before = computed<Figures | null>(() => {
-  if (preview.value) return main.value?.figures ?? null;
-  const begin = first.value?.figures;
-  return begin && begin.hash !== main.value?.figures.hash ? begin : null;
+/** The valve before the preview, or before the whole plan. */
+export const earlier = computed<Shown | null>(() => {
+  if (preview.value) return main.value;
+  const begin = first.value;
+  return begin && begin.figures.hash !== main.value?.figures.hash ? begin : null;
 });
+export const inPast = computed(() => past.value && !!earlier.value);
+/** The valve of picture and figures: the preview if there is one, or the valve before. */
+export const shown = computed<Shown | null>(() =>
+  inPast.value ? earlier.value : (preview.value ?? main.value),
+);
+export const figures = computed<Figures | null>(() => shown.value?.figures ?? null);
+/** The figures to compare with. */
+export const before = computed<Figures | null>(() =>
+  inPast.value ? null : (earlier.value?.figures ?? null),
+);
 /** The kind of stitches. */
 const suture = 7;
 /** The chord that the preview adds; stitches of a clip or a suture do not count. */
@@ -133,8 +150,12 @@ export const added = computed(() => {
 });
 /** What is shown belongs to an older form than the present one: its shape is still to come. */
 export const outdated = computed(() => pending.value && previewed.value !== draft.value);
-export const picture = computed<Picture | null>(
-  () => motion.value?.picture ?? (preview.value ?? main.value)?.picture ?? null,
-);
+export const picture = computed<Picture | null>(() => motion.value?.picture ?? shown.value?.picture ?? null);
 export const canUndo = computed(() => main.value?.figures.history.some((entry) => !entry.undone) ?? false);
 export const canRedo = computed(() => main.value?.figures.history.some((entry) => entry.undone) ?? false);
+
+/** Returns from the valve before to the present one as soon as something happens to that. */
+effect(() => {
+  const watched = [main, preview, motion, draft, imported].map((value) => value.value);
+  if (watched) past.value = false;
+});

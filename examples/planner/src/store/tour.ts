@@ -1,8 +1,9 @@
 // The tour: opening its valves, and measuring how far a sealed valve opens, which is one of the goals.
 import { effect } from '@preact/signals';
+import { shippedVertices } from '../shipped';
 import { tourTexts } from '../text/texts';
 import type { FoundingResult } from '../protocol';
-import { openShipped, shippedVertices } from './files';
+import { openShipped } from './files';
 import { measureCost } from './measure';
 import { openingOf } from './opening';
 import { fail, request } from './requests';

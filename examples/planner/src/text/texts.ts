@@ -146,8 +146,11 @@ export function say(sentence: string): string {
   return sentence
     .replace(
       /(-?\d+(?:\.\d+)?(?:e-?\d+)?) m\b(?![m²/])/g,
-      (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
+      (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
+    .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
+    .replace(/\bmm2\b/g, 'mm²')
+    .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
     .replace(/^mvs_\w+: /, '');
 }
 
@@ -177,12 +180,12 @@ export const t = {
     `Surface with ${triangles} triangles. Mark both commissures, then build the valve.`,
   statusLine: (f: Figures) =>
     f.measures.orifice > 0
-      ? `${grade(f.measures.orifice).word}: ${number(f.measures.orifice)} mm² at ${where(f)}. Coaptation ${number(f.measures.coaptationMean)} mm.`
+      ? `${grade(f.measures.orifice).word}: ${number(f.measures.orifice)} mm² at ${where(f)}. Coaptation ${number(f.measures.coaptationMean)} mm.`
       : f.measures.atRest
-        ? `Sealed. Coaptation ${number(f.measures.coaptationMean)} mm.`
+        ? `Sealed. Coaptation ${number(f.measures.coaptationMean)} mm.`
         : 'The valve did not come to rest.',
   previewLine: (f: Figures) =>
-    `Preview: ${f.measures.orifice > 0 ? `${grade(f.measures.orifice).word}, ${number(f.measures.orifice)} mm²` : 'sealed'}.`,
+    `Preview: ${f.measures.orifice > 0 ? `${grade(f.measures.orifice).word}, ${number(f.measures.orifice)} mm²` : 'sealed'}.`,
 };
 
 export const kinds = ['Other', 'Marginal', 'Rough zone', 'Strut', 'Basal', 'Commissural', 'Trunk', 'Suture'];
@@ -221,31 +224,31 @@ export const tourTexts = {
     {
       title: 'Valve 1: dilated, and a long strut chord',
       story:
-        'The annulus is 15 % too large, and a strut chord of the anterior leaflet is 25 % too long. The leaflets do not meet.',
+        'The annulus is 15 % too large, and a strut chord of the anterior leaflet is 25 % too long. The leaflets do not meet.',
       chord: 'A1/11',
       hint: 'Make the annulus smaller first: a ring, or “Annulus size”. If a leak remains, hold the middle of A2 with artificial chordae.',
     },
     {
       title: 'Valve 2: a short chord',
       story:
-        'A chord to A2 is 30 % too short. It holds the leaflet back, so that it cannot reach its partner.',
+        'A chord to A2 is 30 % too short. It holds the leaflet back, so that it cannot reach its partner.',
       chord: 'A2/4',
       hint: 'Look for the chord with the strongest pull under A2, turn the valve to see it from below, and lengthen it or cut it.',
     },
     {
       title: 'Valve 3: dilated, and a short chord',
-      story: 'The annulus is 10 % too large, and a chord to A2 is 33 % too short.',
+      story: 'The annulus is 10 % too large, and a chord to A2 is 33 % too short.',
       chord: 'A2/4',
       hint: 'Two faults need two steps: free the leaflet from the short chord, then bring the annulus back to its size.',
     },
   ],
   goals: {
-    sealed: 'No leak under 120 mmHg',
+    sealed: 'No leak under 120 mmHg',
     chords: (healthy: number | undefined) =>
       healthy === 0
         ? 'No chord beyond its working limit'
         : `No more chordae beyond their limit than before its illness${healthy ? ` (${healthy})` : ''}`,
-    open: 'Opens to at least 90 % of its area before its illness',
+    open: 'Opens to at least 90 % of its area before its illness',
   },
   shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens' },
   won: 'All goals reached.',
@@ -256,8 +259,9 @@ export const help = {
   keys: [
     ['1 2 3 4', 'Views: surgeon, ventricle, side, section'],
     ['Arrows, + −', 'Turn, zoom (in the picture)'],
-    ['V R P L', 'Panels: Valve, Repair, Plan, Learn'],
+    ['V R P L I', 'Panels: Valve, Repair, Plan, Learn, Import'],
     ['O', 'Open and close the valve'],
+    ['W', 'The valve before, and the present one again'],
     ['X', 'Cut the picture at the section plane'],
     ['C', 'Chordae on and off'],
     ['N', 'Names on and off'],
@@ -301,7 +305,15 @@ export const importTexts = {
   intro:
     'Mark what you know by clicking on the surface; the rest is guessed from its shape and listed afterwards. The two commissures help most.',
   unit: 'Unit of the file',
-  size: (mm: number) => `The surface is ${mm.toFixed(1)} mm wide. An open valve is 30 to 60 mm wide.`,
+  tab: 'Import',
+  kind: 'What the surface is',
+  kinds: {
+    '': 'Not known',
+    atrial: 'Atrial side of the leaflets',
+    mid: 'Middle of the leaflets',
+    skin: 'Both sides, closed',
+  },
+  size: (mm: number) => `The surface is ${mm.toFixed(1)} mm wide. An open valve is 30 to 60 mm wide.`,
   points: {
     commissures: 'Both commissures',
     anterior: 'A point of the anterior leaflet',
@@ -309,6 +321,8 @@ export const importTexts = {
     tips: 'Papillary tips',
   },
   tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
+  again: 'Change and build again',
+  kindGuessed: '; if it is not, choose what it is by “Change and build again”',
   found: 'What was found and what was guessed',
   sources: ['', 'given', 'measured', 'guessed', 'normal anatomy'],
 };
@@ -335,15 +349,16 @@ export const refusals = {
 export const verdictTexts = {
   surface: 'A surface, not a valve yet',
   preview: 'preview',
+  past: 'before',
   trying: 'trying…',
   measuring: 'Measuring…',
   notAtRest: 'Not at rest',
   notFinal: 'The valve did not come to rest; its figures are not final.',
   leak: 'mm² leak',
-  atPressure: ' at 120 mmHg',
-  was: (orifice: number) => ` was ${number(orifice)}`,
+  atPressure: ' at 120 mmHg',
+  was: (orifice: string) => ` was ${orifice}`,
   at: (place: string) => `at ${place}`,
-  meet: (length: string) => `leaflets meet over ${length} mm`,
+  meet: (length: string) => `leaflets meet over ${length} mm`,
   chordsOver: (count: number, healthy: string) =>
     `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit` +
     (healthy ? ` (before its illness: ${healthy})` : ''),
@@ -377,6 +392,10 @@ export const appTexts = {
   stopped: 'The page stopped',
   again: 'Load it again',
   picture: 'Picture of the valve',
+  compare: 'Before or now',
+  before: 'Before',
+  now: 'Now',
+  preview: 'Preview',
 };
 
 export const barTexts = {
@@ -409,17 +428,18 @@ export const barTexts = {
   ventricular: 'ventricular side',
   leak: 'leak',
   over: 'chord beyond its limit',
+  slack: 'slack chord',
 };
 
 export const valveTexts = {
   coaptationMean: 'Coaptation length, mean',
   coaptationMeanHelp:
-    'Length over which the leaflets lie against each other. Surgeons aim at 8 mm or more at A2-P2.',
+    'Length over which the leaflets lie against each other. Surgeons aim at 8 mm or more at A2-P2.',
   coaptationHeight: 'Coaptation height, A2–P2',
   tenting: 'Tenting height',
   tentingHelp: 'Deepest point of the closed leaflets below the plane of the annulus',
   prolapse: 'Prolapse above annulus',
-  prolapseHelp: 'Highest point above the surface of the annulus; more than 2 mm is prolapse',
+  prolapseHelp: 'Highest point above the surface of the annulus; more than 2 mm is prolapse',
   annulus: 'Annulus',
   ap: 'Front to back (AP)',
   cc: 'Side to side (CC)',
@@ -433,27 +453,27 @@ export const valveTexts = {
   prolapseVolume: 'Prolapse volume',
   saddle: 'Saddle height',
   angle: 'Non-planar angle',
-  stretch95: 'Leaflet stretch, 95 % below',
-  stress95: 'Leaflet stress, 95 % below',
+  stretch95: 'Leaflet stretch, 95 % below',
+  stress95: 'Leaflet stress, 95 % below',
   strongestPull: 'Strongest chord pull',
   pullOn: (head: string) => `Pull on ${head}`,
   head: (h: number) => `head ${h}`,
-  closedAt: 'Closed at 120 mmHg. Fingerprint of this valve:',
+  closedAt: 'Closed at 120 mmHg. Fingerprint of this valve:',
   howCertain: 'How certain? Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
-    `${converged} of ${members} closures at rest, ${shapes} ${shapes === 1 ? 'shape' : 'different folds'}, at most ${number(apart)} mm apart.`,
-  spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
+    `${converged} of ${members} closures at rest, ${shapes} ${shapes === 1 ? 'shape' : 'different folds'}, at most ${number(apart)} mm apart.`,
+  spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
-  openAreaHelp: 'Smallest opening at 5 mmHg',
+  openAreaHelp: 'Smallest opening at 5 mmHg',
   annulusPull: 'Pull on the annulus',
   measureOpen: 'Measure the open area',
   flow: 'Flow through the open valve',
   flowUnit: 'ml/s',
-  flowHint: 'Mean flow while the ventricle fills, about 200 ml/s at rest. Without it there is no gradient.',
+  flowHint: 'Mean flow while the ventricle fills, about 200 ml/s at rest. Without it there is no gradient.',
   gradient: 'Mean pressure gradient',
   gradientHelp:
-    'Pressure lost by the flow through the open area; more than 5 mmHg is too much after a repair',
+    'Pressure lost by the flow through the open area; more than 5 mmHg is too much after a repair',
 };
 
 export const tableTexts = {
@@ -481,11 +501,11 @@ export const deviceTexts = {
   device: 'Device',
   figures: 'Figures',
   ring: (cc: number, ap: number, round: number) =>
-    `${number(cc)} mm wide, ${number(ap)} mm front to back, ${number(round, 0)} mm around`,
-  band: (length: number) => `${number(length, 0)} mm long`,
-  clip: (stitches: number, pull: number) => `${stitches} stitches, strongest pull ${number(pull, 2)} N`,
+    `${number(cc)} mm wide, ${number(ap)} mm front to back, ${number(round, 0)} mm around`,
+  band: (length: number) => `${number(length, 0)} mm long`,
+  clip: (stitches: number, pull: number) => `${stitches} stitches, strongest pull ${number(pull, 2)} N`,
   neochord: (chord: { rest: number; tension: number; heads: string; scallops: string }) =>
-    `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${number(chord.tension, 2)} N` : 'slack'}`,
+    `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${number(chord.tension, 2)} N` : 'slack'}`,
 };
 
 export const formTexts = {
@@ -502,9 +522,9 @@ export const formTexts = {
   change: (was: number, now: number) =>
     Math.abs(now - was) < 0.06
       ? 'as at present'
-      : `was ${number(was)} mm, ${now < was ? 'shorter' : 'longer'} by ${number(Math.abs(now - was))} mm`,
+      : `was ${number(was)} mm, ${now < was ? 'shorter' : 'longer'} by ${number(Math.abs(now - was))} mm`,
   sizeFrom: (cc: number) =>
-    `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
+    `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
   leftEmpty: (fallback: string) => `left empty: ${fallback}`,
   auto: 'auto',
   choose: 'choose…',
@@ -515,7 +535,7 @@ export const formTexts = {
   along: 'Along the scallop',
   height: 'From annulus to free edge',
   axes: ['Towards the front', 'To the side', 'Towards the atrium'],
-  axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
+  axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
 };
 
 /** Names in the picture of what can be dragged. */
@@ -527,7 +547,7 @@ export const markTexts = {
 
 export const openingTexts = {
   opens: (area: number | undefined) =>
-    `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
+    `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
   beside: (before: number | undefined, least: number | null) =>
     [
       before === undefined ? '' : `was ${number(before / 100, 2)}`,
@@ -535,7 +555,7 @@ export const openingTexts = {
     ]
       .filter(Boolean)
       .join(', '),
-  help: 'Smallest opening of the valve at 5 mmHg after this operation; a ring or clip narrows it.',
+  help: 'Smallest opening of the valve at 5 mmHg after this operation; a ring or clip narrows it.',
 };
 
 export const pointTexts = {
@@ -571,9 +591,8 @@ export const repairTexts = {
   pull: 'Pull',
   stretch: 'Stretch',
   slack: 'slack',
-  ofLimit: (stretch: number, share: number) =>
-    `${number(100 * stretch)} %, ${Math.round(100 * share)} % of its limit`,
-  becomes: (was: string, now: string) => `${was}, now ${now}`,
+  limit: 'Load, of its limit',
+  becomes: (was: string, now: string) => `${was} → ${now}`,
   changeLength: 'Change length',
   cut: 'Cut',
   transfer: 'Transfer',
@@ -596,7 +615,8 @@ export const planTexts = {
   checkpoints: 'Checkpoints',
   checkpointName: 'Name of the checkpoint',
   planOf: (k: number) => `Plan ${k}`,
-  keep: 'Keep',
+  keep: 'Keep this plan',
+  files: 'Save and report',
   returnTo: 'Return to it',
   compare: 'Compare',
   present: 'Present plan',
@@ -633,16 +653,17 @@ export const reportTexts = {
   title: 'Report',
   fileTitle: 'Valve report',
   fileName: (title: string) => `${title || 'valve'} report.html`,
-  closed: (when: string) => `${when}. Closed at 120 mmHg.`,
+  closed: (when: string) => `${when}. Closed at 120 mmHg.`,
   before: 'Before',
   after: 'After',
+  views: { surgeon: 'From the atrium', ventricle: 'From the ventricle' },
   plan: 'Plan',
   nothing: 'Nothing was done.',
   figures: 'Figures',
   notes: 'Notes',
   foot: (version: string, hash: string) =>
     `libmvs ${version}, fingerprint ${hash}. Research simulator: not for decisions on treatment.`,
-  gradient: (flow: number) => `Mean pressure gradient at ${number(flow, 0)} ml/s`,
+  gradient: (flow: number) => `Mean pressure gradient at ${number(flow, 0)} ml/s`,
   save: 'Save as HTML',
   print: 'Print',
   verdict: (word: string, place: string) => word + (place ? ` at ${place}` : ''),
@@ -663,16 +684,16 @@ export const sectionTexts = {
   label: 'Section through the leaflets',
   posterior: 'posterior',
   anterior: 'anterior',
-  scale: '10 mm',
+  scale: '10 mm',
   healthy: 'healthy',
   now: 'now',
   before: 'before',
   preview: 'preview',
-  plane: (mm: number) => `Plane, from the middle: ${mm.toFixed(1)} mm`,
+  plane: (mm: number) => `Plane, from the middle: ${mm.toFixed(1)} mm`,
   cut: 'Cut the picture at this plane',
 };
 
 export const gestureTexts = {
   chord: (name: string, length: number, tension: number) =>
-    `${name}: ${number(length)} mm without pull, pull ${number(tension, 2)} N`,
+    `${name}: ${number(length)} mm without pull, pull ${number(tension, 2)} N`,
 };

@@ -1,11 +1,11 @@
 // The page: bar, picture, panels, dialogs, keys.
-import { useEffect, useRef } from 'preact/hooks';
+import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { apply, discard, pickField } from '../store/edit';
 import { openFile } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { appTexts, help, t } from '../text/texts';
+import { appTexts, help, importTexts, t } from '../text/texts';
 import { clipKey } from '../view/clip';
 import type { MapName } from '../view/colours';
 import { maps } from '../view/colours';
@@ -25,22 +25,28 @@ let viewport: Viewport | null = null;
 export const view = (): Viewport | null => viewport;
 const go = (preset: Preset): void => viewport?.go(preset);
 
-const panels: [state.Panel, string, string][] = [
+type Tab = [state.Panel, string, string];
+const panels: Tab[] = [
   ['valve', appTexts.valve, 'V'],
   ['repair', appTexts.repair, 'R'],
   ['plan', appTexts.plan, 'P'],
   ['tour', appTexts.tour, 'L'],
 ];
+/** The panel of an import, as long as there is one. */
+const importTab: Tab = ['import', importTexts.tab, 'I'];
+const tabs = (): Tab[] => (state.imported.value ? [...panels, importTab] : panels);
 
 function Panels() {
   const panel = state.panel.value;
   const body = useRef<HTMLDivElement>(null);
   // another panel or form begins at its top
   const form = state.draft.value?.kind;
-  useEffect(() => body.current?.scrollTo(0, 0), [panel, form]);
+  const findings = state.imported.value?.findings;
+  useEffect(() => body.current?.scrollTo(0, 0), [panel, form, findings]);
   const steps = (by: number) => {
-    const k = panels.findIndex(([name]) => name === panel);
-    state.panel.value = panels[(k + by + panels.length) % panels.length][0];
+    const all = tabs();
+    const k = all.findIndex(([name]) => name === panel);
+    state.panel.value = all[(k + by + all.length) % all.length][0];
     requestAnimationFrame(() => document.getElementById(`tab-${state.panel.value}`)?.focus());
   };
   return (
@@ -64,7 +70,7 @@ function Panels() {
           else if (event.key === 'ArrowLeft') steps(-1);
         }}
       >
-        {panels.map(([name, text, key]) => (
+        {tabs().map(([name, text, key]) => (
           <button
             type="button"
             role="tab"
@@ -106,9 +112,26 @@ function Busy() {
   );
 }
 
+/** The valve before in picture and figures, to compare. */
+function Compare() {
+  if (!state.earlier.value || state.motion.value || state.surface.value) return null;
+  const past = state.inPast.value;
+  return (
+    <div class="compare group" role="group" aria-label={appTexts.compare}>
+      <Button keys="W" pressed={past} onClick={() => (state.past.value = true)}>
+        {appTexts.before}
+      </Button>
+      <Button keys="W" pressed={!past} onClick={() => (state.past.value = false)}>
+        {state.preview.value ? appTexts.preview : appTexts.now}
+      </Button>
+    </div>
+  );
+}
+
 function Picture() {
   const host = useRef<HTMLDivElement>(null);
-  useEffect(() => {
+  // before the page is painted for the first time: the valve is in that picture
+  useLayoutEffect(() => {
     const wanted = /#(webgl|software)/.exec(location.hash)?.[1] ?? '';
     viewport = new Viewport(host.current!, wanted as 'webgl' | 'software' | '');
     Object.assign(window, { planner: { state, viewport } });
@@ -129,6 +152,7 @@ function Picture() {
         {help.picture}
       </p>
       <Scale />
+      <Compare />
       <Busy />
       <ViewBar go={go} />
     </main>
@@ -173,10 +197,11 @@ function onKey(event: KeyboardEvent): void {
     return go(views[key]);
   }
   if (clipKey(key)) return;
-  const panel = panels.find(([, , letter]) => letter.toLowerCase() === key);
+  const panel = tabs().find(([, , letter]) => letter.toLowerCase() === key);
   if (panel) state.panel.value = panel[0];
   else if (key === 'o' && state.main.value && !state.draft.value)
     void openTo(state.openness.value >= 1 ? 0 : 1);
+  else if (key === 'w') state.past.value = !state.inPast.value;
   else if (key === 'x') state.sectionOn.value = !state.sectionOn.value;
   else if (key === 'c') state.chordsOn.value = !state.chordsOn.value;
   else if (key === 'n') state.labelsOn.value = !state.labelsOn.value;

@@ -55,7 +55,7 @@ function devicesOf(topology: Topology, picture: Picture, figures: Figures): Devi
 }
 
 export function Devices({ figures }: { figures: Figures }) {
-  const picture = (state.preview.value ?? state.main.value)?.picture;
+  const picture = state.shown.value?.picture;
   const topology = picture && state.topologyOf(picture);
   const devices = picture && topology ? devicesOf(topology, picture, figures) : [];
   if (!devices.length) return null;

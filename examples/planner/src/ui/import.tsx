@@ -2,7 +2,8 @@
 import { Hammer } from 'lucide-preact';
 import { beginImport, buildValve } from '../store/files';
 import * as state from '../store/state';
-import { importTexts } from '../text/texts';
+import type { SurfaceKind } from '../protocol';
+import { importTexts, say } from '../text/texts';
 import { Button } from './parts';
 
 const kinds = ['commissures', 'anterior', 'annulus', 'tips'] as const;
@@ -30,9 +31,27 @@ export function ImportPanel() {
         </select>
         <small>{importTexts.size(extent(imported.surface.points))}</small>
       </div>
+      <div class="field">
+        <label for="surface-kind">{importTexts.kind}</label>
+        <select
+          id="surface-kind"
+          value={imported.kind}
+          onChange={(event) =>
+            (state.imported.value = { ...imported, kind: event.currentTarget.value as SurfaceKind })
+          }
+        >
+          {Object.entries(importTexts.kinds).map(([kind, words]) => (
+            <option value={kind}>{words}</option>
+          ))}
+        </select>
+      </div>
       {kinds.map((kind) => (
-        <div class="row">
-          <Button pressed={state.importing.value === kind} onClick={() => (state.importing.value = kind)}>
+        <div class="row points">
+          <Button
+            icon={<i class={`key key-point-${kind}`} />}
+            pressed={state.importing.value === kind}
+            onClick={() => (state.importing.value = kind)}
+          >
             {importTexts.points[kind]}
           </Button>
           <span class="hint">
@@ -74,7 +93,8 @@ function extent(points: Float32Array): number {
 }
 
 function Findings() {
-  const { findings, name } = state.imported.value!;
+  const imported = state.imported.value!;
+  const { findings, name } = imported;
   return (
     <div class="panel-body">
       <h2>{importTexts.found}</h2>
@@ -84,10 +104,15 @@ function Findings() {
           <li class={`source-${finding.source}`}>
             <strong>{finding.name.replace(/_/g, ' ')}</strong>{' '}
             <span class="tag">{importTexts.sources[finding.source]}</span>
-            <p>{finding.sentence}</p>
+            <p>{say(finding.sentence)}</p>
           </li>
         ))}
       </ul>
+      <div class="form-foot">
+        <Button onClick={() => (state.imported.value = { ...imported, findings: [] })}>
+          {importTexts.again}
+        </Button>
+      </div>
     </div>
   );
 }

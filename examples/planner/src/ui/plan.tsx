@@ -63,6 +63,7 @@ export function PlanPanel() {
         >
           <input
             type="text"
+            class="checkpoint-name"
             maxLength={40}
             aria-label={planTexts.checkpointName}
             placeholder={planTexts.planOf(state.checkpoints.value.length + 1)}
@@ -98,7 +99,7 @@ export function PlanPanel() {
           onInput={(event) => (state.notes.value = event.currentTarget.value)}
         />
       </Section>
-      <Section title={planTexts.keep} open>
+      <Section title={planTexts.files} open>
         <div class="row">
           <Button kind="main" icon={<Save size={16} />} keys="Control+S" onClick={() => void saveSession()}>
             {planTexts.save}

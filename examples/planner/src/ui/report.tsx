@@ -5,7 +5,8 @@ import { Download, Printer } from 'lucide-preact';
 import { download } from '../store/keep';
 import * as state from '../store/state';
 import { figure, figureNames, grade, reportTexts, say, valveTexts, where } from '../text/texts';
-import type { Figures, Shown } from '../protocol';
+import type { Cost, Figures } from '../protocol';
+import { openingOf } from '../store/opening';
 import { view } from './app';
 import { Modal } from './dialogs';
 import { Button } from './parts';
@@ -15,7 +16,9 @@ interface Pictures {
   after: string[];
 }
 
-/** Surgeon's view and ventricle of both valves; the page shows the present valve again afterwards. */
+const views = ['surgeon', 'ventricle'] as const;
+
+/** Surgeon's view and ventricle of both valves at one scale; the page shows the present valve again afterwards. */
 function takePictures(): Pictures {
   const viewport = view()!;
   const { camera } = viewport;
@@ -25,24 +28,36 @@ function takePictures(): Pictures {
     distance: camera.distance,
   };
   const now = state.main.value!;
-  const section = state.sectionOn.value;
+  const [section, choice] = [state.sectionOn.value, state.choice.value];
   state.sectionOn.value = false;
-  const take = (shown: Shown) => {
+  state.choice.value = null;
+  const valves = [state.first.value ?? now, now];
+  const distances = views.map((preset) =>
+    Math.max(
+      ...valves.map((shown) => {
+        state.main.value = shown;
+        viewport.go(preset, true);
+        return camera.distance;
+      }),
+    ),
+  );
+  const [before, after] = valves.map((shown) => {
     state.main.value = shown;
-    return (['surgeon', 'ventricle'] as const).map((preset) => {
+    return views.map((preset, k) => {
       viewport.go(preset, true);
+      camera.distance = distances[k];
       viewport.touchScene();
       return viewport.snapshot();
     });
-  };
-  const pictures = { before: take(state.first.value ?? now), after: take(now) };
+  });
   state.main.value = now;
   state.sectionOn.value = section;
+  state.choice.value = choice;
   camera.target.copy(kept.target);
   camera.orientation.copy(kept.orientation);
   camera.distance = kept.distance;
   viewport.touchScene();
-  return pictures;
+  return { before, after };
 }
 
 const rows: [string, (f: Figures) => number, number, string][] = [
@@ -65,16 +80,17 @@ function verdictOf(figures: Figures): string {
   return reportTexts.verdict(grade(figures.measures.orifice).word, where(figures));
 }
 
-/** Open area and gradient of the present valve, if they were measured. */
-function openingRows(now: Figures): string {
-  const cost = state.cost.value?.hash === now.hash ? state.cost.value.value : null;
-  if (!cost) return '';
-  const row = (label: string, value: string) =>
-    `<tr><th>${escape(label)}</th><td></td><td>${escape(value)}</td></tr>`;
+/** Open areas, and the gradient of the present valve, if they were measured. */
+function openingRows(then: Figures, now: Figures): string {
+  const [before, after] = [openingOf(then.hash), openingOf(now.hash)];
+  if (!after) return '';
+  const row = (label: string, was: string, value: string) =>
+    `<tr><th>${escape(label)}</th><td>${escape(was)}</td><td>${escape(value)}</td></tr>`;
+  const area = (cost: Cost | null) => (cost ? `${figure(cost.openArea / 100, 2)} cm²` : '');
   return (
-    row(valveTexts.openArea, `${figure(cost.openArea / 100, 2)} cm²`) +
-    (Number.isFinite(cost.gradient)
-      ? row(reportTexts.gradient(state.flow.value ?? 0), `${figure(cost.gradient)} mmHg`)
+    row(valveTexts.openArea, area(before), area(after)) +
+    (Number.isFinite(after.gradient)
+      ? row(reportTexts.gradient(state.flow.value ?? 0), '', `${figure(after.gradient)} mmHg`)
       : '')
   );
 }
@@ -83,19 +99,26 @@ function openingRows(now: Figures): string {
 function reportHtml(pictures: Pictures): string {
   const now = state.main.value!.figures;
   const then = (state.first.value ?? state.main.value!).figures;
-  const images = (list: string[]) => list.map((source) => `<img src="${source}" alt="">`).join('');
+  const images = (list: string[]) =>
+    list
+      .map((source, k) => {
+        const caption = reportTexts.views[views[k]];
+        return `<figure><img src="${source}" alt="${caption}"><figcaption>${caption}</figcaption></figure>`;
+      })
+      .join('');
+  const date = new Date().toLocaleString(undefined, { dateStyle: 'long', timeStyle: 'short' });
   const steps = now.history
     .filter((entry) => !entry.undone)
     .map((entry) => `<li>${escape(say(entry.title))}</li>`)
     .join('');
-  const opening = openingRows(now);
+  const opening = openingRows(then, now);
   const table = rows
     .map(
       ([label, get, digits, unit]) =>
         `<tr><th>${escape(label)}</th><td>${figure(get(then), digits)} ${unit}</td><td>${figure(get(now), digits)} ${unit}</td></tr>`,
     )
     .join('');
-  return `<h1>${escape(state.title.value || now.valve)}</h1><p>${reportTexts.closed(new Date().toLocaleString())}</p>
+  return `<h1>${escape(state.title.value || now.valve)}</h1><p>${reportTexts.closed(date)}</p>
 <div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>
 <section><h2>${reportTexts.after}</h2><p>${escape(verdictOf(now))}</p>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
@@ -105,7 +128,7 @@ ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.valu
 }
 
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
-.pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px;margin:.2rem 0}
+.pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
 table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400}`;
 
 export function ReportDialog() {
@@ -119,18 +142,22 @@ export function ReportDialog() {
       reportTexts.fileName(state.title.value),
       'text/html',
     );
+  // the markup is made above; texts of the user are escaped there
+  const body = { __html: html.value };
   return (
-    <Modal title={reportTexts.title} wide>
-      <div class="row no-print">
-        <Button kind="main" icon={<Download size={16} />} onClick={save}>
-          {reportTexts.save}
-        </Button>
-        <Button icon={<Printer size={16} />} onClick={() => window.print()}>
-          {reportTexts.print}
-        </Button>
-      </div>
-      {/* the markup is made above; texts of the user are escaped there */}
-      <div class="report" data-testid="report" dangerouslySetInnerHTML={{ __html: html.value }} />
-    </Modal>
+    <>
+      <Modal title={reportTexts.title} wide>
+        <div class="row">
+          <Button kind="main" icon={<Download size={16} />} onClick={save}>
+            {reportTexts.save}
+          </Button>
+          <Button icon={<Printer size={16} />} onClick={() => window.print()}>
+            {reportTexts.print}
+          </Button>
+        </div>
+        <div class="report" data-testid="report" dangerouslySetInnerHTML={body} />
+      </Modal>
+      <div class="report paper" dangerouslySetInnerHTML={body} />
+    </>
   );
 }

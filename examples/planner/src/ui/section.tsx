@@ -11,8 +11,9 @@ interface Curve {
   name: string;
 }
 
+/** Anterior to the left, as in the view of the section. */
 function lines(points: Section): string {
-  const put = (i: number) => `${points[i].toFixed(2)} ${(-points[i + 1]).toFixed(2)}`;
+  const put = (i: number) => `${(-points[i]).toFixed(2)} ${(-points[i + 1]).toFixed(2)}`;
   let path = '';
   for (let i = 0; i < points.length; i += 4) path += `M${put(i)}L${put(i + 2)}`;
   return path;
@@ -65,11 +66,11 @@ export function SectionPlot() {
     <div class={outdated ? 'outdated' : ''} aria-busy={outdated}>
       <svg class="plot" viewBox="-26 -12 52 36" role="img" aria-label={sectionTexts.label}>
         <line x1="-24" y1="0" x2="24" y2="0" class="plot-axis" />
-        <text x="-25" y="-1" class="plot-text">
-          {sectionTexts.posterior}
-        </text>
-        <text x="25" y="-1" text-anchor="end" class="plot-text">
+        <text x="-25" y="-9" class="plot-text">
           {sectionTexts.anterior}
+        </text>
+        <text x="25" y="-9" text-anchor="end" class="plot-text">
+          {sectionTexts.posterior}
         </text>
         {curves.value.map((curve) => (
           <path d={lines(curve.points)} class={`plot-${curve.style}`} />

@@ -76,10 +76,9 @@ export function TopBar() {
 
 /** What is shown: a file, a valve of the tour, the shipped valve. */
 function PresentValve() {
-  const { tour, imported, title } = state;
-  const surface = imported.value && !imported.value.findings.length;
-  const name = surface
-    ? imported.value!.name
+  const { tour, surface, title } = state;
+  const name = surface.value
+    ? surface.value.name
     : tour.value
       ? tourTexts.present(tour.value.number)
       : title.value || state.figures.value?.valve;
@@ -93,6 +92,8 @@ function PresentValve() {
 const presets = Object.entries(barTexts.presets) as [Preset, string][];
 
 export function ViewBar(props: { go: (preset: Preset) => void }) {
+  // a surface has views, and nothing else of a valve
+  const surface = !!state.surface.value;
   return (
     <div class="viewbar">
       <div class="group" role="group" aria-label={barTexts.view}>
@@ -100,6 +101,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           <Button
             keys={String(k + 1)}
             title={barTexts.viewOf(name)}
+            disabled={surface && preset === 'section'}
             onClick={() => {
               if (preset === 'section') state.sectionOn.value = true;
               props.go(preset);
@@ -118,7 +120,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           step="0.02"
           value={state.openness.value}
           aria-label={barTexts.opening}
-          disabled={!state.main.value || !!state.draft.value}
+          disabled={!state.main.value || !!state.draft.value || surface}
           onInput={(event) => void openTo(+event.currentTarget.value)}
         />
         <span>{barTexts.closed}</span>
@@ -130,6 +132,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           label={barTexts.cut}
           keys="X"
           pressed={state.sectionOn.value}
+          disabled={surface}
           onClick={() => (state.sectionOn.value = !state.sectionOn.value)}
         >
           {barTexts.words.cut}
@@ -140,6 +143,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           label={barTexts.chordae}
           keys="C"
           pressed={state.chordsOn.value}
+          disabled={surface}
           onClick={() => (state.chordsOn.value = !state.chordsOn.value)}
         >
           {barTexts.words.chordae}
@@ -150,6 +154,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           label={barTexts.names}
           keys="N"
           pressed={state.labelsOn.value}
+          disabled={surface}
           onClick={() => (state.labelsOn.value = !state.labelsOn.value)}
         >
           {barTexts.words.names}
@@ -171,7 +176,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           label={barTexts.grasp}
           keys="G"
           pressed={state.tool.value === 'grasp'}
-          disabled={!!state.draft.value}
+          disabled={!!state.draft.value || surface}
           onClick={() => (state.tool.value = 'grasp')}
         >
           {barTexts.words.grasp}
@@ -182,7 +187,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           label={barTexts.push}
           keys="B"
           pressed={state.tool.value === 'push'}
-          disabled={!!state.draft.value}
+          disabled={!!state.draft.value || surface}
           onClick={() => (state.tool.value = 'push')}
         >
           {barTexts.words.push}
@@ -192,6 +197,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         <select
           value={state.map.value}
           aria-label={barTexts.colours}
+          disabled={surface}
           onChange={(event) => (state.map.value = event.currentTarget.value as MapName)}
         >
           {Object.entries(mapWords).map(([name, words]) => (
@@ -206,23 +212,29 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
 /** The scale of the colour map, in its unit. */
 export function Scale() {
   const name = state.map.value;
-  if (name === 'tissue') {
+  const surface = !!state.surface.value;
+  if (name === 'tissue' || surface) {
     return (
-      <div class="scale" aria-hidden="true">
+      <div class="scale tissue" aria-hidden="true">
         <span>
           <i class="key key-atrial" /> {barTexts.atrial}
         </span>
         <span>
           <i class="key key-ventricular" /> {barTexts.ventricular}
         </span>
-        {(state.figures.value?.measures.orifice ?? 0) > 0 && (
+        {!surface && (state.figures.value?.measures.orifice ?? 0) > 0 && (
           <span>
             <i class="key key-orifice" /> {barTexts.leak}
           </span>
         )}
-        {(state.figures.value?.measures.chordsOver ?? 0) > 0 && (
+        {!surface && (state.figures.value?.measures.chordsOver ?? 0) > 0 && (
           <span>
             <i class="key key-over" /> {barTexts.over}
+          </span>
+        )}
+        {!surface && state.chordsOn.value && state.picture.value?.chordTaut.some((strain) => strain < 0) && (
+          <span>
+            <i class="key key-slack" /> {barTexts.slack}
           </span>
         )}
       </div>

@@ -6,7 +6,7 @@ import type { Figures } from '../protocol';
 
 export function Verdict() {
   const figures = state.figures.value;
-  const surface = state.imported.value && !state.imported.value.findings.length;
+  const surface = state.surface.value;
   if (!figures || surface)
     return (
       <div class="verdict waiting" data-testid="verdict">
@@ -18,7 +18,13 @@ export function Verdict() {
   const shape = figures.known === 'shape';
   const graded = m.atRest && m.underLoad && !shape;
   const { level, word } = grade(m.orifice);
-  const tag = state.outdated.value ? words.trying : state.preview.value ? words.preview : '';
+  const tag = state.inPast.value
+    ? words.past
+    : state.outdated.value
+      ? words.trying
+      : state.preview.value
+        ? words.preview
+        : '';
   return (
     <div
       class={`verdict level-${graded ? level : 'none'}${state.outdated.value ? ' outdated' : ''}`}
@@ -52,6 +58,9 @@ function comparison(): string {
   return value ? String(value.founding?.healthy.measures.chordsOver ?? '…') : '';
 }
 
+/** Digits of a leak in mm2. */
+const digits = (orifice: number): number => (orifice > 0 && orifice < 10 ? 1 : 0);
+
 /** The size of the leak and its place, or how far the leaflets meet; dots stand for what is still to come. */
 function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
   const words = verdictTexts;
@@ -61,12 +70,14 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
     <>
       <div class="verdict-figure">
         <span class="big" data-testid="orifice">
-          {figures.known === 'shape' ? '…' : figure(orifice, orifice > 0 && orifice < 10 ? 1 : 0)}
+          {figures.known === 'shape' ? '…' : figure(orifice, digits(orifice))}
         </span>{' '}
         {words.leak}
         {orifice === 0 && graded && words.atPressure}
         {before && Math.abs(before.measures.orifice - orifice) > 0.05 && (
-          <span class="was">{words.was(before.measures.orifice)}</span>
+          <span class="was">
+            {words.was(figure(before.measures.orifice, digits(before.measures.orifice)))}
+          </span>
         )}
       </div>
       {graded && (

@@ -85,26 +85,6 @@ export class Camera {
     this.goal = { orientation, target, distance: (room * radius) / Math.tan(this.fov / 2) / narrow };
   }
 
-  /** Turns to a surface of unknown orientation: along its shortest axis of the coordinates, whole in the picture. */
-  lookAtBox(points: Float32Array, triangles: Uint32Array): void {
-    this.goal = null;
-    const low = [Infinity, Infinity, Infinity];
-    const high = [-Infinity, -Infinity, -Infinity];
-    for (const node of triangles) {
-      for (let c = 0; c < 3; ++c) {
-        low[c] = Math.min(low[c], points[3 * node + c]);
-        high[c] = Math.max(high[c], points[3 * node + c]);
-      }
-    }
-    const size = high.map((v, c) => v - low[c]);
-    this.target.set(...(low.map((v, c) => 0.5 * (v + high[c])) as [number, number, number]));
-    const axis = size.indexOf(Math.min(...size));
-    const z = new Vector3().setComponent(axis, 1);
-    const y = new Vector3().setComponent((axis + 2) % 3, 1);
-    this.orientation.setFromRotationMatrix(new Matrix4().makeBasis(new Vector3().crossVectors(y, z), y, z));
-    this.distance = (0.75 * Math.max(...size)) / Math.tan(this.fov / 2);
-  }
-
   /** Moves towards the goal by the time that has passed, s; false when there is nothing to do. */
   advance(seconds: number): boolean {
     if (!this.goal) return false;

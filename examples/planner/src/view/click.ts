@@ -49,8 +49,8 @@ function choose(choice: state.Choice | null): void {
 }
 
 export function click(view: Viewport, p: Place, hit: Hit | null): void {
-  const imported = state.imported.value;
-  if (imported && view.surface) return markImport(view, imported, p);
+  const surface = state.surface.value;
+  if (surface && view.surface) return markImport(view, surface, p);
   const picture = state.picture.value;
   const topology = picture && state.topologyOf(picture);
   if (!hit || !topology || state.motion.value) return;

@@ -8,7 +8,7 @@ export const tissue = {
   ventricularAnterior: [0.62, 0.66, 0.8] as Colour,
   ventricularPosterior: [0.54, 0.6, 0.76] as Colour,
   chord: [0.95, 0.91, 0.8] as Colour,
-  slack: [0.78, 0.8, 0.82] as Colour,
+  slack: [0.6, 0.64, 0.68] as Colour,
   strut: [0.98, 0.95, 0.86] as Colour,
   over: [0.9, 0.38, 0.0] as Colour,
   suture: [0.16, 0.45, 0.75] as Colour,

@@ -48,7 +48,7 @@ export class Gestures {
   }
 
   private hit(p: Place, reach: number): Hit | null {
-    if (this.view.surface) return null;
+    if (this.view.surface || state.inPast.value) return null;
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
     if (!picture || !topology) return null;

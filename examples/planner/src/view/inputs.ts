@@ -3,7 +3,7 @@ import * as state from '../store/state';
 
 /** Whatever the scene is made of: it is built anew where one of these changes. */
 export function sceneInputs(): unknown[] {
-  const figures = (state.preview.value ?? state.main.value)?.figures;
+  const figures = state.figures.value;
   return [
     state.picture.value,
     state.motion.value,

@@ -21,7 +21,7 @@ const arrows: Record<string, [number, number]> = {
 
 /** Whether a click in the picture answers a question. */
 function asked(): boolean {
-  return !!state.picking.value || (!!state.imported.value && !state.imported.value.findings.length);
+  return !!state.picking.value || !!state.surface.value;
 }
 
 export class KeyPointer {

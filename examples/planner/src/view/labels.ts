@@ -1,6 +1,7 @@
 // Names over the picture: scallops, papillary heads, the chosen chord, as HTML text at projected places.
 import * as state from '../store/state';
 import { figure, markTexts } from '../text/texts';
+import { Callout, type Box, type Line } from './callout';
 import { clipPlace } from './clip';
 import { pickSurface } from './pick';
 import type { Topology } from '../protocol';
@@ -10,6 +11,9 @@ interface Label {
   text: string;
   at: number[];
   kind: string;
+  /** Lies on tissue, which may be cut away. */
+  tissue?: boolean;
+  chosen?: boolean;
 }
 
 /** One label for all heads of a papillary muscle: AL1, AL2 and AL3 are AL. */
@@ -45,21 +49,26 @@ const tolerance = 4;
 export class Labels {
   private layer: HTMLElement;
   private elements: HTMLElement[] = [];
+  private readonly leader: HTMLElement;
+  private readonly callout = new Callout();
 
   constructor(host: HTMLElement) {
     this.layer = document.createElement('div');
     this.layer.className = 'labels';
     this.layer.setAttribute('aria-hidden', 'true');
+    this.leader = document.createElement('div');
+    this.leader.className = 'leader';
+    this.layer.append(this.leader);
     host.append(this.layer);
   }
 
   private wanted(view: Viewport): Label[] {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
-    const importing = state.imported.value && !state.imported.value.findings.length;
-    if (!picture || !topology || importing) return [];
+    if (!picture || !topology || state.surface.value) return [];
     const x = picture.positions;
     const labels: Label[] = [];
+    const choice = state.choice.value;
     if (state.labelsOn.value) {
       labels.push(...headLabels(topology, x));
       const sums = topology.scallops.map(() => [0, 0, 0, 0]);
@@ -70,60 +79,98 @@ export class Labels {
       }
       topology.scallops.forEach((part, s) => {
         const [a, b, c, n] = sums[s];
-        if (n) labels.push({ text: part.name, at: [a / n, b / n, c / n], kind: 'scallop' });
+        const chosen = choice?.kind === 'scallop' && choice.id === part.id;
+        const at = [a / n, b / n, c / n];
+        if (n) labels.push({ text: part.name, at, kind: 'scallop', tissue: true, chosen });
       });
     }
-    const choice = state.choice.value;
     const named = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
     const k = topology.chords.findIndex((part) => part.id === named);
     if (k >= 0) {
       const [a, b] = [topology.chordNodes[2 * k], topology.chordNodes[2 * k + 1]];
       const at = [0, 1, 2].map((c) => 0.5 * (x[3 * a + c] + x[3 * b + c]));
-      const chord = (state.preview.value ?? state.main.value)?.figures.chords[k];
+      const chord = state.figures.value?.chords[k];
       const text = chord ? `${chord.name}  ${figure(chord.rest)} mm` : topology.chords[k].name;
       labels.push({ text, at, kind: 'chord' });
     }
     return [...labels, ...handleLabels(view)];
   }
 
-  /** Whether a leaflet lies between the eye and a place. */
-  private hidden(view: Viewport, at: number[], px: number, py: number): boolean {
+  /** Whether a leaflet lies between the eye and a place, or tissue is cut away there. */
+  private hidden(view: Viewport, { at, tissue }: Label, px: number, py: number): boolean {
+    const plane = view.plane();
+    if (tissue && plane && at.reduce((sum, v, c) => sum + v * plane.normal[c], 0) > plane.offset) return true;
     const picture = state.picture.value!;
     const topology = state.topologyOf(picture)!;
-    const hit = pickSurface(
-      view.camera,
-      topology,
-      picture.positions,
-      px,
-      py,
-      view.width,
-      view.height,
-      view.plane(),
-    );
-    const eye = view.camera.position();
+    const { camera, width, height } = view;
+    const hit = pickSurface(camera, topology, picture.positions, px, py, width, height, plane);
+    const eye = camera.position();
     return !!hit && Math.hypot(at[0] - eye.x, at[1] - eye.y, at[2] - eye.z) > hit.distance + tolerance;
+  }
+
+  private elementOf(k: number, label: Label): HTMLElement {
+    let element = this.elements[k];
+    if (!element) {
+      element = document.createElement('span');
+      this.layer.append(element);
+      this.elements[k] = element;
+    }
+    if (element.textContent !== label.text) element.textContent = label.text;
+    element.className = `label label-${label.kind}${label.chosen ? ' label-chosen' : ''}`;
+    return element;
   }
 
   update(view: Viewport): void {
     const labels = this.wanted(view);
-    const taken: [number, number][] = [];
+    const taken: Box[] = [];
+    this.leader.hidden = true;
     while (this.elements.length > labels.length) this.elements.pop()!.remove();
     labels.forEach((label, k) => {
-      let element = this.elements[k];
-      if (!element) {
-        element = document.createElement('span');
-        this.layer.append(element);
-        this.elements[k] = element;
-      }
-      if (element.textContent !== label.text) element.textContent = label.text;
-      element.className = `label label-${label.kind}`;
+      const element = this.elementOf(k, label);
       const [px, py] = view.camera.project(label.at[0], label.at[1], label.at[2], view.width, view.height);
+      if (label.kind === 'chord') return this.callOut(view, element, [px, py], taken);
       // a scallop gives way to labels in front of it
-      const covered = label.kind === 'scallop' && taken.some(([x, y]) => Math.hypot(x - px, y - py) < 24);
-      const always = label.kind === 'chord' || label.kind === 'handle';
-      element.hidden = !always && (covered || this.hidden(view, label.at, px, py));
-      if (!element.hidden) taken.push([px, py]);
+      const covered =
+        label.kind === 'scallop' &&
+        taken.some(({ x, y, width, height }) => Math.hypot(x + width / 2 - px, y + height / 2 - py) < 32);
+      element.hidden = label.kind !== 'handle' && (covered || this.hidden(view, label, px, py));
+      if (!element.hidden) taken.push({ x: px - 12, y: py - 9, width: 24, height: 18 });
       element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(${label.kind === 'handle' ? '24px' : '-50%'}, -50%)`;
     });
   }
+
+  /** The label of a chord stands beside all chordae, at the end of a line. */
+  private callOut(view: Viewport, element: HTMLElement, at: [number, number], taken: Box[]): void {
+    element.hidden = false;
+    const size = { x: 0, y: 0, width: element.offsetWidth, height: element.offsetHeight };
+    const picture = { x: 0, y: 0, width: view.width, height: view.height };
+    const [x, y] = this.callout.place(at, size, chordLines(view), taken, picture);
+    element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
+    const [dx, dy] = [x - at[0], y - at[1]];
+    // the line ends at the border of the label
+    const inside = Math.min(
+      size.width / 2 / (Math.abs(dx) || 1e-9),
+      size.height / 2 / (Math.abs(dy) || 1e-9),
+    );
+    const length = Math.hypot(dx, dy) * Math.max(0, 1 - inside);
+    this.leader.hidden = false;
+    this.leader.style.width = `${length.toFixed(1)}px`;
+    this.leader.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) rotate(${Math.atan2(dy, dx).toFixed(4)}rad)`;
+  }
+}
+
+/** All chordae on the screen. */
+function chordLines(view: Viewport): Line[] {
+  const picture = state.picture.value!;
+  const { chordNodes } = state.topologyOf(picture)!;
+  const place = (node: number) => {
+    const x = picture.positions;
+    return view.camera.project(x[3 * node], x[3 * node + 1], x[3 * node + 2], view.width, view.height);
+  };
+  const lines: Line[] = [];
+  for (let k = 0; k < chordNodes.length; k += 2) {
+    const [a, b] = [place(chordNodes[k]), place(chordNodes[k + 1])];
+    lines.push([a[0], a[1], b[0], b[1]]);
+  }
+  return lines;
 }

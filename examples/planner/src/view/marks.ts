@@ -46,8 +46,7 @@ function clipMarks(shapes: Shapes, { at, arm, handle }: ClipPlace): void {
 /** All marks of the moment as one mesh, or null. */
 export function marksMesh(handle: number[] | null): Mesh | null {
   const shapes = new Shapes();
-  const imported = state.imported.value;
-  if (imported && !imported.findings.length) importMarks(shapes, imported);
+  if (state.surface.value) importMarks(shapes, state.surface.value);
   if (state.picking.value === 'outline') outlineMarks(shapes);
   const end = addedEnd();
   if (end) shapes.sphere(end, 0.8, tissue.chosen);

@@ -120,17 +120,29 @@ function chordColour(topology: Topology, picture: Picture, options: SceneOptions
   return topology.chordKind[k] === strut ? tissue.strut : tissue.chord;
 }
 
-function chordae(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+/** mm between the surface of a chord and the leaflet that it ends at. */
+const below = 0.15;
+
+/** Both ends of a chord. With the `normals` of the nodes, which point into the atrium and vanish beside the leaflets, it ends
+ *  on the side of the ventricle, and shows on no other. */
+function chordEnds(topology: Topology, picture: Picture, k: number, radius: number, normals: Float32Array) {
+  const end = topology.chordNodes[2 * k + 1];
+  const [a, b] = [point(picture.positions, topology.chordNodes[2 * k]), point(picture.positions, end)];
+  if (topology.chordKind[k] !== suture)
+    for (let c = 0; c < 3; ++c) b[c] -= (radius + below) * normals[3 * end + c];
+  return [a, b];
+}
+
+function chordae(topology: Topology, picture: Picture, options: SceneOptions, normals: Float32Array): Mesh {
   const shapes = new Shapes();
-  const x = picture.positions;
   const many = topology.chordKind.length > 1500;
   const onLeaflet = new Uint8Array(topology.nodes);
   for (const node of topology.triangles) onLeaflet[node] = 1;
   for (let k = 0; k < topology.chordKind.length; ++k) {
-    const [a, b] = [point(x, topology.chordNodes[2 * k]), point(x, topology.chordNodes[2 * k + 1])];
     const chosen = k === options.chosenChord;
     const thin = Math.min(0.75, Math.max(0.22, 0.62 * topology.chordRadius[k]));
     const radius = (many ? 0.15 : thin) * (chosen ? 1.8 : 1);
+    const [a, b] = chordEnds(topology, picture, k, radius, normals);
     shapes.tube(a, b, radius, chordColour(topology, picture, options, k), many ? 4 : 7);
     // a joint where chordae branch; on the leaflet it would show on the other side
     if (!many && onLeaflet[topology.chordNodes[2 * k + 1]] === 0)
@@ -203,9 +215,9 @@ function jets(parts: OrificePart[]): Mesh {
 }
 
 /** The chosen chord once more, through whatever hides it. */
-function throughAll(topology: Topology, picture: Picture, k: number): Mesh {
+function throughAll(topology: Topology, picture: Picture, k: number, normals: Float32Array): Mesh {
   const shapes = new Shapes();
-  const [a, b] = [0, 1].map((end) => point(picture.positions, topology.chordNodes[2 * k + end]));
+  const [a, b] = chordEnds(topology, picture, k, 0.35, normals);
   shapes.tube(a, b, 0.35, tissue.chosen);
   return shapes.mesh({ overlay: true, opacity: 0.55 });
 }
@@ -217,10 +229,11 @@ export function sceneMeshes(topology: Topology, picture: Picture, options: Scene
     seams(topology, picture),
     boundary(topology, picture, options),
   ];
-  if (options.chordsOn) meshes.push(chordae(topology, picture, options));
+  if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));
   if (picture.orificeTriangles.length) meshes.push(orifice(picture));
   if (options.jets.length) meshes.push(jets(options.jets));
-  if (options.chosenChord >= 0) meshes.push(throughAll(topology, picture, options.chosenChord));
+  if (options.chosenChord >= 0)
+    meshes.push(throughAll(topology, picture, options.chosenChord, meshes[0].normals));
   if (picture.hand) {
     const hand = new Shapes();
     hand.sphere(picture.hand.subarray(0, 3), 1.1, tissue.hand);

@@ -13,11 +13,18 @@ import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
 import { sceneMeshes } from './scene';
 import type { Mesh } from './mesh';
-import { surfaceMesh } from './surface';
+import { surfaceFrame, surfaceMesh, type SurfaceFrame } from './surface';
 import { WebGl } from './webgl';
 
 /** ms without motion until the picture is drawn in full. */
 const still = 140;
+/** Whether a field of the form is answered by a click on what the leaflets hide. */
+function hidesFromAtrium(field: string): boolean {
+  const kind = state.draft.peek()?.kind;
+  const info = state.operations.peek().find((operation) => operation.name === kind);
+  return ['chord', 'head'].includes(info?.fields.find(({ name }) => name === field)?.type ?? '');
+}
+
 const background: [number, number, number] = [0.925, 0.937, 0.949];
 
 export class Viewport {
@@ -32,6 +39,7 @@ export class Viewport {
   private lastMotion = 0;
   private lastFrame = 0;
   private drawnFully = false;
+  private begun = false;
   private framed = '';
   private builtFrom: unknown[] = [];
   private overlaid: unknown[] = [];
@@ -39,6 +47,7 @@ export class Viewport {
   readonly times: number[] = [];
   /** A surface to show instead of a valve, during an import. */
   surface: Mesh | null = null;
+  private found: SurfaceFrame | null = null;
 
   constructor(
     readonly host: HTMLElement,
@@ -64,35 +73,49 @@ export class Viewport {
       this.moved();
     });
     effect(() => {
-      const shown = state.imported.value;
-      this.showSurface(shown && !shown.findings.length ? shown : null);
+      this.showSurface(state.surface.value);
     });
     effect(() => {
       const wanted = state.wantedView.value;
       if (wanted) this.go(wanted.preset);
     });
+    effect(() => {
+      const field = state.picking.value;
+      if (field && hidesFromAtrium(field) && this.fromAtrium()) this.go('ventricle');
+    });
     requestAnimationFrame((now) => this.frame(now));
+  }
+
+  /** Whether the eye looks at the leaflets from above, where they hide chordae and papillary heads. */
+  private fromAtrium(): boolean {
+    const { target } = this.camera;
+    const back = this.camera.position().sub(target).normalize();
+    const frame = this.frameOf();
+    return back.x * frame[9] + back.y * frame[10] + back.z * frame[11] > 0.5;
   }
 
   /** Shows the surface of an import instead of the valve. */
   private showSurface(shown: state.Imported | null): void {
     const fresh = shown && this.surface?.positions !== shown.surface.points;
-    if (!shown) this.surface = null;
-    else if (fresh) this.surface = surfaceMesh(shown.surface.points, shown.surface.triangles);
+    if (!shown) [this.surface, this.found] = [null, null];
+    else {
+      const { points, triangles } = shown.surface;
+      this.found = surfaceFrame(points, triangles, shown.points);
+      if (fresh) this.surface = surfaceMesh(points, triangles, this.found.outward);
+    }
     this.touchScene();
-    if (fresh && shown) this.camera.lookAtBox(shown.surface.points, shown.surface.triangles);
+    if (fresh && shown) this.go('surgeon', true);
   }
 
   private makeRenderer(wanted: 'webgl' | 'software' | ''): Renderer {
     if (wanted === 'software') return new Raster();
+    const lost = () => (this.dirty = false);
+    const restored = () => this.touchScene();
     try {
-      return new WebGl(
-        wanted === 'webgl',
-        () => (this.dirty = false),
-        () => this.touchScene(),
-      );
+      // a browser without WebGL, or one that emulates it more slowly than the rasteriser; it is asked without an
+      // exception, for whose place the whole script would be parsed once more
+      return WebGl.make(wanted === 'webgl', lost, restored) ?? new Raster();
     } catch {
-      // a browser without WebGL, or one that emulates it more slowly than the rasteriser
       return new Raster();
     }
   }
@@ -136,7 +159,12 @@ export class Viewport {
   }
 
   frameOf(): number[] {
-    return (state.preview.value ?? state.main.value)?.figures.frame ?? this.guessedFrame();
+    return (
+      this.found?.frame ??
+      (state.preview.value ?? state.main.value)?.figures.frame ??
+      state.motion.value?.frame ??
+      this.guessedFrame()
+    );
   }
 
   /** Frame of a picture that has no figures yet: centre and normal of the annulus. */
@@ -150,8 +178,9 @@ export class Viewport {
     return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
   }
 
-  /** Radius of the annulus, mm. */
+  /** Radius of the annulus or of a surface, mm. */
   radius(): number {
+    if (this.found) return this.found.radius;
     const picture = state.main.value?.picture ?? state.picture.value;
     const topology = picture && state.topologyOf(picture);
     if (!picture || !topology) return 20;
@@ -165,7 +194,7 @@ export class Viewport {
   }
 
   plane(): CutPlane | null {
-    if (!state.sectionOn.value) return null;
+    if (!state.sectionOn.value || this.surface) return null;
     const f = this.frameOf();
     const normal: [number, number, number] = [f[6], f[7], f[8]];
     return { normal, offset: f[0] * f[6] + f[1] * f[7] + f[2] * f[8] + state.sectionAt.value };
@@ -190,7 +219,7 @@ export class Viewport {
       this.meshes = [];
       return;
     }
-    const shown = state.motion.value ? null : (state.preview.value ?? state.main.value);
+    const shown = state.motion.value ? null : state.shown.value;
     const figures = shown?.figures ?? null;
     const choice = state.choice.value;
     const chord = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
@@ -213,7 +242,7 @@ export class Viewport {
 
   /** Distance of each node from its place in the valve before, matched by origin. */
   private distances(): Float32Array | null {
-    const now = (state.preview.value ?? state.main.value)?.picture;
+    const now = state.shown.value?.picture;
     const then = (state.compared.value ?? (state.preview.value ? state.main.value : state.first.value))
       ?.picture;
     const [a, b] = [now && state.topologyOf(now), then && state.topologyOf(then)];
@@ -248,7 +277,7 @@ export class Viewport {
     const plane = this.plane();
     if (plane && topology && !this.surface)
       meshes.push(cutMesh(topology, picture, plane, this.frameOf(), this.radius()));
-    const marks = marksMesh(state.sectionOn.value ? this.handle() : null);
+    const marks = marksMesh(state.sectionOn.value && !this.surface ? this.handle() : null);
     if (marks) meshes.push(marks);
     return { meshes, background, plane };
   }
@@ -272,8 +301,16 @@ export class Viewport {
     this.labels.update(this);
     this.dirty = false;
     this.drawnFully = !fast;
+    this.markFirst();
     this.times.push(performance.now() - begin);
     if (this.times.length > 400) this.times.shift();
+  }
+
+  /** A mark of performance measurements: the first picture with a valve. */
+  private markFirst(): void {
+    if (this.begun || !this.meshes.length) return;
+    this.begun = true;
+    performance.mark('first picture');
   }
 
   /** A PNG picture of the present view, as a data URL. */

@@ -50,24 +50,31 @@ interface Drawn {
 
 export class WebGl implements Renderer {
   readonly name = 'webgl';
-  readonly canvas: HTMLCanvasElement;
   private renderer: WebGLRenderer;
   private scene = new Scene3();
   private camera = new PerspectiveCamera();
   private drawn: Drawn[] = [];
   private size = [1, 1, 1];
 
-  /** Throws where the browser has no WebGL 2, or emulates it on the processor, unless that is wanted. */
-  constructor(emulated: boolean, onLost: () => void, onRestored: () => void) {
-    this.canvas = document.createElement('canvas');
-    const context = this.canvas.getContext('webgl2', { antialias: true, powerPreference: 'default' });
-    if (!context) throw new Error('no WebGL 2');
+  /** A renderer; null where the browser has no WebGL 2, or emulates it on the processor, unless that is wanted. */
+  static make(emulated: boolean, onLost: () => void, onRestored: () => void): WebGl | null {
+    const canvas = document.createElement('canvas');
+    const context = canvas.getContext('webgl2', { antialias: true, powerPreference: 'default' });
+    if (!context) return null;
     const info = context.getExtension('WEBGL_debug_renderer_info');
     const name = info ? String(context.getParameter(info.UNMASKED_RENDERER_WEBGL)) : '';
-    if (!emulated && /swiftshader|llvmpipe|softpipe|basic render/i.test(name))
-      throw new Error(`${name} is not a graphics processor`);
+    if (!emulated && /swiftshader|llvmpipe|softpipe|basic render/i.test(name)) return null;
+    return new WebGl(canvas, context, onLost, onRestored);
+  }
+
+  private constructor(
+    readonly canvas: HTMLCanvasElement,
+    context: WebGL2RenderingContext,
+    onLost: () => void,
+    onRestored: () => void,
+  ) {
     this.renderer = new WebGLRenderer({
-      canvas: this.canvas,
+      canvas,
       context,
       antialias: true,
       preserveDrawingBuffer: false,
@@ -77,8 +84,8 @@ export class WebGl implements Renderer {
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.renderer.sortObjects = true;
     this.camera.matrixAutoUpdate = false;
-    this.canvas.addEventListener('webglcontextlost', (event) => (event.preventDefault(), onLost()));
-    this.canvas.addEventListener('webglcontextrestored', onRestored);
+    canvas.addEventListener('webglcontextlost', (event) => (event.preventDefault(), onLost()));
+    canvas.addEventListener('webglcontextrestored', onRestored);
   }
 
   resize(width: number, height: number, ratio: number): void {

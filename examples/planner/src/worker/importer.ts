@@ -26,6 +26,7 @@ export class Importer {
     try {
       const findings = sim.buildValve({
         name: request.name,
+        ...(request.kind ? { kind: request.kind } : {}),
         points: this.points,
         triangles: this.triangles,
         ...given('annulus', metres(request.annulus)),

@@ -4,13 +4,14 @@ import { loadMvs, MvsError, SYSTOLE_PA, type Mvs } from 'libmvs';
 import type { CallName, Calls } from '../calls';
 import type { Failure, Motion, Shown } from '../protocol';
 import { refusals } from '../text/texts';
-import { foundingRepair, foundingValve, HealthyValve } from './founding';
+import { foundingRepair, HealthyValve } from './founding';
 import { HandLoop } from './hand';
 import { Importer } from './importer';
 import { operationsOf } from './operations';
 import { buffersOf } from './picture';
 import { Planner } from './planner';
 import { openSession, saveSession } from './session';
+import { shippedValve } from './shipped';
 
 declare const self: DedicatedWorkerGlobalScope;
 
@@ -50,18 +51,6 @@ async function start(library: string): Promise<Calls['start']['result']> {
   return { version: mvs.version, operations: operationsOf(mvs) };
 }
 
-function shippedValve(name: string, vertices: number): Uint8Array {
-  const number = /^founding([0-3])$/.exec(name);
-  if (number) return foundingValve(mvs, Number(number[1]), vertices);
-  const sim = mvs.simulator();
-  try {
-    sim.generateValve({ vertices });
-    return sim.read((snapshot) => snapshot.save('obj'));
-  } finally {
-    sim.dispose();
-  }
-}
-
 type Handlers = {
   [Name in CallName]: (
     argument: Calls[Name]['argument'],
@@ -72,7 +61,7 @@ type Handlers = {
 const handlers: Handlers = {
   start: ({ library }) => start(library),
   open_shipped: ({ name, vertices }, { id, signal, report }) => {
-    const bytes = shippedValve(name, vertices);
+    const bytes = shippedValve(mvs, name, vertices);
     const closed = planner.openBytes(bytes, signal, report);
     // the open valve is shown while it closes
     post({ id, motion: planner.motion(0) });

@@ -1,0 +1,136 @@
+// What a person looks at: before and after, names beside what they name, views of a surface, the printed report.
+import assert from 'node:assert/strict';
+import { mkdtempSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, describe, it } from 'node:test';
+import { closed, openBrowser, openPlanner } from './browser.mjs';
+import { apply, begin, cameraRests, chordNames, chordPlace, open, openPanel } from './person.mjs';
+
+/** Whether a line meets a box, by its points. */
+function passes(a, b, box) {
+  for (let s = 0; s <= 1; s += 1 / 256) {
+    const [x, y] = [a.x + s * (b.x - a.x), a.y + s * (b.y - a.y)];
+    if (x > box.x && x < box.x + box.width && y > box.y && y < box.y + box.height) return true;
+  }
+  return false;
+}
+
+/** An OBJ file of the leaflets that are shown, turned: the axes x, y, z become y, z, x. */
+function turnedLeaflets(page) {
+  return page.evaluate(() => {
+    const { state } = window.planner;
+    const { positions } = state.picture.value;
+    const { triangles } = state.topologyOf(state.picture.value);
+    let obj = '';
+    for (let i = 0; i < positions.length; i += 3)
+      obj += `v ${positions[i + 2]} ${positions[i]} ${positions[i + 1]}\n`;
+    for (let i = 0; i < triangles.length; i += 3)
+      obj += `f ${[...triangles.slice(i, i + 3)].map((node) => node + 1).join(' ')}\n`;
+    return obj;
+  });
+}
+
+describe('planner to look at', () => {
+  let context, page, errors;
+  before(async () => {
+    ({ context } = await openBrowser());
+    ({ page, errors } = await openPlanner(context));
+  });
+  after(async () => {
+    await context.close();
+    assert.deepEqual(errors, []);
+  });
+  const positions = (name) =>
+    page.evaluate((which) => [...window.planner.state[which].value.picture.positions], name);
+  const shown = () => page.evaluate(() => [...window.planner.state.picture.value.positions]);
+
+  it('puts_the_name_of_a_chord_beside_all_chordae', async () => {
+    await page.keyboard.press('2');
+    await cameraRests(page);
+    const names = await chordNames(page);
+    const places = [];
+    for (const name of names) places.push(await chordPlace(page, name));
+    for (const name of names.filter((_, k) => k % 9 === 0)) {
+      await page.evaluate((wanted) => {
+        const { state } = window.planner;
+        const { id } = state.main.value.figures.chords.find((chord) => chord.name === wanted);
+        state.choice.value = { kind: 'chord', id };
+      }, name);
+      const label = page.locator('.label-chord', { hasText: `${name} ` });
+      await label.waitFor();
+      await page.waitForTimeout(250);
+      const box = await label.boundingBox();
+      const covered = places.filter(({ head, leaf }) => passes(head, leaf, box)).length;
+      assert.ok(covered === 0, `the label of ${name} covers ${covered} chordae`);
+    }
+    await page.evaluate(() => (window.planner.state.choice.value = null));
+  });
+
+  it('names_no_tissue_that_is_cut_away', async () => {
+    const names = () => page.locator('.label-scallop:visible').allInnerTexts();
+    await page.keyboard.press('4');
+    await cameraRests(page);
+    await page.waitForTimeout(250);
+    const half = await names();
+    assert.ok(half.includes('A3') && !half.includes('A1') && !half.includes('P1'), half.join());
+    await page.keyboard.press('x');
+  });
+
+  it('shows_the_valve_before_at_a_press', async () => {
+    await begin(page, 'ring');
+    await page.locator('#f-size').fill('30');
+    await page.keyboard.press('Tab');
+    await page.waitForTimeout(50);
+    await closed(page);
+    const now = await shown();
+    await page.getByRole('button', { name: 'Before' }).click();
+    assert.deepEqual(await shown(), await positions('main'));
+    assert.match(await page.getByTestId('verdict').innerText(), /before/);
+    await page.getByRole('button', { name: 'Preview' }).click();
+    assert.deepEqual(await shown(), now);
+    await apply(page);
+    await page.locator('canvas').first().focus();
+    await page.keyboard.press('w');
+    assert.deepEqual(await shown(), await positions('first'));
+    // whatever happens to the present valve shows it again
+    await begin(page, 'annulus_scale');
+    assert.deepEqual(await shown(), await positions('preview'));
+    await page.keyboard.press('Escape');
+  });
+
+  it('prints_the_report', async () => {
+    await openPanel(page, 'Plan');
+    await page.getByRole('button', { name: 'Report' }).click();
+    await page.getByTestId('report').getByText('Before').first().waitFor();
+    const pdf = await page.pdf({ format: 'A4' });
+    // one page with four pictures; an empty one has 1 kB
+    assert.ok(pdf.length > 50_000, `${pdf.length} bytes`);
+    assert.equal(pdf.toString('latin1').match(/\/Type \/Page\b/g).length, 1);
+    await page.keyboard.press('Escape');
+  });
+
+  it('shows_a_surface_from_the_atrium', async () => {
+    await page.getByRole('button', { name: 'Healthy valve' }).click();
+    await page.waitForTimeout(200);
+    await closed(page);
+    await page.keyboard.press('o');
+    for (let k = 0; k < 200 && !(await page.evaluate(() => !!window.planner.state.motion.value)); ++k)
+      await page.waitForTimeout(50);
+    const path = join(mkdtempSync(join(tmpdir(), 'surface-')), 'turned.obj');
+    writeFileSync(path, await turnedLeaflets(page));
+    const valve = await page.evaluate(() => window.planner.state.main.value.figures.frame);
+    await open(page, path);
+    const found = await page.evaluate(() => window.planner.viewport.frameOf());
+    const along = (row) => {
+      const [x, y, z] = valve.slice(3 * row, 3 * row + 3);
+      const turned = [z, x, y];
+      return turned.reduce((sum, v, c) => sum + v * found[3 * row + c], 0);
+    };
+    // the annulus is a saddle, of which the library takes another plane: a few degrees
+    assert.ok(along(3) > 0.98, `into the atrium: ${along(3)}`);
+    // front and back cannot be told apart before a click
+    assert.ok(Math.abs(along(1)) > 0.98, `front to back: ${along(1)}`);
+    await page.getByRole('button', { name: 'Leave' }).click();
+  });
+});
