@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "base/bit_cast.h"
 #include "base/error.h"
@@ -192,10 +193,9 @@ void SessionReader::list(CowVector<Part> &parts) {
 
 void SessionReader::model(ModelPtr &model) {
   model = part(made<ModelPtr>(), [&](ModelPtr &it) {
-    // make_model shares derived data with the last model
-    Model like = last_model_ ? *last_model_ : Model{};
-    pass(*this, like.valve);
-    it = make_model(like.valve, &like);
+    Valve valve = last_model_ ? last_model_->valve : Valve{};
+    pass(*this, valve);
+    it = make_model(std::move(valve), last_model_.get());
     last_model_ = it;
   });
 }

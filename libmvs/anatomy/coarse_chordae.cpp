@@ -64,7 +64,24 @@ uint32_t CoarseChordae::same_ends(uint32_t chord, uint32_t to) const {
   return none;
 }
 
-bool CoarseChordae::may_move(uint32_t from, uint32_t to) const {
+bool CoarseChordae::may_move(uint32_t from, uint32_t to) {
+  const bool can = can_move(from, to);
+  steps_.push_back({from, to, can ? ChordStep::allowed : ChordStep::refused});
+  return can;
+}
+
+bool CoarseChordae::repeat(const std::vector<ChordStep> &steps) {
+  for (const ChordStep &step : steps) {
+    if (step.kind == ChordStep::moved) {
+      move(step.from, step.to);
+    } else if (can_move(step.from, step.to) != (step.kind == ChordStep::allowed)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool CoarseChordae::can_move(uint32_t from, uint32_t to) const {
   if (sewn(from) || sewn(to)) return at_[from].empty();
   for (const uint32_t c : at_[from]) {
     const Chord &chord = chords_[c];
@@ -83,6 +100,8 @@ bool CoarseChordae::may_move(uint32_t from, uint32_t to) const {
 }
 
 void CoarseChordae::move(uint32_t from, uint32_t to) {
+  if (at_[from].empty()) return;
+  steps_.push_back({from, to, ChordStep::moved});
   for (const uint32_t c : at_[from]) {
     Chord &chord = chords_[c];
     chord.rest_length = moved_length(chord, to);

@@ -143,7 +143,7 @@ class Coarsener {
   // Returns the best target: the nearest one for a vertex with chordae; otherwise the one with the
   // best combination of triangle quality and distance to the old vertex; `none` if no collapse is
   // allowed.
-  uint32_t best_target(uint32_t vertex) const {
+  uint32_t best_target(uint32_t vertex) {
     const bool chordae = chordae_.end_at(vertex);
     uint32_t best = none;
     double best_score = -INFINITY;
@@ -251,7 +251,7 @@ size_t vertices_for_edge(const Model &model, double edge) {
   return static_cast<size_t>(std::lround(std::min(inside + half, 1e9)));
 }
 
-Coarsened coarsen(const Model &model, size_t vertices) {
+Coarsened coarsen(const Model &model, size_t vertices, std::vector<ChordStep> *steps) {
   const size_t before = sheet_vertices(model);
   MVS_MUST(vertices <= before, MVS_E_ARGUMENT, "vertices",
            "coarsen: the leaflets have %zu vertices, %zu were asked for: refine for more of them",
@@ -274,6 +274,7 @@ Coarsened coarsen(const Model &model, size_t vertices) {
   average_tissue(model, made.map, *made.model, valve);
   made.model = make_model(std::move(valve), &model);
   made.report = report_of(model, made, work);
+  if (steps) *steps = work.chordae().steps();
   return made;
 }
 

@@ -1,6 +1,7 @@
 // A coarser level of any valve by greedy removal of sheet vertices.
 #pragma once
 
+#include "anatomy/coarse_chordae.h"
 #include "anatomy/level_map.h"
 
 namespace mvs::core {
@@ -33,8 +34,9 @@ struct Coarsened {
 // has chordae too, and its chordae move along (CoarseChordae). Thickness and fibres are means over
 // the fine triangles.
 //
-// Throws MVS_E_ARGUMENT if the valve has fewer vertices than asked for, or needs more.
-Coarsened coarsen(const Model &model, size_t vertices);
+// Throws MVS_E_ARGUMENT if the valve has fewer vertices than asked for, or needs more. `steps`
+// (may be null) receives those that concern chordae.
+Coarsened coarsen(const Model &model, size_t vertices, std::vector<ChordStep> *steps = nullptr);
 
 // Returns the approximate number of sheet vertices of a level with edges of this length.
 size_t vertices_for_edge(const Model &model, double edge);

@@ -55,7 +55,7 @@ void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   if (format_given == MVS_FORMAT_H5) return replace_valve(sim, read_session(bytes));
   if (format_given == MVS_FORMAT_INP) return load_inp(sim, bytes);
   Loaded loaded = read_obj(bytes);
-  ModelPtr model = make_model(std::move(loaded.valve));
+  ModelPtr model = make_model(std::move(loaded.valve), sim.model());
   replace_valve(sim, {{std::move(model), std::move(loaded.state)}, {}});
 }
 

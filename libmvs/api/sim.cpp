@@ -46,7 +46,7 @@ void mvs_destroy(mvs_sim *sim) {
 mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
     Described described = read_valve_desc(valve);
-    ModelPtr model = make_model(std::move(described.valve));
+    ModelPtr model = make_model(std::move(described.valve), s.model());
     State state = described_state(*model, described.now);
     replace_valve(s, {{std::move(model), std::move(state)}, {}});
   });

@@ -42,4 +42,11 @@ std::vector<Fault> find_faults(const Valve &valve) {
   return faults.list;
 }
 
+std::vector<Fault> find_faults_beside_mesh(const Valve &valve) {
+  Faults faults;
+  check_lists(valve, faults);
+  check_parts(valve, faults);
+  return faults.list;
+}
+
 }  // namespace mvs::core

@@ -40,10 +40,27 @@ void derive_mass(Model &model) {
   }
 }
 
+// Derives topology, lengths and areas, or takes those of a model with the same mesh (may be null).
+void derive_geometry(Model &model, const Model *same) {
+  if (same) {
+    model.topology = same->topology;
+    model.rest_length = same->rest_length;
+    model.rest_area = same->rest_area;
+    model.vertex_area = same->vertex_area;
+    model.family = same->family;
+  } else {
+    model.topology = make_topology(model.valve);
+    derive_lengths_and_areas(model);
+    model.family = std::make_shared<MeshFamily>();
+  }
+  model.family->add_model();
+}
+
 }  // namespace
 
 ModelPtr make_model(Valve valve, const Model *parent) {
-  const std::vector<Fault> faults = find_faults(valve);
+  const Model *same = parent && has_mesh_of(valve, *parent) ? parent : nullptr;
+  const std::vector<Fault> faults = same ? find_faults_beside_mesh(valve) : find_faults(valve);
   if (!faults.empty()) {
     fail(MVS_E_OP, faults.front().part, "%s", faults.front().sentence.c_str());
   }
@@ -52,8 +69,7 @@ ModelPtr make_model(Valve valve, const Model *parent) {
   auto model = std::make_shared<Model>();
   model->serial = ++models;
   model->valve = std::move(valve);
-  model->topology = make_topology(model->valve);
-  derive_lengths_and_areas(*model);
+  derive_geometry(*model, same);
   derive_mass(*model);
   if (parent) share(*model, *parent);
   return model;

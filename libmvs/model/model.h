@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "model/mesh_family.h"
 #include "model/solver_cache.h"
 #include "model/tool.h"
 #include "model/topology.h"
@@ -15,10 +16,11 @@ namespace mvs::core {
 struct Model {
   Valve valve;
   Topology topology;
-  CowVector<double> rest_area;    // m2 per triangle
-  CowVector<double> rest_length;  // m per edge
-  CowVector<double> vertex_area;  // m2 per node: a third of its rest triangles
-  CowVector<double> node_mass;    // kg: lumped from triangles and chordae
+  CowVector<double> rest_area;         // m2 per triangle
+  CowVector<double> rest_length;       // m per edge
+  CowVector<double> vertex_area;       // m2 per node: a third of its rest triangles
+  CowVector<double> node_mass;         // kg: lumped from triangles and chordae
+  std::shared_ptr<MeshFamily> family;  // with all variants of the valve
   uint64_t serial =
       0;  // unique in this process, so that a new model at an old address is recognised
 
@@ -62,7 +64,7 @@ struct ModelState {
 
 // Checks a valve, fills in its defaults (ids, names, fibres, thickness) and derives the rest.
 // Throws the first fault. Arrays equal to those of `parent` (may be null) share their memory with
-// it.
+// it; a valve with its mesh takes topology, areas and the checks of the mesh from it.
 ModelPtr make_model(Valve valve, const Model *parent = nullptr);
 
 // Makes arrays that have the same bits as those of `other` share their memory; no value changes.

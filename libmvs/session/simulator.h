@@ -27,6 +27,8 @@ struct mvs_sim {
   mvs::core::SnapshotPtr present() const;
   // Returns the present model and state without building a snapshot; for the call at work.
   const mvs::core::ModelState &current() const;
+  // Returns the present model, null before a valve is set; for the call at work.
+  const mvs::core::Model *model() const { return now_.current.model.get(); }
   void replace(mvs::core::SnapshotPtr next);
   mvs::core::Load load() const;
   // Advances the present valve by one time step.

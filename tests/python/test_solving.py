@@ -46,6 +46,30 @@ def test_workers_give_the_same_bits(monkeypatch):
         mvs.Simulator(workers=257)
 
 
+def test_a_simulator_like_a_snapshot_gives_the_same_bits():
+    with mvs.Simulator() as sim:
+        sim.generate(shape="founding", vertices=1250)
+        base = sim.snapshot()
+
+    def closed(sim, variant):
+        sim.set_valve(variant)
+        sim.set_load(mvs.SYSTOLE_PA)
+        sim.settle(max_iterations=2)
+        return sim.snapshot().hash
+
+    hashes = set()
+    for k in range(3):
+        variant = mvs.valve_of(base)
+        variant.chord_rest_length *= 1 - 0.01 * k
+        with mvs.Simulator() as alone, mvs.Simulator(like=base) as like:
+            assert like.snapshot().hash == base.hash
+            hashes.add(closed(alone, variant))
+            assert closed(like, variant) in hashes
+    assert len(hashes) == 3
+    with pytest.raises(TypeError):
+        mvs.Simulator(like=sim)
+
+
 def test_settling_twice_gives_the_same_bits():
     first, second = settle_fresh(max_iterations=20)[1], settle_fresh(max_iterations=20)[1]
     assert first.hash == second.hash

@@ -296,6 +296,7 @@ class Simulator:
         *,
         backend: Literal["default", "block", "cholmod", "eigen"] = "default",
         workers: int = 1,
+        like: Optional[Snapshot] = None,
         log: Optional[Callable[[int, str], object]] = None,
     ) -> None: ...
     def load(self, path: _Path, *, format: _Format = "auto") -> None: ...

@@ -24,6 +24,13 @@ py::object valve_of(const py::args &args, const py::kwargs &kwargs) {
   return type(*args, **kwargs);
 }
 
+std::unique_ptr<Simulator> make_simulator(const std::string &backend, uint32_t workers,
+                                          const Snapshot *like, py::object log) {
+  auto made = std::make_unique<Simulator>(backend, workers, std::move(log));
+  if (like) made->call([&](mvs_sim *sim) { return mvs_restore(sim, like->get()); });
+  return made;
+}
+
 void set_valve(Simulator &self, const py::args &args, const py::kwargs &kwargs) {
   const ValveArguments valve(valve_of(args, kwargs));
   self.call([&](mvs_sim *sim) { return mvs_set_valve(sim, &valve.desc()); });
@@ -304,10 +311,13 @@ void bind_simulator(py::module_ &module) {
       backend_words() +
       "\nworkers: threads that share the work of a settle or step on a valve of more than about "
       "1,000 vertices, at most 256; no bit of a result depends on them"
+      "\nlike: a mvs.Snapshot that the simulator begins with (restore); its variants, which "
+      "set_valve "
+      "and load set, share what depends on its mesh, in any thread, with the same bits"
       "\nlog: called with (level, text); None: warnings (level 2) become mvs.ValveWarning";
   py::class_<Simulator> type(module, "Simulator", about.c_str());
-  type.def(py::init<const std::string &, uint32_t, py::object>(), py::kw_only(),
-           "backend"_a = "default", "workers"_a = 1, "log"_a = py::none());
+  type.def(py::init(&make_simulator), py::kw_only(), "backend"_a = "default", "workers"_a = 1,
+           "like"_a = py::none(), "log"_a = py::none());
   bind_files(type);
   bind_generate(type);
   bind_build(type);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "anatomy/coarsen.h"
+#include "anatomy/family_level.h"
 #include "base/error.h"
 #include "geometry/intersect.h"
 #include "solve/nodes.h"
@@ -93,7 +93,7 @@ std::shared_ptr<const Coarsened> CoarseLevels::coarsened(const Model &fine, size
   for (const Kept &kept : kept_) {
     if (kept.serial == fine.serial && kept.vertices == vertices) return kept.made;
   }
-  auto made = std::make_shared<const Coarsened>(coarsen(fine, vertices));
+  auto made = coarsen_in_family(fine, vertices);
   // a closure of the largest valve has five levels
   if (kept_.size() == 5) kept_.erase(kept_.begin());
   kept_.push_back({fine.serial, vertices, made});

@@ -19,7 +19,7 @@ namespace mvs::core {
 // from far away does not make them anew.
 class CoarseLevels {
  public:
-  // See coarsen().
+  // See coarsen_in_family().
   std::shared_ptr<const Coarsened> coarsened(const Model &fine, size_t vertices);
 
  private:
