@@ -67,6 +67,7 @@ double FollowerPressureTerm::energy(const std::vector<Vec3> &x) const {
 
 void FollowerPressureTerm::volumes(const std::vector<Vec3> &x, size_t first, size_t last,
                                    double *to) const {
+  if (empty()) return;
   for (size_t t = first; t < last; ++t) to[t] = volume_of(triangles_[t], x);
 }
 

@@ -2,27 +2,36 @@
 //
 //   bench_skip                       scene S
 //   bench_skip --scene M --csv FILE
+//   bench_skip --workers 2           as shared by so many threads
 //
 // Terms: one energy, gradient and Hessian on a valve with the part, and on one without. Contact: of
 // the closed valve, and of the open one, where nothing meets. Steps: one that moves, and one at
 // rest; callers: cost of a snapshot, measures and levels of undo beside a step. CPU time, the
 // fastest of the rounds. Then, for whole closures, the terms that mvs_stats reports as skipped.
+//
+// With workers a term is computed part by part of the nodes, and steps and closures share all loops
+// that can be shared; all parts run on the calling thread, so that the CPU time is that of the work
+// and not of waiting.
 #include <mvs/sim.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "anatomy/parametric.h"
+#include "base/workers.h"
 #include "energy/total_energy.h"
 #include "solve/solver.h"
 #include "tests/bench/callers.h"
 #include "tests/bench/closing.h"
 #include "tests/bench/search.h"
 #include "tests/bench/table.h"
+#include "tests/bench/term_pass.h"
 
 using namespace mvs::core;
 
@@ -31,6 +40,7 @@ namespace {
 struct Options {
   std::string scene = "S", csv;
   int rounds = 20;
+  uint32_t workers = 1;
 };
 
 using Change = std::function<void(Valve &)>;
@@ -89,29 +99,45 @@ HessianAssembler room_for(const Model &model, const std::vector<Vec3> &x, const 
 }
 
 template <typename Term>
-double term_cost(const Options &options, const Model &model, const Term &term,
+double term_cost(const Options &options, const Model &model, Term &term,
                  const std::vector<Vec3> &x) {
   HessianAssembler system = room_for(model, x, term);
   std::vector<Vec3> g(x.size(), Vec3::Zero());
   double sum = 0;
+  if (options.workers == 1)
+    return bench::fastest(options.rounds, [&] { sum += bench::pass(term, x, system, g); });
+  NodeParts nodes;
+  nodes.divide(model, options.workers);
+  std::vector<double> energies(term.size());
+  system.boundary_force.resize(system.matrix.size());
   return bench::fastest(options.rounds, [&] {
-    sum += term.energy(x) + term.gradient(x, g);
-    term.hessian(x, Curvature::projected, system);
+    for (uint32_t k = 0; k < options.workers; ++k) {
+      HessianPart blocks(system, nodes.part(k));
+      PartGradient to{g, nodes.part(k), energies.data()};
+      bench::pass_of_part(term, x, blocks, to, {k, options.workers});
+    }
   });
 }
 
 double pressure_cost(const Options &options, const Model &model, double pressure,
                      const std::vector<Vec3> &x) {
   FollowerPressureTerm term(model);
-  HessianAssembler system = room_for(model, x, term);
-  std::vector<Vec3> g(x.size(), Vec3::Zero());
   term.set_pressure(pressure);
-  double sum = 0;
-  return bench::fastest(options.rounds, [&] {
-    term.freeze(x);
-    sum += term.energy(x) + term.gradient(x, g);
-    term.hessian(x, system);
-  });
+  return term_cost(options, model, term, x);
+}
+
+// A pool that shares all loops and runs them on the calling thread.
+std::unique_ptr<Workers> pool_of(const Options &options) {
+  if (options.workers == 1) return nullptr;
+  HostPool pool;
+  pool.user = const_cast<uint32_t *>(&options.workers);
+  pool.width = [](void *user) { return *static_cast<const uint32_t *>(user); };
+  pool.run = [](void *, uint32_t count, void (*task)(void *, uint32_t), void *context) {
+    for (uint32_t k = 0; k < count; ++k) task(context, k);
+  };
+  auto workers = std::make_unique<Workers>(pool);
+  workers->begin_call();
+  return workers;
 }
 
 // Pairs, distances, and the contact term.
@@ -121,7 +147,9 @@ struct ContactCost {
 
 ContactCost contact_cost(const Options &options, const Model &model, const std::vector<Vec3> &x) {
   const double slack = 0.1 * model.valve.contact_thickness;
+  const std::unique_ptr<Workers> workers = pool_of(options);
   BroadPhase pairs(model);
+  pairs.use_workers(workers.get());
   ContactTerm contact(model);
   ContactCost cost = {};
   cost.broad = bench::time_of_search(options.rounds, x, slack, pairs);
@@ -184,9 +212,11 @@ void tell_terms(const Options &options, const Scenes &s, bench::Table &table) {
   tell(table, "contact: terms", on.terms, off.terms);
 }
 
-// The median CPU seconds of one of `count` implicit steps.
-double step_cost(const Model &model, State state, int before, int count) {
-  Solver solver(Backend::fastest);
+// The median CPU seconds of an implicit step.
+double step_cost(const Options &options, const Model &model, State state, int before) {
+  const std::unique_ptr<Workers> workers = pool_of(options);
+  Solver solver(Backend::fastest, workers.get());
+  const int count = options.rounds;
   SolveOptions how;
   how.solver = SolverKind::implicit_euler;
   for (int k = 0; k < before; ++k) solver.step(model, state, how);
@@ -207,11 +237,12 @@ std::string words(uint32_t skipped) {
   return text.empty() ? "nothing" : text;
 }
 
-void tell_closure(bench::Table &table, const char *name, const Model &model, double pressure,
-                  double fraction) {
+void tell_closure(const Options &options, bench::Table &table, const char *name, const Model &model,
+                  double pressure, double fraction) {
+  const std::unique_ptr<Workers> workers = pool_of(options);
   State state = loaded(model, pressure, fraction);
   SolveStats stats;
-  Solver solver(Backend::fastest);
+  Solver solver(Backend::fastest, workers.get());
   SolveOptions how;
   how.residual = bench::rest_residual;
   how.max_iterations = 100;
@@ -226,8 +257,8 @@ void run(const Options &options) {
     bench::Table table({"part                ", "on us", "off us", "off / on"}, options.csv);
     tell_terms(options, s, table);
     tell(table, "a step that moves",
-         step_cost(*s.full, loaded(*s.full, MVS_SYSTOLE_PA, 1), 5, options.rounds),
-         step_cost(*s.full, closed(*s.full), 20, options.rounds));
+         step_cost(options, *s.full, loaded(*s.full, MVS_SYSTOLE_PA, 1), 5),
+         step_cost(options, *s.full, closed(*s.full), 20));
     for (const bench::Part &part :
          bench::caller_parts(bench::scene_vertices.at(options.scene), options.rounds))
       tell(table, part.name.c_str(), part.on, part.off);
@@ -235,12 +266,12 @@ void run(const Options &options) {
   std::printf("\n");
   bench::Table table(
       {"scene               ", "cpu ms", "steps", "passes", "broad", "at rest ", "skipped"});
-  tell_closure(table, "shipped valve", *s.full, MVS_SYSTOLE_PA, 1);
-  tell_closure(table, "membrane", *s.membrane, MVS_SYSTOLE_PA, 1);
-  tell_closure(table, "no bending", *s.no_bending, MVS_SYSTOLE_PA, 1);
-  tell_closure(table, "no chordae", *s.no_chordae, MVS_SYSTOLE_PA, 1);
-  tell_closure(table, "no pressure", *s.full, 0, 1);
-  tell_closure(table, "leaflets pushed open", *s.full, -100, 0);
+  tell_closure(options, table, "shipped valve", *s.full, MVS_SYSTOLE_PA, 1);
+  tell_closure(options, table, "membrane", *s.membrane, MVS_SYSTOLE_PA, 1);
+  tell_closure(options, table, "no bending", *s.no_bending, MVS_SYSTOLE_PA, 1);
+  tell_closure(options, table, "no chordae", *s.no_chordae, MVS_SYSTOLE_PA, 1);
+  tell_closure(options, table, "no pressure", *s.full, 0, 1);
+  tell_closure(options, table, "leaflets pushed open", *s.full, -100, 0);
 }
 
 }  // namespace
@@ -255,7 +286,11 @@ int main(int argc, char **argv) {
     app.add_option("--rounds", options.rounds, "of which the fastest counts")
         ->check(CLI::PositiveNumber);
     app.add_option("--csv", options.csv, "file to write the first table to");
+    app.add_option("--workers", options.workers, "threads that share the work")
+        ->check(CLI::Range(1u, Workers::most));
     CLI11_PARSE(app, argc, argv);
+    // loops of small scenes are shared as well
+    if (options.workers > 1) setenv("MVS_WORKERS_LEAST_US", "0", 0);
     run(options);
     return 0;
   } catch (const std::exception &error) {

@@ -1,5 +1,5 @@
 // Prints how fast the page is: first picture, time from a change of a form to the shape, the leak and all figures, and
-// frames and tasks of the main thread while a valve settles. CPU times hold on a busy machine as well. Usage:
+// frames and tasks of the main thread while a valve settles. CPU times hold on a busy machine as well (README.md). Usage:
 // node tests/speed.mjs [VERTICES ...]; the default is 425 1700 3710, of which the last has 7,000 faces.
 import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
