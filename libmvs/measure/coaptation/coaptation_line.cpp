@@ -63,7 +63,7 @@ void sort_by_order(std::vector<Ordered> &pieces) {
   std::vector<uint32_t> next(start.begin(), start.end() - 1);
   std::vector<Ordered> sorted(pieces.size());
   for (const Ordered &piece : pieces) sorted[next[bucket_of(piece)]++] = piece;
-  constexpr uint32_t few = 16;
+  constexpr std::ptrdiff_t few = 16;
   for (size_t k = 0; k < pieces.size(); ++k) {
     const auto begin = sorted.begin() + start[k], end = sorted.begin() + start[k + 1];
     if (end - begin > few) {
@@ -168,7 +168,8 @@ bool regress(const std::vector<Ordered> &pieces, double at, double width, Vec3 &
   const auto end = std::partition_point(
       first, pieces.end(), [&](const Ordered &piece) { return piece.order <= at + width; });
   Moments moments;
-  sum({first, end}, at, width, moments);
+  const auto begin = static_cast<size_t>(first - pieces.begin());
+  sum(std::span(pieces).subspan(begin, static_cast<size_t>(end - first)), at, width, moments);
   const double w = moments.one[3], wt = moments.t[3], wtt = moments.tt;
   const Vec3 wp(moments.one[0], moments.one[1], moments.one[2]);
   const Vec3 wtp(moments.t[0], moments.t[1], moments.t[2]);
