@@ -10,7 +10,8 @@
 // grasps the edge of A2, pulls it 10 mm into the atrium, and releases it; a ball pushes P2 down and
 // is removed; a chord is shortened and a ring sewn in; the valve beats again, a chord is cut, all
 // operations are undone, the valve rests, and the load is removed. Times are CPU times of the
-// thread (CLOCK_THREAD_CPUTIME_ID), which depend less on other work on the machine. Columns:
+// thread (CLOCK_THREAD_CPUTIME_ID), which depend less on other work on the machine; with --workers
+// those of the wall clock, for a quiet machine. Columns:
 // "asleep" is the share of steps that only advanced the time; "lowered" counts steps that reduced
 // the accuracy of the linear solution or the length of the step for their budget; "cross" is the
 // largest number of crossing triangle pairs, by the exact test, at samples; "made" counts awake
@@ -24,13 +25,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <map>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "tests/bench/clock.h"
 #include "tests/bench/live/step_play.h"
 #include "tests/bench/live/step_watch.h"
 
@@ -51,15 +52,13 @@ constexpr double at_rest = 1e-8;
 struct Options {
   std::vector<std::string> scenes = {"S", "M"};
   double seconds = 60;
-  uint32_t budget = 0;
+  uint32_t budget = 0, workers = 1;
   std::string csv, tool = "ball";
-};
 
-double cpu_now() {
-  timespec now = {};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
+  double now() const {
+    return bench::read_clock(workers > 1 ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID);
+  }
+};
 
 struct Row {
   std::string scene, phase;
@@ -108,9 +107,9 @@ void take_step(mvs::Simulator &sim, const Options &options, bool hand_moves, Ste
   mvs_step_options how = {};
   how.dt = dt;
   how.budget = options.budget;
-  const double start = cpu_now();
+  const double start = options.now();
   sim.step(how);
-  const double took = cpu_now() - start;
+  const double took = options.now() - start;
   const mvs_stats stats = sim.stats();
   const mvs_profile profile = mvs::profile_of(sim);
   const bool asleep = (profile.skipped & MVS_SKIPPED_STEP) != 0;
@@ -150,7 +149,9 @@ Row run_phase(mvs::Simulator &sim, const Options &options, const std::string &sc
 
 // A row a phase, over all its repetitions.
 std::vector<Row> run_scene(const Options &options, const std::string &scene, bench::Pusher pusher) {
-  mvs::Simulator sim;
+  mvs_sim_desc desc = {};
+  desc.workers = options.workers;
+  mvs::Simulator sim(desc);
   mvs_parametric_desc valve = {};
   valve.shape = MVS_SHAPE_FOUNDING;
   valve.vertices = scene_vertices.at(scene);
@@ -171,7 +172,7 @@ std::vector<Row> run_scene(const Options &options, const std::string &scene, ben
   return rows;
 }
 
-double explicit_step(const std::string &scene) {
+double explicit_step(const Options &options, const std::string &scene) {
   mvs::Simulator sim;
   mvs_parametric_desc valve = {};
   valve.shape = MVS_SHAPE_FOUNDING;
@@ -183,9 +184,9 @@ double explicit_step(const std::string &scene) {
   for (int k = 0; k < explicit_steps; ++k) {
     mvs_step_options how = {};
     how.solver = MVS_SOLVER_EXPLICIT;
-    const double start = cpu_now();
+    const double start = options.now();
     sim.step(how);
-    took.push_back(cpu_now() - start);
+    took.push_back(options.now() - start);
   }
   return percentile(took, 0.5);
 }
@@ -235,7 +236,7 @@ void write(std::ofstream &csv, const Row &row) {
       << ',' << row.crossings << ',' << row.made << '\n';
 }
 
-void tell(const std::string &scene, const Row &whole) {
+void tell(const Options &options, const std::string &scene, const Row &whole) {
   print(whole, "active steps", whole.active);
   print(whole, "steps with a hand moving", whole.hand);
   const auto steps = static_cast<double>(std::max<size_t>(1, whole.active.size()));
@@ -248,7 +249,7 @@ void tell(const std::string &scene, const Row &whole) {
       scene.c_str(), 100 * whole.quiet / steps,
       100 * whole.quiet_by_hand / std::max(1.0, static_cast<double>(whole.hand.size())));
   const double active = percentile(whole.active, 0.5), resting = percentile(whole.resting, 0.5);
-  const double founding = explicit_step(scene);
+  const double founding = explicit_step(options, scene);
   std::printf(
       "%s: resting / active %.2f %%; explicit step %.3f ms, 125 of them %.1f times an active "
       "one\n",
@@ -288,7 +289,7 @@ void run(const Options &options) {
     if (options.tool == "convex") compare(scene, pushed, pushed_by_ball);
     print(whole);
     write(csv, whole);
-    tell(scene, whole);
+    tell(options, scene, whole);
   }
   if (csv.is_open() && !csv.flush()) throw std::runtime_error("could not write " + options.csv);
 }
@@ -305,6 +306,9 @@ int main(int argc, char **argv) {
     app.add_option("--seconds", options.seconds, "of simulated time, for all phases together")
         ->check(CLI::PositiveNumber);
     app.add_option("--budget", options.budget, "of a step; 0: the default");
+    app.add_option("--workers", options.workers,
+                   "threads; with more than one, times are wall-clock")
+        ->check(CLI::Range(1u, uint32_t{MVS_MAX_WORKERS}));
     app.add_option("--tool", options.tool, "that pushes P2")
         ->capture_default_str()
         ->check(CLI::IsMember({"ball", "convex"}));
