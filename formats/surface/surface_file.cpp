@@ -26,6 +26,17 @@ constexpr SurfaceReader surface_readers[] = {
     {".json", read_mrk_json, most_text},
 };
 
+// The way in for files that are no surfaces.
+const char *hint_for(std::string_view small) {
+  for (const char *ending : {".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd", ".dcm"}) {
+    if (small.ends_with(ending)) return "; images and label maps are for mvs-image";
+  }
+  for (const char *ending : {".inp", ".h5", ".vtm", ".vtkhdf"}) {
+    if (small.ends_with(ending)) return "; a file of a whole valve needs no import: mvs close FILE";
+  }
+  return "";
+}
+
 }  // namespace
 
 SurfaceFile read_surface_file(std::string_view bytes, std::string_view name,
@@ -40,7 +51,8 @@ SurfaceFile read_surface_file(std::string_view bytes, std::string_view name,
   }
   fail(MVS_E_ARGUMENT, "path",
        "the ending names no format of surfaces or points: known are .stl, .ply, .obj, .off, .vtk, "
-       ".vtp, .mrk.json, .fcsv and .csv");
+       ".vtp, .mrk.json, .fcsv and .csv%s",
+       hint_for(small));
 }
 
 }  // namespace mvs::core

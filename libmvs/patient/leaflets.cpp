@@ -115,12 +115,12 @@ std::array<double, 2> guessed_commissures(const AnnulusSamples &annulus,
   const std::vector<double> exact = smoothed(heights, 2);
   const size_t i = lowest_near(exact, guess.from), j = lowest_near(exact, guess.to % samples);
   add(findings, "commissures", FindingSource::guessed, std::min(0.9, guess.confidence),
-      format(
-          "where heights of the leaflets, shape of the annulus%s are most like those of a normal "
-          "valve; the leaflets are %.1f and %.1f mm high there. Give both commissures first: "
-          "scallops, chordae and the closed shape follow from them",
-          annulus.tips.empty() ? " and shape of the annulus" : ", annulus and papillary tips",
-          exact[i] * 1e3, exact[j] * 1e3));
+      format("where heights of the leaflets%s are most like those of a normal "
+             "valve; the leaflets are %.1f and %.1f mm high there. Give both commissures first: "
+             "scallops, chordae and the closed shape follow from them",
+             annulus.tips.empty() ? " and shape of the annulus"
+                                  : ", shape of the annulus and place of the papillary tips",
+             exact[i] * 1e3, exact[j] * 1e3));
   const double width = length / samples;
   return {(static_cast<double>(i) + 0.5) * width, (static_cast<double>(j) + 0.5) * width};
 }

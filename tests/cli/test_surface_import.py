@@ -134,6 +134,9 @@ class SurfaceImport(unittest.TestCase):
         out.write_bytes(b"kept")
         self.fails(1, "mm", "import", self.dir / "open.stl", "-o", out, "--unit", "m")
         self.fails(1, "cannot", "import", self.dir / "missing.stl", "-o", out)
+        for name, way in (("open.nii.gz", "mvs-image"), ("valve.inp", "mvs close")):
+            (self.dir / name).write_bytes(b"")
+            self.fails(1, way, "import", self.dir / name, "-o", out)
         (self.dir / "cut.stl").write_bytes((self.dir / "open.stl").read_bytes()[:-7])
         self.fails(1, "cut.stl", "import", self.dir / "cut.stl", "-o", out)
         far = [(0.5 + x, y, z) for x, y, z in self.points[:2]]

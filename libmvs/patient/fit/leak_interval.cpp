@@ -104,11 +104,12 @@ void report(const LeakInterval &interval, const EdgeRange &edge, double thicknes
       {"leak_interval",
        FindingSource::measured,
        confidence,
-       format("%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
-              ranges_of(interval, edge, thickness_error).c_str(),
-              interval.draws == 0
-                  ? ": sealed with all of them"
-                  : format(", from %u closures with random ones as well", interval.draws).c_str()),
+       format(
+           "%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
+           ranges_of(interval, edge, thickness_error).c_str(),
+           interval.draws == 0
+               ? ": sealed with all of them"
+               : format("; %u closures with random ones are among them", interval.draws).c_str()),
        {interval.least, interval.most},
        "m2"});
 }

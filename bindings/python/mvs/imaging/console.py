@@ -8,17 +8,18 @@ from typing import Optional, TextIO
 
 
 class Console:
-    """Prints one line for each stage when it begins; on a terminal also the share that is done."""
+    """Prints one line for each stage when it begins, and the share that is done: on a terminal in that
+    line, elsewhere a line for each fifth."""
 
     def __init__(self, quiet: bool = False, stream: Optional[TextIO] = None) -> None:
         self._quiet, self._stream = quiet, stream or sys.stderr
         self._start = time.monotonic()
-        self._name = ""
+        self._name, self._fifths = "", 0
 
     def stage(self, name: str) -> None:
         """A new stage begins."""
         self._end_line()
-        self._name = name
+        self._name, self._fifths = name, 0
         if not self._quiet:
             after = time.monotonic() - self._start
             self._stream.write(f"[{after:6.1f} s] {name}")
@@ -27,9 +28,16 @@ class Console:
 
     def share(self, done: float) -> None:
         """The present stage is done to a share of 0 to 1."""
-        if not self._quiet and self._stream.isatty():
-            self._stream.write(f"\r{self._name}: {100 * min(max(done, 0.0), 1.0):3.0f} %   ")
-            self._stream.flush()
+        if self._quiet:
+            return
+        percent = 100 * min(max(done, 0.0), 1.0)
+        if self._stream.isatty():
+            self._stream.write(f"\r{self._name}: {percent:3.0f} %   ")
+        elif int(percent / 20) > self._fifths:
+            self._fifths = int(percent / 20)
+            after = time.monotonic() - self._start
+            self._stream.write(f"[{after:6.1f} s]   {percent:.0f} %\n")
+        self._stream.flush()
 
     def done(self) -> None:
         """The work is finished."""

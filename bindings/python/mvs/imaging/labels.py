@@ -7,7 +7,7 @@ what is mended is a finding, and what no rule mends is refused with a sentence.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, Optional
 
 import numpy as np
@@ -24,6 +24,14 @@ from .sheet import SheetSettings, mid_surface
 
 UNKNOWN, ANTERIOR, POSTERIOR = 0, 1, 2
 WORDS = {ANTERIOR: ("anterior", "aml", "ant", "a"), POSTERIOR: ("posterior", "pml", "post", "p")}
+
+
+Tell = Callable[[str], object]
+"""Called with the name of each step as it begins."""
+
+
+def silent(_: str) -> None:
+    """No progress is shown."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -92,7 +100,7 @@ def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None
 
 
 def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
-                settings: LabelSettings = LabelSettings()) -> Leaflets:
+                settings: LabelSettings = LabelSettings(), tell: Tell = silent) -> Leaflets:
     """The mid-surface of the leaflets in a label map."""
     segments = choose_segments(labels, chosen)
     findings: list[Finding] = []
@@ -100,7 +108,8 @@ def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     for name in segments:
         mask |= labels.masks[name]
     mask = _without_islands(mask, settings.island, findings)
-    sheet, grid = _sheet_of(labels.image, mask, settings, findings)
+    sheet, grid = _sheet_of(labels.image, mask, settings, findings, tell)
+    tell("leaflet of each triangle")
     leaflet = _leaflet_of_triangles(labels, segments, grid, sheet, findings)
     return Leaflets(sheet, leaflet, findings)
 
@@ -189,14 +198,17 @@ def width_of(mask: NDArray[np.bool_], spacing: Points) -> float:
 
 
 def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
-              findings: list[Finding]) -> tuple[Sheet, Grid]:
+              findings: list[Finding], tell: Tell) -> tuple[Sheet, Grid]:
     """The mid-surface; tissue is closed step by step until the sheet has no tunnel."""
     voxel = spacing_of(image)
     grid, tissue = tissue_on_grid(image, mask, grid_step(image, mask))
     first: Optional[tuple[Sheet, list[float], float]] = None  # without tunnels
     for attempt in range(4):
         radius = attempt * voxel
-        sheet, smaller = largest_piece(fitted_sheet(grid, _closed(grid, tissue, radius), voxel, settings))
+        if radius:
+            tell(f"gaps up to {2e3 * radius:.1f} mm closed, because of tunnels or ragged holes")
+        sheet, smaller = largest_piece(
+            fitted_sheet(grid, _closed(grid, tissue, radius), voxel, settings, tell))
         tunnels = handles(sheet)
         if tunnels:
             continue
@@ -246,14 +258,16 @@ def _closed(grid: Grid, tissue: Volume, radius: float) -> Volume:
 
 
 def fitted_sheet(grid: Grid, tissue: Volume, voxel: float,
-                 settings: LabelSettings = LabelSettings()) -> Sheet:
+                 settings: LabelSettings = LabelSettings(), tell: Tell = silent) -> Sheet:
     """The mid-surface with a Gaussian that fits the thickness found with a narrow one."""
     smoothing = settings.smoothing or 2 * voxel
     narrow = settings.blur or max(0.9 * voxel, 1.5 * grid.step)
+    tell(f"mid-surface on voxels of {grid.step * 1e3:.2f} mm")
     sheet = mid_surface(grid, tissue, SheetSettings(narrow, smoothing))
     wide = 0.5 * float(np.median(sheet.values["thickness"]))
     if settings.blur or wide <= 1.1 * narrow:
         return sheet
+    tell(f"mid-surface of tissue that is {2e3 * wide:.2f} mm thick")
     return mid_surface(grid, tissue, SheetSettings(wide, smoothing))
 
 

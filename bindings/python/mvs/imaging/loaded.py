@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Points, spacing_of
-from .labels import (ANTERIOR, POSTERIOR, LabelSettings, choose_segments, fitted_sheet, grid_step,
-                     tissue_on_grid)
+from .labels import (ANTERIOR, POSTERIOR, LabelSettings, Tell, choose_segments, fitted_sheet,
+                     grid_step, silent, tissue_on_grid)
 from .mesh import Sheet, areas, largest_piece
 from .needs import need
 from .reading import LabelMap
@@ -80,7 +80,8 @@ def motion_of_images(moving: Any, fixed: Any) -> tuple[Motion, Finding]:
 
 
 def closed_surface(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
-                   settings: LabelSettings = LabelSettings()) -> tuple[Sheet, list[Finding]]:
+                   settings: LabelSettings = LabelSettings(),
+                   tell: Tell = silent) -> tuple[Sheet, list[Finding]]:
     """The mid-surfaces of the closed leaflets, each by itself, as one triangle surface.
 
     Leaflets that touch share no gap: each needs a label of its own. With one label for both, the
@@ -102,7 +103,8 @@ def closed_surface(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
         mask = np.any([labels.masks[name] for name in names], axis=0)
         if not mask.any():
             raise ArgumentError(f"the {word} leaflet is missing in the loaded image", "loaded")
-        sheets.append(_largest_sheet(labels.image, mask, settings))
+        named = f"{word} leaflet: " if word else ""
+        sheets.append(_largest_sheet(labels.image, mask, settings, lambda step: tell(named + step)))
     points = np.vstack([sheet.points for sheet in sheets])
     first = np.cumsum([0, *(len(sheet.points) for sheet in sheets)])
     triangles = np.vstack([sheet.triangles + k for sheet, k in zip(sheets, first)])
@@ -118,7 +120,7 @@ def closed_surface(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     return surface, findings
 
 
-def _largest_sheet(image: Any, mask: NDArray[np.bool_], settings: LabelSettings) -> Sheet:
+def _largest_sheet(image: Any, mask: NDArray[np.bool_], settings: LabelSettings, tell: Tell) -> Sheet:
     voxel = spacing_of(image)
     grid, tissue = tissue_on_grid(image, mask, grid_step(image, mask))
-    return largest_piece(fitted_sheet(grid, tissue, voxel, settings))[0]
+    return largest_piece(fitted_sheet(grid, tissue, voxel, settings, tell))[0]

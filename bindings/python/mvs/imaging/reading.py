@@ -17,6 +17,7 @@ from mvs import ArgumentError, FormatError, IoError
 from .needs import need
 
 PathLike = Union[str, "os.PathLike[str]"]
+SURFACES = (".stl", ".ply", ".obj", ".off", ".vtp")
 ENDINGS = (".nrrd", ".nhdr", ".nii", ".nii.gz", ".mha", ".mhd")
 
 
@@ -67,6 +68,8 @@ def labels_of(image: Any, names: Optional[dict[int, str]] = None, path: str = "i
     check_voxels(image, path)
     sitk = need("SimpleITK")
     values = sitk.GetArrayViewFromImage(image)
+    if is_signed(values):
+        return LabelMap(image, {"1": np.asarray(values > 0)}, {"1": 1})
     if not np.issubdtype(values.dtype, np.integer) and not (values == np.rint(values)).all():
         raise FormatError(f"{path}: the voxels are no whole numbers: this is a grey volume and no "
                           "label map", "labels")
@@ -80,12 +83,30 @@ def labels_of(image: Any, names: Optional[dict[int, str]] = None, path: str = "i
 
 
 def is_label_map(image: Any) -> bool:
-    """Whether a volume holds at most 16 different whole numbers."""
+    """Whether a volume holds at most 16 different whole numbers, or signs of inside and outside."""
     values = need("SimpleITK").GetArrayViewFromImage(image)
+    if is_signed(values):
+        return True
     sample = np.unique(values.ravel()[:: max(1, values.size // 200_000)])
     if len(sample) > 16 or (sample != np.rint(sample)).any():
         return False
     return len(np.unique(values)) <= 16
+
+
+SIGNED_MOST = 10.0
+"""The largest value of signed label images: grey values are larger."""
+
+
+def is_signed(values: NDArray[Any]) -> bool:
+    """Whether the voxels are negative outside and positive inside of a segment: from -a to a, most of them
+    near one of the two."""
+    sample = values.ravel()[:: max(1, values.size // 200_000)]
+    if not np.issubdtype(values.dtype, np.floating):
+        return False
+    low, high = float(sample.min()), float(sample.max())
+    if not low < 0 < high <= SIGNED_MOST or abs(low + high) > 0.05 * high:
+        return False
+    return bool((np.abs(sample) > 0.9 * high).mean() > 0.5)
 
 
 def check_voxels(image: Any, path: str) -> None:
@@ -121,8 +142,11 @@ def _read(path: PathLike) -> Any:
         return sitk.ReadImage(name)
     except RuntimeError as error:
         reason = str(error).strip().splitlines()[-1]
-        raise FormatError(f"{name}: is no volume that SimpleITK reads ({reason}): give "
-                          f"{', '.join(ENDINGS)} or a folder of DICOM files", "path") from error
+        surface = name.lower().endswith(SURFACES)
+        hint = "a surface: give it to `mvs import`" if surface else (
+            f"is no volume that SimpleITK reads ({reason}): give {', '.join(ENDINGS)} or a folder of DICOM "
+            "files")
+        raise FormatError(f"{name}: {hint}", "path") from error
 
 
 def _read_dicom(folder: str) -> Any:

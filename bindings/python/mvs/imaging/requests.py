@@ -48,8 +48,9 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
                      console: Console) -> ImageValve:
     settings = LabelSettings() if chosen.hole is None else LabelSettings(hole=chosen.hole * 1e-3)
     segments = _segments(chosen)
-    console.stage("mid-surface of the open leaflets")
-    leaflets = leaflets_in(image, segments, settings)
+    leaflets = leaflets_in(image, segments, settings,
+                           lambda step: console.stage(f"open leaflets: {step}"))
+    console.stage("open leaflets: rims and holes")
     check_open_valve(leaflets, settings)
     voxel = spacing_of(image.image)
     assumed = {**edge_of_labels(voxel), **thickness_of_labels(leaflets.sheet, voxel)}
@@ -61,8 +62,8 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
     motion = Motion.none()
     found: list[mvs.Finding] = []
     if loaded is not None:
-        console.stage("mid-surface of the closed leaflets")
-        surface, found = closed_surface(loaded, segments, settings)
+        surface, found = closed_surface(loaded, segments, settings,
+                                        lambda step: console.stage(f"closed leaflets: {step}"))
         motion, how = motion_between(chosen.register or "none", landmarks,
                                      _landmarks(chosen, "loaded_"))
         surface.points = motion(surface.points)

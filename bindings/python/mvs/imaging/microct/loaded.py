@@ -119,10 +119,17 @@ def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNe
     assert stats is not None
     change = rest / open_rest - 1
     return opened, closed, stats, finding(
-        "loaded_chordae", mvs.FindingSource.MEASURED, 0.6,
-        f"{len(matched)} of {len(rest)} segments were found in the loaded image, too; their rest lengths "
-        f"changed by {100 * np.median(change[list(matched)]) if matched else 0:.1f} % in the median, so "
-        "that they are as long under load as there", change, "")
+        "loaded_chordae", mvs.FindingSource.MEASURED, 0.6 if matched else 0.2,
+        _sentence_of(change[list(matched)], len(rest)), change, "")
+
+
+def _sentence_of(change: Points, segments: int) -> str:
+    if not len(change):
+        return ("no chord of the open image was found in the loaded one: all keep the length that they have "
+                "in the open image, and nothing shows whether they are as long under load")
+    return (f"{len(change)} of {segments} segments were found in the loaded image, too; their rest lengths "
+            f"changed by {100 * np.median(change):.1f} % in the median, so that they are as long under load "
+            "as there")
 
 
 def settled(valve: mvs.Valve) -> tuple[mvs.Snapshot, mvs.Snapshot, mvs.Stats]:
