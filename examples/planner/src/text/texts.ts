@@ -393,6 +393,7 @@ export const appTexts = {
   again: 'Load it again',
   picture: 'Picture of the valve',
   compare: 'Before or now',
+  drop: 'Drop a session, a valve, or a surface here',
   before: 'Before',
   now: 'Now',
   preview: 'Preview',
