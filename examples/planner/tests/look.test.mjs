@@ -110,6 +110,23 @@ describe('planner to look at', () => {
     await page.keyboard.press('Escape');
   });
 
+  it('takes_a_file_that_is_dropped_beside_the_picture', async () => {
+    const taken = await page.evaluate(() => {
+      const transfer = new DataTransfer();
+      transfer.items.add(new File(['nothing'], 'words.txt'));
+      const panel = document.querySelector('.panel');
+      const send = (type) => {
+        const event = new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true });
+        panel.dispatchEvent(event);
+        return event.defaultPrevented;
+      };
+      return send('dragover') && send('drop');
+    });
+    assert.ok(taken, 'the browser would leave the page for the file');
+    await page.getByText('words.txt is not a file this page can open').waitFor();
+    await page.locator('.notice').getByRole('button', { name: 'Close' }).click();
+  });
+
   it('shows_a_surface_from_the_atrium', async () => {
     await page.getByRole('button', { name: 'Healthy valve' }).click();
     await page.waitForTimeout(200);

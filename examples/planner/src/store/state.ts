@@ -112,6 +112,8 @@ export const surface = computed(() => {
 });
 /** Which points the next clicks on the surface set. */
 export const importing = signal<keyof Imported['points']>('commissures');
+/** A file is dragged over the page. */
+export const dropping = signal(false);
 export const dialog = signal<'keys' | 'report' | 'about' | 'recover' | 'notes' | null>(null);
 
 const topologies = new Map<string, Topology>();

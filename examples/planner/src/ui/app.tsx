@@ -138,16 +138,8 @@ function Picture() {
   }, []);
   return (
     <main class="picture">
-      <div
-        class="canvas"
-        ref={host}
-        onDragOver={(event) => event.preventDefault()}
-        onDrop={(event) => {
-          event.preventDefault();
-          const file = event.dataTransfer?.files[0];
-          if (file) void openFile(file);
-        }}
-      />
+      <div class="canvas" ref={host} />
+      {state.dropping.value && <p class="drop-here">{appTexts.drop}</p>}
       <p id="picture-help" class="hidden">
         {help.picture}
       </p>
@@ -212,10 +204,35 @@ function onKey(event: KeyboardEvent): void {
   } else if (key === '?') state.dialog.value = 'keys';
 }
 
+/** A file may be dropped anywhere: where the page does not take it, the browser leaves the page for the file. */
+function onDrag(event: DragEvent): void {
+  event.preventDefault();
+  state.dropping.value = true;
+}
+
+function onDragEnd(event: DragEvent): void {
+  if (!event.relatedTarget) state.dropping.value = false;
+}
+
+function onDrop(event: DragEvent): void {
+  event.preventDefault();
+  state.dropping.value = false;
+  const file = event.dataTransfer?.files[0];
+  if (file && !state.dialog.value) void openFile(file);
+}
+
 export function App() {
   useEffect(() => {
     window.addEventListener('keydown', onKey);
-    return () => window.removeEventListener('keydown', onKey);
+    window.addEventListener('dragover', onDrag);
+    window.addEventListener('dragleave', onDragEnd);
+    window.addEventListener('drop', onDrop);
+    return () => {
+      window.removeEventListener('keydown', onKey);
+      window.removeEventListener('dragover', onDrag);
+      window.removeEventListener('dragleave', onDragEnd);
+      window.removeEventListener('drop', onDrop);
+    };
   }, []);
   if (state.broken.value) {
     return (

@@ -4,12 +4,14 @@ import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
 import { download } from '../store/keep';
 import * as state from '../store/state';
-import { figure, figureNames, grade, reportTexts, say, valveTexts, where } from '../text/texts';
+import { figure, figureNames, grade, reportTexts, say, sectionTexts, valveTexts, where } from '../text/texts';
 import type { Cost, Figures } from '../protocol';
 import { openingOf } from '../store/opening';
+import { fail, request } from '../store/requests';
 import { view } from './app';
 import { Modal } from './dialogs';
 import { Button } from './parts';
+import { lines } from './section';
 
 interface Pictures {
   before: string[];
@@ -95,8 +97,23 @@ function openingRows(then: Figures, now: Figures): string {
   );
 }
 
+/** The leaflets in the plane through the middle, before and after, as an SVG picture. */
+async function sectionPlot(): Promise<string> {
+  const frame = state.main.value!.figures.frame;
+  const ask = (which: 'first' | 'main') => request('section', { which, frame, offset: 0 });
+  const [before, after] = [await ask('first'), await ask('main')];
+  const word = (x: number, y: number, anchor: string, text: string, colour = '#5a6a79') =>
+    `<text x="${x}" y="${y}" text-anchor="${anchor}" font-size="2.2" fill="${colour}">${escape(text)}</text>`;
+  return `<svg class="cut" viewBox="-26 -12 52 37" role="img" aria-label="${sectionTexts.label}"><g fill="none" stroke-linecap="round">
+<path d="M-24 0H24" stroke="#c4ced6" stroke-width=".2"/><path d="M-24 21h10" stroke="#1c2733" stroke-width=".4"/>
+<path d="${lines(before)}" stroke="#8795a1" stroke-width=".45" stroke-dasharray="1 .8"/>
+<path d="${lines(after)}" stroke="#b5493b" stroke-width=".6"/></g>
+${word(-25, -9, 'start', sectionTexts.anterior)}${word(25, -9, 'end', sectionTexts.posterior)}${word(-19, 23.5, 'middle', sectionTexts.scale)}
+${word(25, 20.5, 'end', reportTexts.dashed)}${word(25, 23.5, 'end', reportTexts.line, '#b5493b')}</svg>`;
+}
+
 /** The report as the body of an HTML page. */
-function reportHtml(pictures: Pictures): string {
+function reportHtml(pictures: Pictures, plot: string): string {
   const now = state.main.value!.figures;
   const then = (state.first.value ?? state.main.value!).figures;
   const images = (list: string[]) =>
@@ -122,19 +139,21 @@ function reportHtml(pictures: Pictures): string {
 <div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>
 <section><h2>${reportTexts.after}</h2><p>${escape(verdictOf(now))}</p>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
-<h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table>
+<div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table></section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
 ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
 <p><small>${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;
 }
 
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
-table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400}`;
+table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400;white-space:nowrap}`;
 
 export function ReportDialog() {
   const html = useSignal('');
   useEffect(() => {
-    html.value = reportHtml(takePictures());
+    const pictures = takePictures();
+    html.value = reportHtml(pictures, '');
+    sectionPlot().then((plot) => (html.value = reportHtml(pictures, plot)), fail);
   }, []);
   const save = () =>
     download(

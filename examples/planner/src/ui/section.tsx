@@ -12,7 +12,7 @@ interface Curve {
 }
 
 /** Anterior to the left, as in the view of the section. */
-function lines(points: Section): string {
+export function lines(points: Section): string {
   const put = (i: number) => `${(-points[i]).toFixed(2)} ${(-points[i + 1]).toFixed(2)}`;
   let path = '';
   for (let i = 0; i < points.length; i += 4) path += `M${put(i)}L${put(i + 2)}`;
