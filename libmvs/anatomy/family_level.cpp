@@ -61,15 +61,22 @@ std::shared_ptr<const Coarsened> made_after(const FamilyLevel &level, const Mode
   return made;
 }
 
-}  // namespace
-
-std::shared_ptr<const Coarsened> coarsen_in_family(const Model &model, size_t vertices) {
+// Returns null if no level of the family serves the model.
+std::shared_ptr<const Coarsened> find_in_family(const Model &model, size_t vertices) {
   for (const std::shared_ptr<const FamilyLevel> &level : model.family->levels()) {
     if (auto made = made_after(*level, model, vertices)) return made;
   }
+  return nullptr;
+}
+
+}  // namespace
+
+std::shared_ptr<const Coarsened> coarsen_in_family(const Model &model, size_t vertices) {
+  if (auto made = find_in_family(model, vertices)) return made;
   std::vector<ChordStep> steps;
   auto made = std::make_shared<const Coarsened>(coarsen(model, vertices, &steps));
-  if (model.family->has_variants()) {
+  // another thread may have kept the same level meanwhile
+  if (model.family->has_variants() && !find_in_family(model, vertices)) {
     model.family->keep(std::make_shared<const FamilyLevel>(
         FamilyLevel{vertices, model.valve.triangle_thickness, model.valve.triangle_fibre,
                     std::move(steps), made}));
