@@ -112,7 +112,8 @@ namespace {
 // = t_a t_b, block (k, l) is
 //   w_k w_l (E'' n n^T + c (I - n n^T)) - c sum_ab (G^-1)_ab u_ka u_lb^T,
 //   u_ka = w_k t_a + slide_ka d n.
-// The projected Hessian keeps E'' n n^T where E'' is positive, and leaves the rest out.
+// The projected Hessian keeps E'' n n^T where E'' is positive, and leaves the rest out; the balanced
+// one is exact for pairs of contact proper between sheets.
 class ContactPairHessian {
  public:
   ContactPairHessian(const ContactPair &s, double second, double c, const std::vector<Vec3> &x)
@@ -168,7 +169,8 @@ bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)
     if (!system.takes(s.nodes())) continue;
     const Barrier b = curve(s.gap() / s.range);
     const double second = s.strength / s.range * b.second;
-    const bool exact = curvature == Curvature::exact;
+    const bool balances = curvature == Curvature::balanced && !s.is_barrier && s.radius == 0;
+    const bool exact = curvature == Curvature::exact || balances;
     if (!exact && second <= 0) continue;
     const ContactPairHessian blocks(s, second, exact ? s.strength * b.first / s.distance : 0, x);
     for (uint32_t k = 0; k < s.count; ++k) {

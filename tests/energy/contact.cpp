@@ -105,6 +105,42 @@ TEST_CASE("projected_contact_is_positive_semidefinite") {
   CHECK(values.maxCoeff() > 0);
 }
 
+// The energy does not change while both plates turn, x' = w x x: v H v = -g (w x v), v = w x x. A
+// Hessian without that curvature takes turning for free, and the pressure's is as negative there.
+TEST_CASE("balanced_contact_keeps_the_curvature_of_plates_that_turn") {
+  const Plates plates = two_plates(4, 10e-3, 4e-3, false, [](Valve &) {});
+  Random random(6);
+  Positions x = plates.at(0.5e-3);
+  for (Vec3 &p : x) p += random.vector(0.05e-3);
+  Touch touch(plates.model, x, 0);
+  const Positions g = touch.gradient(x);
+  const Vec3 turn(1, 0.3, 0.2);
+  Positions velocity;
+  double expected = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    velocity.push_back(turn.cross(x[i]));
+    expected -= g[i].dot(turn.cross(velocity.back()));
+  }
+  const Eigen::VectorXd v = flat(velocity);
+  REQUIRE(!touch.contact_pairs().empty());
+  for (const ContactPair &s : touch.contact_pairs()) CHECK_FALSE(s.is_barrier);
+  const Eigen::MatrixXd balanced = touch.hessian(x, Curvature::balanced);
+  const double found = v.dot(balanced * v);
+  // rounding of stiffness times 10 mm, squared
+  CHECK(std::abs(found - expected) < 1e-9 * balanced.cwiseAbs().maxCoeff() * v.squaredNorm());
+  const double without = v.dot(touch.hessian(x, Curvature::projected) * v);
+  CHECK(std::abs(found - expected) < 1e-6 * std::abs(without - expected));
+}
+
+TEST_CASE("the_barrier_alone_is_projected_in_a_balanced_hessian") {
+  const Plates plates = rough_plates();
+  const Positions x = rough(plates, 4);
+  Touch touch(plates.model, x, 0);
+  const Eigen::MatrixXd balanced = touch.hessian(x, Curvature::balanced);
+  CHECK(balanced != touch.hessian(x, Curvature::exact));
+  CHECK(balanced != touch.hessian(x, Curvature::projected));
+}
+
 TEST_CASE("contact_moves_with_the_sheets_and_has_zero_resultant") {
   const Plates plates = rough_plates();
   const Positions x = rough(plates, 5);

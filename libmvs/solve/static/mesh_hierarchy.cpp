@@ -11,6 +11,7 @@
 #include "geometry/intersect.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
+#include "solve/static/newton.h"
 #include "solve/static/untangle.h"
 
 namespace mvs::core {
@@ -21,8 +22,13 @@ size_t sheet_vertices(const Model &model) {
                                            [](double area) { return area > 0; }));
 }
 
+const settings::mesh_hierarchy::Extent &extent_for(const Model &model) {
+  return has_bilinear_tissue(model) ? settings::mesh_hierarchy::bilinear
+                                    : settings::mesh_hierarchy::exponential;
+}
+
 double coarse_residual(const Model &coarse, const Load &load) {
-  return settings::mesh_hierarchy::coarse_residual * std::abs(load.pressure) * mean_area(coarse);
+  return extent_for(coarse).coarse_residual * std::abs(load.pressure) * mean_area(coarse);
 }
 
 // A mesh of the hierarchy.
@@ -37,7 +43,7 @@ struct Level {
 
 bool may_coarsen(const Level &level) {
   return level.options.solver <= SolverKind::newton &&
-         sheet_vertices(*level.model) >= settings::mesh_hierarchy::min_vertices &&
+         sheet_vertices(*level.model) >= extent_for(*level.model).min_vertices &&
          level.state.tools.empty() && far_from_rest(*level.model, level.state);
 }
 
@@ -54,8 +60,8 @@ std::optional<Level> coarser(const Level &fine, CoarseLevels &kept) {
   namespace set = settings::mesh_hierarchy;
   try {
     const size_t vertices = sheet_vertices(*fine.model) / set::coarsening;
-    const std::shared_ptr<const Coarsened> made =
-        kept.coarsened(*fine.model, std::max(vertices, set::min_coarse_vertices));
+    const std::shared_ptr<const Coarsened> made = kept.coarsened(
+        *fine.model, std::max(vertices, extent_for(*fine.model).min_coarse_vertices));
     State state = to_coarse(made->map, fine.state);
     if (!find_intersections(state.x, made->model->valve.triangles).empty()) return {};
     SolveOptions options = fine.options;

@@ -31,8 +31,8 @@ class CoarseLevels {
   std::vector<Kept> kept_;  // the last one made last
 };
 
-// Settles as Solver::settle does. Uses coarser meshes with Newton's method on at least
-// settings::mesh_hierarchy::min_vertices vertices of the sheet, if the valve is far from rest and
+// Settles as Solver::settle does. Uses coarser meshes with Newton's method on as many
+// vertices of the sheet as settings::mesh_hierarchy asks for, if the valve is far from rest and
 // has no tools, and if the shape from the coarse mesh does not intersect itself or can be untangled
 // (untangle.h). The count of iterations is that of the mesh itself; factorisations, passes and
 // times are those of all levels.

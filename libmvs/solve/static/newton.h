@@ -2,14 +2,15 @@
 // the increments of the boundary on its way to its target (newton_settling.h has the loop).
 //
 // The matrix is H + lambda D (newton_system.h). Far from rest H is projected to be positive
-// semidefinite and lambda follows the gain ratio, the measured over the predicted change of energy
-// (Conn, Gould, Toint, Trust-Region Methods, 2000). Near rest H is exact, the ratio is 1 minus the
-// error of the predicted change relative to the slope, and a full step on the
-// out-of-balance force is tried first, which converges quadratically although the follower load
-// has no potential at the free edge. Where the exact Hessian is indefinite such steps would end at
-// whatever equilibrium is near: they are taken only if it is stable, and an unstable one is left
-// along its mode (solve/stability.h). Conservative continuous collision detection shortens every
-// step node by node, so that no sheet passes another (collision/step_limiter.h).
+// semidefinite, but for contact (Curvature::balanced), and lambda follows the gain ratio, the
+// measured over the predicted change of energy (Conn, Gould, Toint, Trust-Region Methods, 2000).
+// Near rest H is exact, the ratio is 1 minus the error of the predicted change relative to the
+// slope, and a full step on the out-of-balance force is tried first, which converges quadratically
+// although the follower load has no potential at the free edge. Where the exact Hessian is
+// indefinite such steps would end at whatever equilibrium is near: they are taken only if it is
+// stable, and an unstable one is left along its mode (solve/stability.h). Conservative continuous
+// collision detection shortens every step node by node, so that no sheet passes another
+// (collision/step_limiter.h).
 //
 // Where only a few nodes are far from rest, as after an operation on a closed valve, a local
 // subproblem around them is settled first (local_subproblem.h): it only improves the start.
@@ -45,6 +46,10 @@ struct ForceLevels {
   double exact_below = 0;   // for the exact Hessian of the trust region
   double polish_below = 0;  // for polish steps
 };
+
+// Whether the leaflets are of springs or of the bilinear membrane alone, whose stiffness does not
+// grow with strain beyond their kink.
+bool has_bilinear_tissue(const Model &model);
 
 class Newton {
  public:
@@ -111,6 +116,7 @@ class Newton {
   StabilityCheck check_;
   SolveStats stats_;
   ForceLevels forces_;
+  Curvature far_;      // of the Hessian far from rest
   double slack_ = 0;   // m, of the broad phase
   double lambda_ = 1;  // that the next factorisation asks for
   Step step_;

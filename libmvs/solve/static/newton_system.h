@@ -70,7 +70,7 @@ class NewtonSystem {
   DirectSolver *factor_;
   const std::vector<Vec3> *x_;
   HessianAssembler assembler_;
-  Curvature curvature_ = Curvature::projected;
+  Curvature curvature_ = Curvature::balanced;
   std::vector<Mat3> diagonal_;          // of H
   std::vector<double> lambda_scale_;    // N/m per node: D
   std::vector<Mat3> hold_;              // N/m per row; empty: no row is held

@@ -16,7 +16,7 @@ void Newton::trust_region_step(bool has_exact) {
   namespace set = settings::trust_region;
   const bool exact = at_.residual < forces_.exact_below;
   if (!exact || !has_exact) {
-    system_.assemble(exact ? Curvature::exact : Curvature::projected, stats_.work);
+    system_.assemble(exact ? Curvature::exact : far_, stats_.work);
   }
   const double kept = lambda_;
   std::vector<StoppedNode> stopped;
@@ -38,7 +38,7 @@ void Newton::trust_region_step(bool has_exact) {
     if (gain > set::accepted_gain || lambda_ >= set::max_lambda) break;
     if (factorises) stopped = stopped_nodes();
     // the model itself predicts that the limited step raises the energy
-    const bool uphill = system_.curvature() == Curvature::projected && predicted_reduction < 0;
+    const bool uphill = system_.curvature() != Curvature::exact && predicted_reduction < 0;
     if (uphill && lambda_ > set::min_hold_lambda && !factorises && trial + 1 < set::trials &&
         hold(stopped)) {
       lambda_ = kept;
@@ -94,7 +94,7 @@ bool Newton::hold(const std::vector<StoppedNode> &stopped) {
 // energy, positive where it falls. Projected Hessian: measured over predicted reduction; exact
 // Hessian: 1 minus the error of the predicted reduction relative to the slope.
 double Newton::gain_ratio(double reduction, double predicted_reduction) const {
-  if (system_.curvature() == Curvature::projected) {
+  if (system_.curvature() != Curvature::exact) {
     return predicted_reduction > 0 ? reduction / predicted_reduction : (reduction > 0 ? 1 : -1);
   }
   // the linear part is common to both, so their difference is the error of the matrix
