@@ -12,7 +12,7 @@
 #include "patient/chordae/patient_chordae.h"
 #include "patient/findings.h"
 #include "patient/fit/edge_range.h"
-#include "patient/fit/fit_to_closed.h"
+#include "patient/fit/fit_over_levels.h"
 #include "patient/fit/thickness_range.h"
 #include "patient/mesh/remesh_sheet.h"
 #include "patient/surface/boundary.h"
@@ -233,8 +233,8 @@ void tell_progress(const Progress &progress, double share) {
 ChordFit fit_chords(const PatientSurface &surface, const Progress &progress, Valve &valve,
                     Findings &findings) {
   const FitSettings settings;
-  return fit_to_closed(
-      valve, {surface.closed_points, surface.closed_triangles}, settings, findings, {},
+  return fit_over_levels(
+      valve, {surface.closed_points, surface.closed_triangles}, settings, findings,
       [&](uint32_t start) { tell_progress(progress, 0.1 + 0.7 * start / settings.starts); });
 }
 
