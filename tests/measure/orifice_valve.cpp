@@ -2,7 +2,9 @@
 #include <doctest/doctest.h>
 #include <mvs/sim.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "anatomy/parametric.h"
 #include "measure/coaptation/coaptation.h"
@@ -56,6 +58,33 @@ TEST_CASE("an_annulus_too_wide_for_its_leaflets_leaks_equally_in_any_position") 
   const double moved_area =
       measure_orifice(*closed.model, moved(closed.state.x, some_rigid_motion())).area;
   CHECK(moved_area == about(area, 2e-3));  // rounding may choose other diagonals of the samples
+}
+
+// Where a decision of the method flips, the area jumps. A smooth area would rise by the same in all
+// steps of a short path, to 1e-4 of the rise; bench_jumps follows more and longer paths.
+TEST_CASE("an_orifice_jumps_by_less_than_its_resolution_along_smooth_paths") {
+  constexpr double resolution = 1e-3, step = 1e-6;  // of the area (DEFINITIONS.md); m
+  const Closed leaking = close_valve(1.5);
+  for (const std::vector<Vec3> &from : {leaking.state.x.get(), leaking.model->valve.rest}) {
+    for (const double turn : {0.0, 1.0}) {
+      std::vector<double> areas, rises;
+      for (int s = 0; s <= 12; ++s) {
+        std::vector<Vec3> x = from;
+        for (Vec3 &p : x) {
+          const Vec3 q = 350 * p;
+          p += s * step * Vec3(std::sin(q[1] + turn), std::sin(q[2]), std::sin(q[0] - turn));
+        }
+        areas.push_back(cut_orifice(*leaking.model, x).area);
+        if (s > 0) rises.push_back(areas[areas.size() - 1] - areas[areas.size() - 2]);
+      }
+      std::vector<double> sorted = rises;
+      std::sort(sorted.begin(), sorted.end());
+      const double usual = sorted[sorted.size() / 2];
+      for (const double rise : rises) CHECK(std::abs(rise - usual) < resolution * areas[0]);
+      // the area is not a constant: the nodes move by 1 um on a rim of some 60 mm
+      CHECK(std::abs(areas.back() - areas.front()) > 1e-6 * areas[0]);
+    }
+  }
 }
 
 // The point that a sample faces may lie on an edge. Which of the edge's triangles rounding chooses

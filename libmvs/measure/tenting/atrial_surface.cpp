@@ -54,11 +54,6 @@ std::vector<double> node_rises(const Model &model, const std::vector<Vec3> &loca
 
 }  // namespace
 
-double AtrialSurface::rise(size_t cell) const {
-  const double rise = heights[cell] - map->heights()[cell];
-  return std::isfinite(rise) ? rise : 0;
-}
-
 AtrialSurface atrial_surface(const Model &model, const std::vector<Vec3> &x) {
   AtrialSurface surface;
   surface.frame = valve_frame(model, x);

@@ -1,6 +1,7 @@
 // Atrial surface: the leaflets seen from the atrium as a raster of heights.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -20,7 +21,10 @@ struct AtrialSurface {
   std::vector<double> node_rise;
 
   // Height above the surface that spans the annulus; 0 if either is not defined.
-  double rise(size_t cell) const;
+  double rise(size_t cell) const {
+    const double rise = heights[cell] - map->heights()[cell];
+    return std::isfinite(rise) ? rise : 0;
+  }
   // The area of a cell inside the annulus, m2.
   double area(size_t cell) const { return map->share(cell) * map->width() * map->depth(); }
 };

@@ -31,14 +31,17 @@ double central_area_below(const AtrialSurface &atrial) {
 TentingBillow measure_tenting_billow(const AtrialSurface &atrial) {
   const AnnulusMap &map = *atrial.map;
   TentingBillow result;
-  for (size_t c = 0; c < atrial.heights.size(); ++c) {
-    if (!map.inside(c)) continue;
-    const double rise = atrial.rise(c);
-    result.tenting_volume += atrial.area(c) * std::max(0.0, -rise);
-    result.billow_volume += atrial.area(c) * std::max(0.0, rise);
-    if (std::isfinite(atrial.heights[c])) {
-      // in proportion on the rim, so that no cell enters with its whole depth
-      result.tenting_height = std::max(result.tenting_height, -map.share(c) * atrial.heights[c]);
+  for (size_t row = 0; row < AnnulusMap::across; ++row) {
+    const size_t start = row * AnnulusMap::across;
+    for (size_t c = start + map.first_inside(row); c < start + map.end_inside(row); ++c) {
+      if (!map.inside(c)) continue;
+      const double rise = atrial.rise(c), area = atrial.area(c);
+      result.tenting_volume += area * std::max(0.0, -rise);
+      result.billow_volume += area * std::max(0.0, rise);
+      if (std::isfinite(atrial.heights[c])) {
+        // in proportion on the rim, so that no cell enters with its whole depth
+        result.tenting_height = std::max(result.tenting_height, -map.share(c) * atrial.heights[c]);
+      }
     }
   }
   result.tenting_area = central_area_below(atrial);

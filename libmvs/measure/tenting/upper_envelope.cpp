@@ -131,13 +131,8 @@ class Row {
 
   void fill(size_t row, const Section *begin, const Section *end) {
     row_ = row;
-    ends_.fill(0);
-    first_part_.fill(none);
+    sums_.fill({});
     parts_.clear();
-    covered_.fill(0);
-    height_.fill(0);
-    lowest_.fill(HUGE_VAL);
-    highest_.fill(-HUGE_VAL);
     for (const Section *s = begin; s != end; ++s) add(*s);
     for (size_t c = map_.first_inside(row); c < map_.end_inside(row); ++c) write(c);
   }
@@ -149,6 +144,13 @@ class Row {
     uint32_t next;
   };
 
+  // The sums of the sections of a cell, and the head of its list in parts_.
+  struct CellSums {
+    double covered = 0, height = 0, lowest = HUGE_VAL, highest = -HUGE_VAL;
+    uint64_t ends = 0;
+    uint32_t first_part = none;
+  };
+
   double border(size_t column) const {
     return map_.low_u() + static_cast<double>(column) * map_.width();
   }
@@ -158,11 +160,11 @@ class Row {
   }
 
   // Adds a section to the sums of its cells. Sections that begin where another one ends cancel in
-  // ends_: what remains shows that a cell has a fold or a border.
+  // `ends`: what remains shows that a cell has a fold or a border.
   void add(const Section &s) {
     const size_t first = column_of(s.from), last = column_of(s.to);
-    ends_[first] += bit_cast<uint64_t>(s.from);
-    ends_[last] -= bit_cast<uint64_t>(s.to);
+    sums_[first].ends += bit_cast<uint64_t>(s.from);
+    sums_[last].ends -= bit_cast<uint64_t>(s.to);
     double from = s.from, at_from = s.at_from;
     for (size_t c = first; c < last; ++c) {
       const double to = border(c + 1), at_to = s.height(to);
@@ -173,24 +175,25 @@ class Row {
     add_part(s, last, s.to - from, at_from, s.at_to);
   }
   void add_part(const Section &s, size_t column, double length, double at_from, double at_to) {
-    parts_.push_back({&s, first_part_[column]});
-    first_part_[column] = static_cast<uint32_t>(parts_.size() - 1);
-    covered_[column] += length;
-    height_[column] += 0.5 * length * (at_from + at_to);
-    lowest_[column] = std::min(lowest_[column], std::min(at_from, at_to));
-    highest_[column] = std::max(highest_[column], std::max(at_from, at_to));
+    CellSums &cell = sums_[column];
+    parts_.push_back({&s, cell.first_part});
+    cell.first_part = static_cast<uint32_t>(parts_.size() - 1);
+    cell.covered += length;
+    cell.height += 0.5 * length * (at_from + at_to);
+    cell.lowest = std::min(cell.lowest, std::min(at_from, at_to));
+    cell.highest = std::max(cell.highest, std::max(at_from, at_to));
   }
 
   void write(size_t column) {
     const size_t cell = row_ * AnnulusMap::across + column;
     if (!map_.inside(cell)) return;
-    const double covered = covered_[column] / map_.width();
-    const bool is_plain = ends_[column] == 0 && map_.share(cell) == 1;
+    const CellSums &sums = sums_[column];
+    const double covered = sums.covered / map_.width();
+    const bool is_plain = sums.ends == 0 && map_.share(cell) == 1;
     if (is_plain && covered < one_layer) return;
-    if (is_plain && std::abs(covered - 1) < one_layer &&
-        highest_[column] - lowest_[column] <= most_) {
+    if (is_plain && std::abs(covered - 1) < one_layer && sums.highest - sums.lowest <= most_) {
       result_.covered[cell] = 1;
-      result_.height[cell] = height_[column] / covered_[column];
+      result_.height[cell] = sums.height / sums.covered;
       return;
     }
     envelope_.clear();
@@ -210,7 +213,7 @@ class Row {
     if (!(from < to)) return;
     near_.clear();
     places_.assign({from, to});
-    for (uint32_t k = first_part_[column]; k != none; k = parts_[k].next) {
+    for (uint32_t k = sums_[column].first_part; k != none; k = parts_[k].next) {
       const Section *s = parts_[k].section;
       if (!(s->from < to && s->to > from && s->from < s->to)) continue;
       near_.push_back(s);
@@ -234,10 +237,7 @@ class Row {
   double most_;
   size_t row_ = 0;
   std::vector<Part> parts_;
-  std::array<uint32_t, AnnulusMap::across>
-      first_part_;  // of each cell: the head of its list in parts_
-  std::array<uint64_t, AnnulusMap::across> ends_;
-  std::array<double, AnnulusMap::across> covered_, height_, lowest_, highest_;
+  std::array<CellSums, AnnulusMap::across> sums_;
   std::vector<const Section *> near_, layers_;
   std::vector<double> places_;
   std::vector<Stretch> envelope_;
