@@ -65,19 +65,19 @@ const digits = (orifice: number): number => (orifice > 0 && orifice < 10 ? 1 : 0
 function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
   const words = verdictTexts;
   const { orifice, coaptationMean } = figures.measures;
-  const before = state.before.value;
+  const shape = figures.known === 'shape';
+  const size = (area: number) => figure(area, digits(area));
+  const before = state.before.value?.measures.orifice;
   return (
     <>
       <div class="verdict-figure">
         <span class="big" data-testid="orifice">
-          {figures.known === 'shape' ? '…' : figure(orifice, digits(orifice))}
+          {shape ? '…' : size(orifice)}
         </span>{' '}
         {words.leak}
         {orifice === 0 && graded && words.atPressure}
-        {before && Math.abs(before.measures.orifice - orifice) > 0.05 && (
-          <span class="was">
-            {words.was(figure(before.measures.orifice, digits(before.measures.orifice)))}
-          </span>
+        {before !== undefined && !shape && size(before) !== size(orifice) && (
+          <span class="was">{words.was(size(before))}</span>
         )}
       </div>
       {graded && (
