@@ -65,7 +65,8 @@ TEST_CASE("an_annulus_too_wide_for_its_leaflets_leaks_equally_in_any_position") 
 TEST_CASE("an_orifice_jumps_by_less_than_its_resolution_along_smooth_paths") {
   constexpr double resolution = 1e-3, step = 1e-6;  // of the area (DEFINITIONS.md); m
   const Closed leaking = close_valve(1.5);
-  for (const std::vector<Vec3> &from : {leaking.state.x.get(), leaking.model->valve.rest}) {
+  const std::vector<Vec3> closed = leaking.state.x, open = leaking.model->valve.rest;
+  for (const std::vector<Vec3> &from : {closed, open}) {
     for (const double turn : {0.0, 1.0}) {
       std::vector<double> areas, rises;
       for (int s = 0; s <= 12; ++s) {
