@@ -46,6 +46,7 @@ def test_workers_give_the_same_bits(monkeypatch):
         mvs.Simulator(workers=257)
 
 
+@pytest.mark.filterwarnings("ignore::mvs.ValveWarning")
 def test_a_simulator_like_a_snapshot_gives_the_same_bits():
     with mvs.Simulator() as sim:
         sim.generate(shape="founding", vertices=1250)
