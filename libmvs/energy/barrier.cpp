@@ -112,8 +112,8 @@ namespace {
 // = t_a t_b, block (k, l) is
 //   w_k w_l (E'' n n^T + c (I - n n^T)) - c sum_ab (G^-1)_ab u_ka u_lb^T,
 //   u_ka = w_k t_a + slide_ka d n.
-// The projected Hessian keeps E'' n n^T where E'' is positive, and leaves the rest out; the balanced
-// one is exact for pairs of contact proper between sheets.
+// The projected Hessian keeps E'' n n^T where E'' is positive, and leaves the rest out; the
+// balanced one is exact for pairs of contact proper between sheets.
 class ContactPairHessian {
  public:
   ContactPairHessian(const ContactPair &s, double second, double c, const std::vector<Vec3> &x)
