@@ -4,11 +4,8 @@
 #include "solve/nodes.h"
 
 namespace mvs::core {
-CachedPreconditioner::CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor,
-                                           Workers *workers)
-    : model_(&model), factor_(std::move(factor)) {
-  factor_->use_workers(workers);
-}
+CachedPreconditioner::CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor)
+    : model_(&model), factor_(std::move(factor)) {}
 
 bool CachedPreconditioner::is_of(const PreconditionerKey &key, uint32_t done) const {
   const bool same_x = key_.x.buffer() == key.x.buffer() || same_bits(key_.x, key.x);
@@ -22,7 +19,6 @@ void CachedPreconditioner::copy(const StepMatrix &matrix, const PreconditionerKe
                                 const std::vector<uint32_t> *order) {
   key_ = key;
   done_ = 0;
-  is_positive_ = true;
   has_order_ = order != nullptr;
   if (has_order_) {
     copy_in_order(matrix, *order);
@@ -75,15 +71,15 @@ void CachedPreconditioner::analyse() {
 }
 
 bool CachedPreconditioner::factorise_part(uint32_t part) {
-  if (part < done_) return is_positive_;
+  if (part < done_) return true;
   done_ = part + 1;
   if (part == 0) {
     analyse();
     return true;
   }
-  is_positive_ = factor_->factorise_part(system_.matrix, part - 1, parts - 1);
-  if (!is_positive_) key_ = {};
-  return is_positive_;
+  const bool positive = factor_->factorise_part(system_.matrix, part - 1, parts - 1);
+  if (!positive) key_ = {};
+  return positive;
 }
 
 bool CachedPreconditioner::factorise() {

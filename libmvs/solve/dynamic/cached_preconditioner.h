@@ -17,7 +17,7 @@ class CachedPreconditioner {
   // Parts of a factorisation, of about equal work: first the pattern, then the numbers.
   static constexpr uint32_t parts = settings::linear::factor_parts;
 
-  CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor, Workers *workers);
+  CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor);
 
   // Whether at least `done` parts of the factor of this key are made.
   bool is_of(const PreconditionerKey &key, uint32_t done) const;
@@ -25,7 +25,7 @@ class CachedPreconditioner {
   void copy(const StepMatrix &matrix, const PreconditionerKey &key,
             const std::vector<uint32_t> *order);
   // Makes one part, unless it is made; makes all remaining parts. Returns false and drops the key
-  // if the matrix is not positive definite, also of a part that was made before.
+  // if the matrix is not positive definite.
   bool factorise_part(uint32_t part);
   bool factorise();
   // Adds `times` the mass that is in the matrix; factorise() has to follow.
@@ -45,7 +45,6 @@ class CachedPreconditioner {
   HessianAssembler system_;
   PreconditionerKey key_;
   uint32_t done_ = 0;          // parts
-  bool is_positive_ = true;    // so far
   std::vector<uint32_t> row_;  // of a StepMatrix -> of system_
   BlockPermutation permutation_;
   // a matrix copied without an order: rows by node, blocks below the diagonal by pairs of nodes

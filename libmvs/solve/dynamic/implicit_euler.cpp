@@ -122,7 +122,7 @@ ImplicitEuler::ImplicitEuler(const Model &model, Backend backend, Workers *worke
     : model_(&model),
       total_energy_(model),
       matrix_(model),
-      solver_(model, total_energy_, backend, workers),
+      solver_(model, total_energy_, backend),
       line_search_(model, total_energy_),
       slack_(settings::implicit::broad_phase_slack * model.valve.contact_thickness) {
   total_energy_.use_workers(workers);

@@ -21,14 +21,12 @@ std::unique_ptr<DirectSolver> make_preconditioner(Backend backend) {
 
 }  // namespace
 
-StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, Backend backend,
-                       Workers *workers)
+StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, Backend backend)
     : model_(&model),
       total_energy_(&total_energy),
-      workers_(workers),
-      first_(model, make_preconditioner(backend), workers),
-      second_(model, make_preconditioner(backend), workers),
-      direct_(model, make_direct_solver(backend), workers) {
+      first_(model, make_preconditioner(backend)),
+      second_(model, make_preconditioner(backend)),
+      direct_(model, make_direct_solver(backend)) {
   // other backends do best with the order that each of them finds for a matrix
   if (is_block_cholesky(backend)) order_.emplace(model, total_energy.pairs());
   keys_.reserve(model.node_count());
@@ -46,7 +44,7 @@ void StepSolver::solve(const StepSystem &system, State &state, StepWork &work) {
   for (uint32_t r = 0; r < system.matrix.size(); ++r) {
     guess_[r] = work.how.dt * v[system.matrix.node(r)];
   }
-  if (!keys_.active().empty() && iterate_beside_part(system, work)) {
+  if (!keys_.active().empty() && iterate(system, work)) {
     keys_.count_active_use();
     work_ahead(system, work);
   } else if (!factorise_here(system, work)) {
@@ -81,26 +79,6 @@ bool StepSolver::iterate(const StepSystem &system, StepWork &work) {
   }
   system.rows.swap(solution_);
   return true;
-}
-
-// Iterates, and makes beside it the part of the next factor that work_ahead() would make after it.
-// Where it then does not, the part is there for a later step.
-bool StepSolver::iterate_beside_part(const StepSystem &system, StepWork &work) {
-  constexpr double microseconds_of_row = 0.5;  // of a part, about
-  const uint32_t part = keys_.pending().age;
-  if (keys_.pending().empty() || part == CachedPreconditioner::parts ||
-      !pay_for(workers_, microseconds_of_row * system.matrix.size())) {
-    return iterate(system, work);
-  }
-  bool is_solved = false;
-  workers_->parallel_for(2, [&](uint32_t chunk) {
-    if (chunk == 0) {
-      is_solved = iterate(system, work);
-    } else {
-      pending_->factorise_part(part);
-    }
-  });
-  return is_solved;
 }
 
 // Begins the next factor where the active one is old or needs many iterations; otherwise does one

@@ -3,9 +3,6 @@
 // next factor is made beside it, one part a step, so that no step pays for a whole factorisation.
 // Where the matrix has changed too much, a factor is made at once.
 //
-// With workers a part is made beside the iterations of its step, and whole factors and solutions
-// are shared. The schedule, and so each bit, is that of one thread.
-//
 // The solver cache of the state names the matrices that were factorised, so a step from a state
 // that was saved, restored by undo or handed to another solver returns the same bits. The factors
 // that this class keeps only save factorising those matrices again.
@@ -37,9 +34,7 @@ class StepSolver {
   // Assembles the matrix of a key.
   using Assemble = std::function<void(const PreconditionerKey &, StepMatrix &)>;
 
-  // `workers` outlive the solver; null: none.
-  StepSolver(const Model &model, const TotalEnergy &total_energy, Backend backend,
-             Workers *workers);
+  StepSolver(const Model &model, const TotalEnergy &total_energy, Backend backend);
 
   // Makes the factors that the solver cache of the state names. Keys that fit neither the valve nor
   // the step are removed from the cache.
@@ -58,7 +53,6 @@ class StepSolver {
   void copy_matrix(const StepMatrix &matrix, const PreconditionerKey &key,
                    CachedPreconditioner &factor, Profile &profile);
   bool iterate(const StepSystem &system, StepWork &work);
-  bool iterate_beside_part(const StepSystem &system, StepWork &work);
   void work_ahead(const StepSystem &system, StepWork &work);
   bool factorise_here(const StepSystem &system, StepWork &work);
   bool solve_directly(const StepSystem &system, const PreconditionerKey &key, StepWork &work);
@@ -67,7 +61,6 @@ class StepSolver {
 
   const Model *model_;
   const TotalEnergy *total_energy_;
-  Workers *workers_;
   std::optional<ContactOrdering> order_;  // empty: the backend finds its own
   CachedPreconditioner first_, second_;
   CachedPreconditioner *active_ = &first_, *pending_ = &second_;
