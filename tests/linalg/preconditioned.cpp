@@ -192,8 +192,8 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
   matrix.assemble(total_energy, state.x, {1e-3, 0, 64, true}, nullptr, profile);
   for (const Backend backend : {Backend::block, Backend::eigen}) {
     CAPTURE(backend);
-    CachedPreconditioner whole(*model, make_direct_solver(backend), nullptr),
-        parts(*model, make_direct_solver(backend), nullptr);
+    CachedPreconditioner whole(*model, make_direct_solver(backend)),
+        parts(*model, make_direct_solver(backend));
     const PreconditionerKey place{state.x, {}, state.load.pressure, 1e-3, 0, 0};
     whole.copy(matrix, place, nullptr);
     parts.copy(matrix, place, nullptr);
