@@ -19,7 +19,7 @@ struct FamilyLevel;  // anatomy/family_level.h
 bool has_mesh_of(const Valve &valve, const Model &model);
 
 // Shared by all models of a family, from any thread. Holds immutable results only, and no result
-// depends on what it holds.
+// depends on the others.
 class MeshFamily {
  public:
   void add_model() { models_.fetch_add(1, std::memory_order_relaxed); }
@@ -32,7 +32,7 @@ class MeshFamily {
 
  private:
   std::atomic<uint32_t> models_{0};
-  mutable std::mutex mutex_;  // protects the list, not what is in it
+  mutable std::mutex mutex_;  // protects the list; its items are immutable
   std::vector<std::shared_ptr<const FamilyLevel>> levels_;
 };
 

@@ -1,4 +1,4 @@
-// What a person looks at: before and after, names beside what they name, views of a surface, the printed report.
+// The picture and its labels: before and after, names beside what they name, views of a surface, the printed report.
 import assert from 'node:assert/strict';
 import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';

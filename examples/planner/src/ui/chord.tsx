@@ -1,4 +1,4 @@
-// What is known of a chord: the card of a chosen chord, also in a form that changes it.
+// The card of a chosen chord, with its figures, also in a form that changes it.
 import { figure, kinds, repairTexts } from '../text/texts';
 import type { Chord } from '../protocol';
 

@@ -30,7 +30,7 @@ function headLabels(topology: Topology, x: Float32Array): Label[] {
   }));
 }
 
-/** Names of what is dragged: the section plane, the clip of the form and its turn. */
+/** Names of the handles: the section plane, the clip of the form and its turn. */
 function handleLabels(view: Viewport): Label[] {
   const labels: Label[] = [];
   if (state.sectionOn.value) labels.push({ text: markTexts.plane, at: view.handle(), kind: 'handle' });

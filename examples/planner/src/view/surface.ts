@@ -63,7 +63,7 @@ function annulusOf(points: Float32Array, triangles: Uint32Array): { nodes: numbe
   return largest && size(largest) > 0 ? { ...largest, axis: unit(largest.axis) } : null;
 }
 
-/** Of a surface without a boundary: all of its points, and the shortest axis of the box around them. */
+/** For a surface without a boundary: all of its points, and the shortest axis of the box around them. */
 function wholeOf(points: Float32Array, triangles: Uint32Array): { nodes: number[]; axis: Vector } {
   const { size } = boxOf(points, triangles);
   const shortest: Vector = [0, 0, 0];
