@@ -24,6 +24,7 @@ Valve valve_of_levels(uint32_t vertices) {
 // Anterior chordae shorter, posterior marginal ones longer.
 std::vector<double> changed_factors(const std::vector<ChordGroup> &groups) {
   std::vector<double> factor;
+  factor.reserve(groups.size());
   for (const ChordGroup &group : groups)
     factor.push_back(group.name[0] == 'A' ? 0.93 : group.name == "P marginal" ? 1.06 : 1);
   return factor;
