@@ -184,14 +184,6 @@ class Coarsener {
   const std::vector<uint8_t> &held_;
 };
 
-size_t sheet_vertices(const Model &model) {
-  size_t count = 0;
-  for (uint32_t n = 0; n < model.node_count(); ++n) {
-    count += !model.topology.node_triangles[n].empty();
-  }
-  return count;
-}
-
 // Marks the removed vertices.
 std::vector<uint8_t> removed_nodes(const Model &model, const LiveSheet &sheet) {
   std::vector<uint8_t> removed(model.node_count(), 0);

@@ -1,7 +1,6 @@
 // Takes the mesh of a level from another variant, or coarsens and keeps the level for others.
 #include "anatomy/family_level.h"
 
-#include <optional>
 #include <utility>
 
 #include "model/mesh_family.h"
@@ -61,25 +60,19 @@ std::shared_ptr<const Coarsened> made_after(const FamilyLevel &level, const Mode
   return made;
 }
 
-// Returns null if no level of the family serves the model.
-std::shared_ptr<const Coarsened> find_in_family(const Model &model, size_t vertices) {
-  for (const std::shared_ptr<const FamilyLevel> &level : model.family->levels()) {
-    if (auto made = made_after(*level, model, vertices)) return made;
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 std::shared_ptr<const Coarsened> coarsen_in_family(const Model &model, size_t vertices) {
-  if (auto made = find_in_family(model, vertices)) return made;
+  const auto levels = model.family->levels();
+  for (const std::shared_ptr<const FamilyLevel> &level : levels) {
+    if (auto made = made_after(*level, model, vertices)) return made;
+  }
   std::vector<ChordStep> steps;
   auto made = std::make_shared<const Coarsened>(coarsen(model, vertices, &steps));
-  // another thread may have kept the same level meanwhile
-  if (model.family->has_variants() && !find_in_family(model, vertices)) {
-    model.family->keep(std::make_shared<const FamilyLevel>(
-        FamilyLevel{vertices, model.valve.triangle_thickness, model.valve.triangle_fibre,
-                    std::move(steps), made}));
+  if (model.family->has_variants()) {
+    const FamilyLevel level{vertices, model.valve.triangle_thickness, model.valve.triangle_fibre,
+                            std::move(steps), made};
+    model.family->keep(std::make_shared<const FamilyLevel>(level), levels.size());
   }
   return made;
 }

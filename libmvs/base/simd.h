@@ -3,7 +3,9 @@
 // simd_kernel(). Every kernel gives the same bits on all of them: products and sums are not fused.
 #pragma once
 
-#if defined(__SSE__)
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#elif defined(__SSE__)
 #include <xmmintrin.h>
 #endif
 
@@ -106,6 +108,24 @@ MVS_INLINE uint32_t bits_of(const typename V::Mask &mask) {
                 sizeof part);
     bits |= bits_of_four(part) << first;
   }
+  return bits;
+}
+
+// The same for a mask of doubles.
+template <typename V>
+MVS_INLINE uint32_t bits_of_doubles(const typename V::Mask &mask) {
+  uint32_t bits = 0;
+#if defined(__SSE2__) && defined(__GNUC__)
+  for (uint32_t k = 0; k < V::width; k += 2) {
+    __m128d half;
+    std::memcpy(&half, reinterpret_cast<const char *>(&mask) + sizeof(double) * k, sizeof half);
+    bits |= static_cast<uint32_t>(_mm_movemask_pd(half)) << k;
+  }
+#elif defined(__GNUC__)
+  for (uint32_t k = 0; k < V::width; ++k) bits |= static_cast<uint32_t>(mask[k] & (1 << k));
+#else
+  bits = mask ? 1 : 0;
+#endif
   return bits;
 }
 

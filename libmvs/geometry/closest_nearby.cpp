@@ -11,13 +11,17 @@ constexpr double with_rounding = 1 + 1e-9;
 
 }  // namespace
 
+double nearby_limit2(double distance2, double radius) {
+  const double limit = (std::sqrt(distance2) + 2 * radius) * with_rounding;
+  return limit * limit;
+}
+
 ClosestNearby::ClosestNearby(const TriangleBvh &tree, const Vec3 &centre, double radius,
                              uint32_t hint)
     : tree_(tree) {
   const TriangleBvh::Hit hit = tree.closest(centre, hint);
   first_ = hit.triangle;
-  const double limit = (std::sqrt(hit.distance2) + 2 * radius) * with_rounding;
-  const double limit2 = limit * limit;
+  const double limit2 = nearby_limit2(hit.distance2, radius);
   tree.visit_near(centre, limit2, [&](uint32_t t) {
     if (tree.box_of(t).distance2(centre) <= limit2) triangles_.push_back(t);
   });

@@ -8,8 +8,13 @@
 
 namespace mvs::core {
 
-// For points within a ball. If the surface is at distance d from the centre, it is within d + r of
-// a point of the ball, so that the closest triangle of any point is within d + 2 r of the centre.
+// The squared distance from the centre of a ball within which the closest triangle of each of its
+// points lies, above rounding; `distance2` is that of the triangle closest to the centre. If the
+// surface is at distance d from the centre, it is within d + r of a point of the ball, so that the
+// closest triangle of any point is within d + 2 r of the centre.
+double nearby_limit2(double distance2, double radius);
+
+// For points within a ball.
 class ClosestNearby {
  public:
   // `hint`: a triangle that may be close to the centre, or `none`. Keeps a reference to the tree.

@@ -82,9 +82,9 @@ std::vector<std::shared_ptr<const FamilyLevel>> MeshFamily::levels() const {
   return levels_;
 }
 
-void MeshFamily::keep(std::shared_ptr<const FamilyLevel> level) {
+void MeshFamily::keep(std::shared_ptr<const FamilyLevel> level, size_t known) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (levels_.size() < most_levels) levels_.push_back(std::move(level));
+  if (levels_.size() == known && known < most_levels) levels_.push_back(std::move(level));
 }
 
 }  // namespace mvs::core

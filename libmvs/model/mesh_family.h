@@ -27,8 +27,9 @@ class MeshFamily {
   bool has_variants() const { return models_.load(std::memory_order_relaxed) > 1; }
 
   std::vector<std::shared_ptr<const FamilyLevel>> levels() const;
-  // Keeps a coarser mesh, unless there are as many as a family may have.
-  void keep(std::shared_ptr<const FamilyLevel> level);
+  // Keeps a coarser mesh that none of the `known` first levels serves, unless another thread has
+  // kept one since, which may be the same, or there are as many as a family may have.
+  void keep(std::shared_ptr<const FamilyLevel> level, size_t known);
 
  private:
   std::atomic<uint32_t> models_{0};

@@ -58,6 +58,14 @@ void derive_geometry(Model &model, const Model *same) {
 
 }  // namespace
 
+size_t sheet_vertices(const Model &model) {
+  size_t count = 0;
+  for (uint32_t n = 0; n < model.node_count(); ++n) {
+    count += !model.topology.node_triangles[n].empty();
+  }
+  return count;
+}
+
 ModelPtr make_model(Valve valve, const Model *parent) {
   const Model *same = parent && has_mesh_of(valve, *parent) ? parent : nullptr;
   const std::vector<Fault> faults = same ? find_faults_beside_mesh(valve) : find_faults(valve);

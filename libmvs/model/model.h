@@ -67,6 +67,9 @@ struct ModelState {
 // it; a valve with its mesh takes topology, areas and the checks of the mesh from it.
 ModelPtr make_model(Valve valve, const Model *parent = nullptr);
 
+// Returns the number of nodes with triangles.
+size_t sheet_vertices(const Model &model);
+
 // Makes arrays that have the same bits as those of `other` share their memory; no value changes.
 void share(Model &model, const Model &other);
 void share(State &state, const State &other);

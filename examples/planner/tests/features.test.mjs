@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, beforeEach, describe, it } from 'node:test';
 import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, chordNames, chordPlace, open, openPanel, save } from './person.mjs';
+import { apply, begin, cameraRests, chordNames, chordPlace, open, openLeaflets, openPanel, save } from './person.mjs';
 
 describe('planner features', () => {
   let context, page, errors;
@@ -346,23 +346,8 @@ describe('planner features', () => {
     await page.getByRole('button', { name: 'Healthy valve' }).click();
     await page.waitForTimeout(200);
     await closed(page);
-    // the open leaflets as a surface of another program
-    await page.keyboard.press('o');
-    for (let k = 0; k < 200 && !(await page.evaluate(() => !!window.planner.state.motion.value)); ++k)
-      await page.waitForTimeout(50);
-    const text = await page.evaluate(() => {
-      const { state } = window.planner;
-      const { picture } = state.motion.value;
-      const { triangles } = state.topologyOf(picture);
-      let obj = '';
-      for (let i = 0; i < picture.positions.length; i += 3)
-        obj += `v ${[...picture.positions.slice(i, i + 3)].join(' ')}\n`;
-      for (let i = 0; i < triangles.length; i += 3)
-        obj += `f ${[...triangles.slice(i, i + 3)].map((node) => node + 1).join(' ')}\n`;
-      return obj;
-    });
     const path = join(mkdtempSync(join(tmpdir(), 'surface-')), 'leaflets.obj');
-    writeFileSync(path, text);
+    writeFileSync(path, await openLeaflets(page));
     await open(page, path);
     await page.getByRole('button', { name: 'Papillary tips' }).click();
     // below the annulus, in the view from the side

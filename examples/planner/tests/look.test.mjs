@@ -5,7 +5,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { closed, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, chordNames, chordPlace, open, openPanel } from './person.mjs';
+import { apply, begin, cameraRests, chordNames, chordPlace, open, openLeaflets, openPanel } from './person.mjs';
 
 /** Whether a line meets a box, by its points. */
 function passes(a, b, box) {
@@ -14,21 +14,6 @@ function passes(a, b, box) {
     if (x > box.x && x < box.x + box.width && y > box.y && y < box.y + box.height) return true;
   }
   return false;
-}
-
-/** An OBJ file of the leaflets that are shown, turned: the axes x, y, z become y, z, x. */
-function turnedLeaflets(page) {
-  return page.evaluate(() => {
-    const { state } = window.planner;
-    const { positions } = state.picture.value;
-    const { triangles } = state.topologyOf(state.picture.value);
-    let obj = '';
-    for (let i = 0; i < positions.length; i += 3)
-      obj += `v ${positions[i + 2]} ${positions[i]} ${positions[i + 1]}\n`;
-    for (let i = 0; i < triangles.length; i += 3)
-      obj += `f ${[...triangles.slice(i, i + 3)].map((node) => node + 1).join(' ')}\n`;
-    return obj;
-  });
 }
 
 describe('planner to look at', () => {
@@ -131,11 +116,8 @@ describe('planner to look at', () => {
     await page.getByRole('button', { name: 'Healthy valve' }).click();
     await page.waitForTimeout(200);
     await closed(page);
-    await page.keyboard.press('o');
-    for (let k = 0; k < 200 && !(await page.evaluate(() => !!window.planner.state.motion.value)); ++k)
-      await page.waitForTimeout(50);
     const path = join(mkdtempSync(join(tmpdir(), 'surface-')), 'turned.obj');
-    writeFileSync(path, await turnedLeaflets(page));
+    writeFileSync(path, await openLeaflets(page, [2, 0, 1]));
     const valve = await page.evaluate(() => window.planner.state.main.value.figures.frame);
     await open(page, path);
     const found = await page.evaluate(() => window.planner.viewport.frameOf());

@@ -94,3 +94,21 @@ export async function open(page, path) {
   await page.waitForTimeout(150);
   await closed(page);
 }
+
+/** The open leaflets of the valve as OBJ, as another program writes a surface; `axes`: the coordinates in their order there. */
+export async function openLeaflets(page, axes = [0, 1, 2]) {
+  await page.keyboard.press('o');
+  for (let k = 0; k < 200 && !(await page.evaluate(() => !!window.planner.state.motion.value)); ++k)
+    await page.waitForTimeout(50);
+  return page.evaluate((order) => {
+    const { state } = window.planner;
+    const { picture } = state.motion.value;
+    const { triangles } = state.topologyOf(picture);
+    let obj = '';
+    for (let i = 0; i < picture.positions.length; i += 3)
+      obj += `v ${order.map((axis) => picture.positions[i + axis]).join(' ')}\n`;
+    for (let i = 0; i < triangles.length; i += 3)
+      obj += `f ${[...triangles.slice(i, i + 3)].map((node) => node + 1).join(' ')}\n`;
+    return obj;
+  }, axes);
+}

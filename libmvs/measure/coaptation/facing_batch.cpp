@@ -7,7 +7,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstring>
 
 #include "geometry/simd_points.h"
 
@@ -114,24 +113,6 @@ MVS_INLINE void weigh_all(const Vec3 &normal, double reach, FacingPairs &pairs) 
 
 // The bounds by planes have a relative rounding error far below this.
 constexpr double rounding_of_planes = 1e-9;
-
-// Bit k is set where element k of a mask is.
-template <typename V>
-MVS_INLINE uint32_t bits_of_doubles(const typename V::Mask &mask) {
-  uint32_t bits = 0;
-#if defined(__SSE2__) && defined(__GNUC__)
-  for (uint32_t k = 0; k < V::width; k += 2) {
-    __m128d half;
-    std::memcpy(&half, reinterpret_cast<const char *>(&mask) + sizeof(double) * k, sizeof half);
-    bits |= static_cast<uint32_t>(_mm_movemask_pd(half)) << k;
-  }
-#elif defined(__GNUC__)
-  for (uint32_t k = 0; k < V::width; ++k) bits |= static_cast<uint32_t>(mask[k] & (1 << k));
-#else
-  bits = mask ? 1 : 0;
-#endif
-  return bits;
-}
 
 template <typename V>
 MVS_INLINE void mark_all(const FacingBounds &bounds, const FacingPoints &points, double limit2,

@@ -37,8 +37,7 @@ RegionSearch::Ball RegionSearch::ball_of(std::span<const RegionPlace> places) {
   return ball;
 }
 
-// Keeps the triangles that can be closest to a point of the ball: they are at most twice its radius
-// further from its centre than the one that is closest to the centre.
+// Keeps the triangles that can be closest to a point of the ball (nearby_limit2).
 void RegionSearch::narrow(const Ball &ball, const std::vector<uint32_t> &among) {
   near_.clear();
   double least = HUGE_VAL, limit2 = HUGE_VAL;
@@ -50,8 +49,7 @@ void RegionSearch::narrow(const Ball &ball, const std::vector<uint32_t> &among) 
     if (distance2 > least || (distance2 == least && t > nearest_)) continue;
     least = distance2;
     nearest_ = t;
-    const double limit = (std::sqrt(least) + 2 * ball.radius) * (1 + 1e-9);  // above rounding
-    limit2 = limit * limit;
+    limit2 = nearby_limit2(least, ball.radius);
   }
   near_.erase(std::remove_if(near_.begin(), near_.end(),
                              [&](const Near &n) { return n.distance2 > limit2; }),

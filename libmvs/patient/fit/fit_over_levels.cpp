@@ -1,7 +1,6 @@
 // Search on the coarse mesh, its factors on the fine valve, an improvement there if it is needed.
 #include "patient/fit/fit_over_levels.h"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -19,16 +18,8 @@ constexpr double finer = 1.5;  // share of the coarse vertices from which levels
 // As close as on the coarse mesh: the limits of fits that are as good (fit_to_closed.cpp).
 constexpr double alike_share = 1.1, alike_distance = 0.05e-3;  // m
 
-size_t leaflet_vertices(const Model &model) {
-  std::vector<uint8_t> used(model.node_count(), 0);
-  for (const Tri &t : model.valve.triangles.get()) {
-    for (const uint32_t i : t) used[i] = 1;
-  }
-  return static_cast<size_t>(std::count(used.begin(), used.end(), 1));
-}
-
 std::optional<Coarsened> coarsened(const Model &model, size_t vertices) {
-  if (static_cast<double>(leaflet_vertices(model)) < finer * static_cast<double>(vertices))
+  if (static_cast<double>(sheet_vertices(model)) < finer * static_cast<double>(vertices))
     return std::nullopt;
   try {
     return coarsen(model, vertices);

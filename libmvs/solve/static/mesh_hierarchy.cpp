@@ -17,11 +17,6 @@
 namespace mvs::core {
 namespace {
 
-size_t sheet_vertices(const Model &model) {
-  return static_cast<size_t>(std::count_if(model.vertex_area.begin(), model.vertex_area.end(),
-                                           [](double area) { return area > 0; }));
-}
-
 const settings::mesh_hierarchy::Extent &extent_for(const Model &model) {
   return has_bilinear_tissue(model) ? settings::mesh_hierarchy::bilinear
                                     : settings::mesh_hierarchy::exponential;
