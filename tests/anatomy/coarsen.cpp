@@ -42,12 +42,12 @@ TEST_CASE("a_coarsened_valve_has_the_requested_size_and_the_same_topology") {
     for (const double share : {0.9, 0.5, 0.3}) {
       CAPTURE(one.name);
       CAPTURE(share);
-      const auto wanted = static_cast<size_t>(share * static_cast<double>(sheet_vertices(*fine)));
+      const auto wanted = static_cast<size_t>(share * static_cast<double>(counted_vertices(*fine)));
       const Coarsened coarse = coarsen(*fine, wanted);
       CHECK(find_faults(coarse.model->valve).empty());
-      CHECK(sheet_vertices(*coarse.model) == wanted);
+      CHECK(counted_vertices(*coarse.model) == wanted);
       CHECK(coarse.report.vertices == wanted);
-      CHECK(coarse.report.vertices_before == sheet_vertices(*fine));
+      CHECK(coarse.report.vertices_before == counted_vertices(*fine));
       CHECK(euler(*coarse.model) == euler(*fine));
       CHECK(coarse.model->topology.free_edges.size() == fine->topology.free_edges.size());
       CHECK(crossings(*coarse.model) == 0);
@@ -62,7 +62,7 @@ TEST_CASE("remaining_vertices_are_fine_vertices_bit_for_bit_and_in_order") {
   for (const Named &one : all_kinds_of_valves()) {
     const ModelPtr &fine = one.model;
     CAPTURE(one.name);
-    const Coarsened made = coarsen(*fine, sheet_vertices(*fine) / 2);
+    const Coarsened made = coarsen(*fine, counted_vertices(*fine) / 2);
     const Valve &coarse = made.model->valve;
     const std::vector<uint32_t> &old = made.map.fine_of_coarse;
     CHECK(std::is_sorted(old.begin(), old.end()));
@@ -205,7 +205,7 @@ TEST_CASE("levels_of_one_valve_are_nested") {
 
 TEST_CASE("coarsening_to_the_present_vertex_count_changes_nothing") {
   const ModelPtr fine = parametric(425);
-  const Coarsened made = coarsen(*fine, sheet_vertices(*fine));
+  const Coarsened made = coarsen(*fine, counted_vertices(*fine));
   CHECK(hash_of(*made.model, initial_state(*made.model)) == hash_of(*fine, initial_state(*fine)));
   CHECK(made.report.surface_max == 0);
 }
@@ -270,6 +270,6 @@ TEST_CASE("an_unreachable_vertex_count_is_refused_with_the_smallest_possible_one
   REQUIRE(at != std::string::npos);
   const size_t least = std::stoul(sentence.substr(at + 9));
   CHECK(least < 100);
-  CHECK(sheet_vertices(*coarsen(*fine, least).model) == least);
+  CHECK(counted_vertices(*coarsen(*fine, least).model) == least);
   CHECK(refusal([&] { coarsen(*fine, least - 1); }) != "");
 }

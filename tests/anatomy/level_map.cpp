@@ -21,7 +21,7 @@ std::vector<Pair> pairs() {
     const ModelPtr &model = one.model;
     made.push_back({one.name + ", refined", model, make_model(refine(*model))});
     made.push_back(
-        {one.name + ", coarsened", coarsen(*model, sheet_vertices(*model) / 3).model, model});
+        {one.name + ", coarsened", coarsen(*model, counted_vertices(*model) / 3).model, model});
   }
   return made;
 }

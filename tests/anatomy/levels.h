@@ -75,7 +75,8 @@ inline std::vector<Named> all_kinds_of_valves() {
   return valves;
 }
 
-inline size_t sheet_vertices(const Model &model) {
+// Counted apart from the library, which tells its own number in reports.
+inline size_t counted_vertices(const Model &model) {
   size_t count = 0;
   for (size_t n = 0; n < model.node_count(); ++n) {
     count += !model.topology.node_triangles[n].empty();
@@ -84,7 +85,8 @@ inline size_t sheet_vertices(const Model &model) {
 }
 
 inline long euler(const Model &model) {
-  return static_cast<long>(sheet_vertices(model)) - static_cast<long>(model.topology.edges.size()) +
+  return static_cast<long>(counted_vertices(model)) -
+         static_cast<long>(model.topology.edges.size()) +
          static_cast<long>(model.valve.triangles.size());
 }
 

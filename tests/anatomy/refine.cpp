@@ -13,7 +13,7 @@ TEST_CASE("a_refined_valve_is_a_valve_of_the_same_topology") {
     const Valve valve = refine(*model);
     REQUIRE(find_faults(valve).empty());
     const ModelPtr fine = make_model(valve);
-    CHECK(sheet_vertices(*fine) == sheet_vertices(*model) + model->topology.edges.size());
+    CHECK(counted_vertices(*fine) == counted_vertices(*model) + model->topology.edges.size());
     CHECK(fine->valve.triangles.size() == 4 * model->valve.triangles.size());
     CHECK(euler(*fine) == euler(*model));
     CHECK(fine->topology.free_edges.size() == model->topology.free_edges.size());
@@ -87,7 +87,7 @@ TEST_CASE("three_refinements_of_the_default_valve_give_a_valve_of_25000_vertices
   ModelPtr model = parametric(425);
   const double before = area(*model);
   for (int level = 0; level < 3; ++level) model = make_model(refine(*model));
-  CHECK(sheet_vertices(*model) > 24000);
+  CHECK(counted_vertices(*model) > 24000);
   CHECK(euler(*model) == 0);
   // a sum of 50,000 areas
   CHECK(area(*model) == doctest::Approx(before).epsilon(1e-12));
