@@ -137,10 +137,11 @@ Wrench Servo::rendered(const Wrench &given, uint32_t &bits) const {
 Wrench Servo::limited(const Wrench &given) {
   field_ = rendered(given, bits_);
   if (share_ == 0) return {};
+  const HandPose &pose = validator_.pose();
+  if (!workspace_wall(*traits_, pose.position).isZero(0)) bits_ |= MVS_LIMITED_WALL;
   const double dt = validator_.dt();
   Wrench next = field_;
   if (dt > 0) {
-    const HandPose &pose = validator_.pose();
     const Damping most = {traits_->info.max_damping, traits_->info.max_angular_damping};
     const Wrench damping = energy_.damp({pose.velocity, pose.spin}, dt, most);
     if (!damping.force.isZero(0) || !damping.torque.isZero(0)) bits_ |= MVS_LIMITED_ENERGY;

@@ -264,7 +264,9 @@ TEST_CASE("the application's cut works in any state, and a stop and start does n
 TEST_CASE("the edge of the workspace pushes back before the device's mechanical stop") {
   Loop loop("device=touch\nfrom=0.06,0,0\ntarget=0.09,0,0\nresolution=0");
   loop.arm();
+  CHECK_EQ(loop.run(0.001).limited & MVS_LIMITED_WALL, 0u);
   const ServoStatus now = loop.run(0.5);
   CHECK_GT(now.pose.position.x(), 0.07);
   CHECK_LT(now.force.x(), -0.1);
+  CHECK_NE(now.limited & MVS_LIMITED_WALL, 0u);
 }

@@ -55,21 +55,25 @@ bool same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
 }
 
-// Threads that share even the shortest loops.
-Workers eager(uint32_t count) {
-  setenv("MVS_WORKERS_LEAST_US", "0", 1);  // NOLINT(concurrency-mt-unsafe)
-  return Workers(count);
-}
+// While it lives, new threads share even the shortest loops.
+class ShareAll {
+ public:
+  ShareAll() { setenv("MVS_WORKERS_LEAST_US", "0", 1); }  // NOLINT(concurrency-mt-unsafe)
+  ~ShareAll() { unsetenv("MVS_WORKERS_LEAST_US"); }       // NOLINT(concurrency-mt-unsafe)
+  ShareAll(const ShareAll &) = delete;
+  ShareAll &operator=(const ShareAll &) = delete;
+};
 
 }  // namespace
 
 TEST_CASE("threads_change_no_bit_of_a_solution") {
+  const ShareAll share_all;
   for (auto *make : {&make_block_factor, &make_float_factor}) {
     for (const uint32_t side : {1u, 2u, 9u, 40u}) {
       const BlockMatrix m = grid_matrix(side);
       const std::vector<Vec3> expected = solution(*make(), m);
       for (const uint32_t count : {2u, 3u, 8u}) {
-        Workers workers = eager(count);
+        Workers workers(count);
         const auto factor = make();
         factor->use_workers(&workers);
         CHECK(same_bits(solution(*factor, m), expected));
@@ -80,7 +84,8 @@ TEST_CASE("threads_change_no_bit_of_a_solution") {
 }
 
 TEST_CASE("threads_find_that_a_matrix_is_indefinite_and_go_on_to_the_next") {
-  Workers workers = eager(3);
+  const ShareAll share_all;
+  Workers workers(3);
   const BlockMatrix bad = grid_matrix(30, true), good = grid_matrix(30);
   for (auto *make : {&make_block_factor, &make_float_factor}) {
     const auto factor = make();

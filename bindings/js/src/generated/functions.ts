@@ -1035,14 +1035,14 @@ export class Functions extends Calls {
 
   /**
    * Replaces the valve by one described by arrays, at rest and without load. The arrays are copied.
-   * MVS_E_OP names the first fault of an invalid valve; mvs_check_valve reports all faults.  A
+   * MVS_E_OP names the first fault of an invalid valve; mvs_check_valve reports all faults. A
    * variant of the present valve shares with it what depends on the mesh alone: topology, the
    * checks of the mesh, the coarser meshes of mvs_settle. A variant has the same nodes, triangles,
    * leaflets, fibres, annulus and heads, and chordae of the same kinds between the same nodes; rest
    * lengths, laws, constants, thickness, names and the load may differ (other thickness: no shared
    * coarser meshes). So thousands of variants are closed fastest in simulators that were restored
    * (mvs_restore) to a snapshot of one of them first, one after the other or in several threads.
-   * mvs_load_file, mvs_set_leaflet and operations share in the same way. It changes no bit. 
+   * mvs_load_file, mvs_set_leaflet and operations share in the same way. It changes no bit.
    * Suspicious input is logged as MVS_LOG_WARNING, also by mvs_load_file and mvs_set_leaflet:
    * needle-shaped triangles, and numbers that look like those of another unit.
    */
@@ -1311,7 +1311,7 @@ export class Functions extends Calls {
 
   /**
    * Measures the cost of the repair of a snapshot. The snapshot is of the closed valve; it is then
-   * opened in a copy: boundary_fraction 0, a pressure difference that opens, Newton's method. 
+   * opened in a copy: boundary_fraction 0, a pressure difference that opens, Newton's method.
    * `opened`, nullable, receives the open valve, the same bits as after mvs_restore, mvs_set_load
    * and mvs_settle; release it with mvs_snapshot_release. Tools stay as they are. If the open valve
    * does not come to rest, cost->opened is 0. MVS_E_CANCELLED if the callback cancelled. `options`

@@ -404,11 +404,11 @@ export interface Rest {
 }
 
 /**
- * Stability of the equilibrium that a snapshot at rest is in, under its load and tools.  The
- * tangent stiffness is K = Ks + N, Ks symmetric, N the skew part that the follower pressure has at
- * the free edge. In overdamped motion, D dx/dt = -K x with a damping D of 500 1/s times the mass, a
- * small disturbance grows or falls with the eigenvalues of -D^-1 K: the equilibrium is stable where
- * all their real parts are negative. That is so wherever Ks is positive definite. Branch points of
+ * Stability of the equilibrium that a snapshot at rest is in, under its load and tools. The tangent
+ * stiffness is K = Ks + N, Ks symmetric, N the skew part that the follower pressure has at the free
+ * edge. In overdamped motion, D dx/dt = -K x with a damping D of 500 1/s times the mass, a small
+ * disturbance grows or falls with the eigenvalues of -D^-1 K: the equilibrium is stable where all
+ * their real parts are negative. That is so wherever Ks is positive definite. Branch points of
  * chordae that are all slack are left out.
  */
 export interface Stability {
