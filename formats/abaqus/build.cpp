@@ -5,7 +5,7 @@
 
 #include "formats/abaqus/valve.h"
 #include "formats/text/line.h"
-#include "model/check.h"
+#include "model/checks/check.h"
 
 namespace mvs::core {
 namespace {

@@ -7,7 +7,7 @@
 namespace mvs::core {
 namespace {
 
-// Largest length of a list (model/check_lists.cpp).
+// Largest length of a list (model/checks/check_lists.cpp).
 constexpr size_t list_limit = size_t{1} << 24;
 
 template <typename T>

@@ -4,7 +4,7 @@
 
 #include "anatomy/parametric.h"
 #include "api/valve_desc.h"
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "session/commit.h"
 #include "session/mesh_warnings.h"
 

@@ -4,7 +4,7 @@
 
 #include "api/structs.h"
 #include "base/array_view.h"
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "model/chord_law.h"
 
 namespace mvs::core {

@@ -6,7 +6,7 @@
 #include <atomic>
 
 #include "base/error.h"
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "model/complete.h"
 #include "model/sides.h"
 

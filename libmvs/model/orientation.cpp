@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "model/check.h"
+#include "model/checks/check.h"
 
 namespace mvs::core {
 namespace {

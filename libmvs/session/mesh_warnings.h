@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "model/model.h"
 
 namespace mvs::core {

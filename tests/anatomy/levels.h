@@ -16,7 +16,7 @@
 #include "anatomy/refine.h"
 #include "base/error.h"
 #include "geometry/intersect.h"
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "tests/model/real_valves.h"
 #include "tests/model/small_valve.h"
 

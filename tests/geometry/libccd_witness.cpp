@@ -9,7 +9,7 @@
 //
 // - point and triangle: ours is wrong for narrow triangles, by 1e-16 of the longest side over the
 //   square of height over longest side: 1 nm at a height of 4e-5 of 2 cm, and wholly for triangles
-//   that are flat to rounding. model/check_sheet.cpp refuses a height below 1e-6 at rest;
+//   that are flat to rounding. model/checks/check_sheet.cpp refuses a height below 1e-6 at rest;
 // - two segments: ours takes segments within 1e-6 rad as parallel, and then is at most that times
 //   their length too large. GJK with round bodies ends before it has found a slight overlap:
 //   libccd's is too large, by at most 10 um, and by up to 2 mm in 10 of a million, at ties of the

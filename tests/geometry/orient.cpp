@@ -2,7 +2,7 @@
 #include <doctest/doctest.h>
 #include <Eigen/Geometry>
 
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "tests/model/real_valves.h"
 #include "tests/model/small_valve.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "model/model.h"
 #include "tests/model/small_valve.h"
 

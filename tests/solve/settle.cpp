@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "energy/forces.h"
 #include "geometry/intersect.h"
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "tests/model/real_valves.h"
 #include "tests/model/small_valve.h"
 #include "tests/solve/bench.h"

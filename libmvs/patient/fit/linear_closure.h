@@ -10,7 +10,7 @@ namespace mvs::core {
 // load are damped, as their displacements are beyond the linear range. Contact and slack chordae
 // are taken as they are at the equilibrium: chordae that hang slack have no derivative. The damping
 // pays: with the exact derivatives of the room `sensitivity` fits took as long and ended a little
-// farther from their surfaces (tests/bench/fit_jacobian.cpp).
+// farther from their surfaces (tests/bench/fit/fit_jacobian.cpp).
 ClosedJacobian jacobian_by_linearisation();
 
 }  // namespace mvs::core

@@ -5,7 +5,7 @@
 #include <map>
 #include <set>
 
-#include "model/checks.h"
+#include "model/checks/checks.h"
 #include "model/chord_law.h"
 #include "model/text.h"
 #include "model/valve_arrays.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "model/checks.h"
+#include "model/checks/checks.h"
 #include "model/compressed_rows.h"
 #include "model/orientation.h"
 

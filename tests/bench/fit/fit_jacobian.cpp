@@ -21,7 +21,7 @@
 #include "patient/fit/linear_closure.h"
 #include "patient/normal_numbers.h"
 #include "tests/bench/clock.h"
-#include "tests/bench/exact_jacobian.h"
+#include "tests/bench/fit/exact_jacobian.h"
 #include "tests/bench/table.h"
 
 using namespace mvs::core;

@@ -1,7 +1,7 @@
 // Checks the nodes that chordae and papillary heads join.
 #include <algorithm>
 
-#include "model/checks.h"
+#include "model/checks/checks.h"
 #include "model/topology.h"
 
 namespace mvs::core {

@@ -1,5 +1,5 @@
 // Directional derivatives with their test, and the two fallbacks.
-#include "tests/bench/exact_jacobian.h"
+#include "tests/bench/fit/exact_jacobian.h"
 
 #include "base/error.h"
 #include "patient/fit/linear_closure.h"

@@ -1,7 +1,7 @@
 // Checks the sizes of lists and the ranges of indices.
 #include <cmath>
 
-#include "model/checks.h"
+#include "model/checks/checks.h"
 
 namespace mvs::core {
 namespace {

@@ -1,6 +1,6 @@
 """Time of mvs.fit: the rest lengths of 80 chordae from a closed surface of 425 vertices.
 
-    taskset -c 0 python tests/bench/fit_lengths.py [--truths N]
+    taskset -c 0 python tests/bench/fit/fit_lengths.py [--truths N]
 
 CPU seconds of one fit to the surface and of one to its tracked nodes, both without noise and fitted as if
 it were 0.1 mm; the closure from open beside them. The error of the lengths is of chordae that the data

@@ -1,7 +1,7 @@
 // Checks that the annulus is a closed loop of boundary edges of the sheet.
 #include <algorithm>
 
-#include "model/checks.h"
+#include "model/checks/checks.h"
 
 namespace mvs::core {
 namespace {

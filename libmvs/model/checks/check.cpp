@@ -1,7 +1,7 @@
 // find_faults: runs the groups of checks in the order of their dependencies.
-#include "model/check.h"
+#include "model/checks/check.h"
 
-#include "model/checks.h"
+#include "model/checks/checks.h"
 
 namespace mvs::core {
 namespace {

@@ -4,7 +4,7 @@
 #include <mvs/base.h>
 
 #include "base/error.h"
-#include "model/check.h"
+#include "model/checks/check.h"
 #include "model/winding.h"
 
 namespace mvs::core {

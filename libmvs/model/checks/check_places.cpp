@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/checks.h"
+#include "model/checks/checks.h"
 
 namespace mvs::core {
 namespace {
