@@ -4,6 +4,7 @@ import dataclasses
 import math
 import re
 import typing
+from pathlib import Path
 
 import mvs
 import numpy as np
@@ -159,6 +160,27 @@ def test_laws_describe_their_constants():
         assert all(c.low <= c.default <= c.high for c in mvs.leaflet_law(law).constants)
     with pytest.raises(mvs.ArgumentError, match="not 9"):
         mvs.leaflet_law(9)
+
+
+def test_the_description_of_the_files_gives_the_defaults_of_the_laws():
+    text = (Path(__file__).parents[2] / "formats" / "FORMAT.md").read_text(encoding="utf-8")
+    start = text.index("Constants of the laws")
+    text = text[start : text.index("\n\n", start)]
+    leaflets, chordae = (" ".join(part.split()) for part in text.split("Chordae:"))
+    checked = 0
+    for words, laws in (
+        (leaflets, map(mvs.leaflet_law, mvs.LeafletLaw)),
+        (chordae, map(mvs.chord_law, mvs.ChordLaw)),
+    ):
+        for law in laws:
+            if f"{law.word} has" not in words or law.word in ("ogden", "table"):
+                continue  # springs take those of bilinear; ogden's are one default of six constants
+            of_law = words.split(f"{law.word} has ")[1].split(" has ")[0]
+            for constant in law.constants:
+                value = re.search(rf"`{constant.key}`(?: Pa| strain)?,? (\d+(?:\.\d+)?)", of_law)
+                assert value and float(value[1]) == constant.default, (law.word, constant.key)
+                checked += 1
+    assert checked == 4 + 3 + 3 + 3 + 1 + 2
 
 
 def test_the_dataclasses_have_the_fields_that_the_library_describes():
