@@ -1,10 +1,11 @@
 // Functions shared by the operations on chordae: pruning, rest lengths, names.
+#include <algorithm>
+#include <charconv>
+
 #include "base/error.h"
 #include "model/topology.h"
 #include "model/valve_arrays.h"
 #include "surgery/surgery.h"
-
-#include <algorithm>
 
 namespace mvs::core {
 namespace {
@@ -147,8 +148,18 @@ std::string free_chord_name(const Surgery &s, uint32_t node) {
     scallop = valve.scallops.get()[valve.triangle_scallop.get()[t]].name;
     break;
   }
-  for (uint32_t number = 1;; ++number) {
-    std::string name = scallop + "/" + std::to_string(number);
+  // above all numbers in use: a removed chord's name in the plan would mislead
+  const std::string prefix = scallop + "/";
+  uint64_t largest = 0;
+  for (const Chord &c : valve.chords.get()) {
+    if (!c.name.starts_with(prefix)) continue;
+    const char *end = c.name.data() + c.name.size();
+    uint64_t number = 0;
+    const auto read = std::from_chars(c.name.data() + prefix.size(), end, number);
+    if (read.ec == std::errc() && read.ptr == end) largest = std::max(largest, number);
+  }
+  for (uint64_t number = largest + 1;; ++number) {
+    std::string name = prefix + std::to_string(number);
     if (!has_chord_named(s, name)) return name;
   }
 }

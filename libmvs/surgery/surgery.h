@@ -63,7 +63,7 @@ void must_not_be_tied(const Surgery &s, uint32_t a, uint32_t b);
 // neighbours.
 double length_like_neighbours(const Surgery &s, uint32_t head, uint32_t node);
 
-// Returns an unused chord name of scallop and number: "P2/9".
+// Returns a chord name of scallop and number, above all numbers in use there: "P2/9".
 std::string free_chord_name(const Surgery &s, uint32_t node);
 
 // Each operation is one function, in the file of its name.

@@ -147,6 +147,31 @@ TEST_CASE("a_clip_is_placed_at_its_position") {
   }
 }
 
+// The sides of the wedge, sutured to each other, are no free edge any more: the clip reaches no
+// deeper than on a whole leaflet, not to the apex near the annulus.
+TEST_CASE("a_clip_on_a_resected_leaflet_joins_its_free_edges") {
+  for (const double position : {0.0, -0.4}) {
+    CAPTURE(position);
+    const ModelState cut = apply(shipped(), op_of<mvs_op_resect>(MVS_OP_RESECT)).current;
+    auto op = clip();
+    op.position = position;
+    const ModelState clipped = apply(cut, op).current;
+    const SheetMap map(*cut.model);
+    size_t joined = 0;
+    for (const Chord &c : stitches(*clipped.model)) {
+      if (!c.name.starts_with("clip")) continue;
+      ++joined;
+      // 4 mm, and half an edge of the mesh (1 mm), of a leaflet that is 9 mm high there
+      CHECK(map.height(c.b) > 0.4);
+      if (c.name == "clip") CHECK(map.height(c.b) == 1);
+    }
+    CHECK(joined >= 6);
+    const Closed closed = close(clipped);
+    CHECK(closed.stats.converged);
+    CHECK(intersections(closed) == 0);
+  }
+}
+
 // A point at depth d of a clip turned by t goes along the edge by d sin t, on both leaflets in
 // opposite senses: anterior places towards CC, seen from the atrium anticlockwise from AP.
 TEST_CASE("a_turned_clip_joins_places_that_a_rotation_carries_it_to") {

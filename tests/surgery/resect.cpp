@@ -118,7 +118,8 @@ TEST_CASE("the_sutures_seal_the_gap") {
 
 TEST_CASE("the_remaining_tissue_is_unchanged") {
   const ModelState before = shipped();
-  const ModelState after = apply(before, resection(0, 0, 0)).current;
+  const Operated done = apply(before, resection(0, 0, 0));
+  const ModelState &after = done.current;
   const Valve &old = before.model->valve, &now = after.model->valve;
   size_t added = 0;
   for (size_t n = 0; n < now.rest.size(); ++n) {
@@ -152,6 +153,8 @@ TEST_CASE("the_remaining_tissue_is_unchanged") {
   }
   CHECK(kept + sutures_of(now).size() == now.chords.size());
   CHECK(kept < old.chords.size());  // those of the resected piece are removed
+  CHECK(done.title.ends_with(
+      format("mm deep, with %zu chordae and segments that end there", old.chords.size() - kept)));
 }
 
 TEST_CASE("the_piece_has_the_requested_size") {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "geometry/distance.h"
+#include "surgery/leaflet/seams.h"
 #include "surgery/leaflet/sheet_map.h"
 
 namespace mvs::core {
@@ -14,12 +15,23 @@ namespace {
 // The part of a free edge that belongs to one leaflet.
 struct Chain {
   std::vector<uint32_t> nodes;
-  std::vector<uint32_t> triangle;  // at each side; one less than nodes
+  std::vector<uint32_t> triangle;  // at each side, one less than nodes; none: across a seam
   std::vector<double> at;          // m from the first node, at rest
 };
 
-// Returns the longest run of sides of a loop on this leaflet.
-Chain chain_of(const Model &model, const std::vector<uint32_t> &loop, uint32_t leaflet) {
+// Takes a node into a chain. Between the nodes before and after the sides of a seam, which are
+// sutured, the free edge has no length.
+void append(const Model &model, uint32_t node, uint32_t triangle, Chain &chain) {
+  const std::vector<Vec3> &rest = model.valve.rest;
+  const double length = triangle == none ? 0 : (rest[node] - rest[chain.nodes.back()]).norm();
+  chain.nodes.push_back(node);
+  chain.triangle.push_back(triangle);
+  chain.at.push_back(chain.at.back() + length);
+}
+
+// Returns the longest run of sides of a loop on this leaflet, without those of seams.
+Chain chain_of(const Model &model, const std::vector<uint32_t> &loop, uint32_t leaflet,
+               const std::vector<uint8_t> &sewn) {
   const size_t n = loop.size();
   std::vector<uint32_t> triangle;
   for (size_t k = 0; k < n; ++k) {
@@ -41,22 +53,28 @@ Chain chain_of(const Model &model, const std::vector<uint32_t> &loop, uint32_t l
   }
   Chain chain;
   if (most == 0) return chain;
-  chain.nodes = {loop[best]};
-  chain.at = {0};
-  const std::vector<Vec3> &rest = model.valve.rest;
-  for (size_t k = best; k < best + most; ++k) {
-    const uint32_t a = loop[k % n], b = loop[(k + 1) % n];
-    chain.nodes.push_back(b);
-    chain.triangle.push_back(triangle[k % n]);
-    chain.at.push_back(chain.at.back() + (rest[b] - rest[a]).norm());
+  bool in_seam = false;
+  for (size_t k = best; k <= best + most; ++k) {
+    const uint32_t node = loop[k % n];
+    if (sewn[node]) {
+      in_seam = true;
+    } else if (chain.nodes.empty()) {
+      chain.nodes = {node};
+      chain.at = {0};
+      in_seam = false;
+    } else {
+      append(model, node, in_seam ? none : triangle[(k + n - 1) % n], chain);
+      in_seam = false;
+    }
   }
   return chain;
 }
 
 Chain free_edge_of(const Model &model, uint32_t leaflet) {
+  const Seams seams = find_seams(model);
   Chain longest;
   for (const std::vector<uint32_t> &loop : model.topology.free_edges.get()) {
-    Chain chain = chain_of(model, loop, leaflet);
+    Chain chain = chain_of(model, loop, leaflet, seams.inside);
     if (!chain.nodes.empty() && (longest.nodes.empty() || chain.at.back() > longest.at.back())) {
       longest = std::move(chain);
     }
@@ -76,6 +94,7 @@ Origin origin_on(const Model &model, const Chain &chain, uint32_t scallop, doubl
   Origin origin;
   double least = 1e300, growth = 0;
   for (size_t k = 0; k < chain.triangle.size(); ++k) {
+    if (chain.triangle[k] == none) continue;
     if (model.valve.triangle_scallop[chain.triangle[k]] != scallop) continue;
     const double a = map.along(scallop, chain.nodes[k]);
     const double b = map.along(scallop, chain.nodes[k + 1]);
@@ -95,6 +114,7 @@ EdgeNode seen_from(const Model &model, const Chain &chain, const Origin &origin,
   const std::vector<Vec3> &rest = model.valve.rest;
   EdgeNode best{node, 0, 1e300};
   for (size_t k = 0; k + 1 < chain.nodes.size(); ++k) {
+    if (chain.triangle[k] == none) continue;
     const Vec3 &a = rest[chain.nodes[k]], &b = rest[chain.nodes[k + 1]];
     const SegmentPoint nearest = closest_on_segment(rest[node], a, b);
     const double depth = std::sqrt(nearest.distance2);

@@ -7,6 +7,7 @@
 
 #include "base/math.h"
 #include "measure/annulus/frame.h"
+#include "surgery/leaflet/seams.h"
 
 namespace mvs::core {
 namespace {
@@ -19,37 +20,6 @@ struct Tie {
   Edge nodes;
   double weight;
 };
-
-// Finds the seams of resections. A seam is a part of a free edge folded onto itself: it starts at
-// the node whose two neighbours are sutured to each other and continues pair by pair. Marks the
-// nodes that are no longer free edge; the last pair still is.
-std::vector<Tie> seams(const Model &model, std::vector<uint8_t> &inside) {
-  const std::vector<Chord> &chords = model.valve.chords;
-  const auto suture = [&](uint32_t a, uint32_t b) {
-    for (const uint32_t c : model.topology.node_chords[a]) {
-      const bool same = chords[c].a == b || chords[c].b == b;
-      if (same && chords[c].kind == ChordKind::suture) return c;
-    }
-    return none;
-  };
-  std::vector<Tie> ties;
-  for (const std::vector<uint32_t> &loop : model.topology.free_edges) {
-    const size_t n = loop.size();
-    for (size_t turn = 0; turn < n; ++turn) {
-      uint32_t c = suture(loop[(turn + n - 1) % n], loop[(turn + 1) % n]);
-      if (c == none) continue;
-      inside[loop[turn]] = 1;
-      for (size_t k = 2; 2 * k < n; ++k) {
-        const uint32_t next = suture(loop[(turn + n - k) % n], loop[(turn + k) % n]);
-        if (next == none) break;
-        inside[chords[c].a] = inside[chords[c].b] = 1;
-        ties.push_back({{chords[c].a, chords[c].b}, 1 / chords[c].rest_length});
-        c = next;
-      }
-    }
-  }
-  return ties;
-}
 
 // Boundary values: 0 on the annulus, 1 on the free edges; -1 elsewhere.
 std::vector<double> boundary_heights(const Model &model, const std::vector<uint8_t> &sewn) {
@@ -65,12 +35,16 @@ std::vector<double> boundary_heights(const Model &model, const std::vector<uint8
 
 // Solves sum over neighbours of (h - h_neighbour) / length = 0 at every inner node.
 std::vector<double> harmonic_heights(const Model &model) {
-  std::vector<uint8_t> sewn(model.node_count(), 0);
-  std::vector<Tie> ties = seams(model, sewn);
+  const Seams seams = find_seams(model);
+  std::vector<Tie> ties;
+  for (const uint32_t c : seams.sutures) {
+    const Chord &suture = model.valve.chords[c];
+    ties.push_back({{suture.a, suture.b}, 1 / suture.rest_length});
+  }
   for (size_t e = 0; e < model.topology.edges.size(); ++e) {
     ties.push_back({model.topology.edges[e], 1 / model.rest_length[e]});
   }
-  std::vector<double> height = boundary_heights(model, sewn);
+  std::vector<double> height = boundary_heights(model, seams.inside);
   std::vector<int> row(height.size(), -1);
   int count = 0;
   for (uint32_t n = 0; n < height.size(); ++n) {

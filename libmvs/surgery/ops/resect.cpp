@@ -55,9 +55,18 @@ void check_rest(const Surgery &s) {
   }
 }
 
+double rest_area(const Valve &valve) {
+  double area = 0;
+  for (const Tri &t : valve.triangles.get()) area += triangle_area(valve.rest, t);
+  return area;
+}
+
 std::string title_of(const Surgery &s, const mvs_op_resect &op, const ResectPlan &plan) {
   const char *name = s.before.valve.scallops[plan.scallop].name.c_str();
-  if (op.outline.count > 0) return format("Resect a piece of %s along an outline", name);
+  if (op.outline.count > 0) {
+    return format("Resect a piece of %s along an outline, %.0f mm2", name,
+                  1e6 * (rest_area(s.before.valve) - rest_area(s.valve)));
+  }
   return format("Resect a %s of %s, %.1f mm wide and %.1f mm deep",
                 op.base_width != 0 ? "quadrangle" : "triangle", name,
                 op.width != 0 ? 1e3 * op.width : 8.0, 1e3 * plan.depth);
@@ -72,9 +81,12 @@ void operate(Surgery &s, const mvs_op_resect &op) {
   check_rest(s);
   MVS_MUST(line.size() >= 3, MVS_E_OP, "outline",
            "resect: the cut is smaller than one triangle: take more");
-  sew(s, line, turn_of(s.valve, line), s.before.valve.scallops[plan.scallop].name + " suture ");
-  s.title = title_of(s, op, plan);
+  const uint32_t sutures =
+      sew(s, line, turn_of(s.valve, line), s.before.valve.scallops[plan.scallop].name + " suture ");
   prune_chords(s);
+  s.title = title_of(s, op, plan);
+  const size_t lost = s.before.valve.chords.size() + sutures - s.valve.chords.size();
+  if (lost > 0) s.title += format(", with %zu chordae and segments that end there", lost);
 }
 
 }  // namespace mvs::core
