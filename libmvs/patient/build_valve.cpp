@@ -110,7 +110,7 @@ MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &sett
                         FindingSource::measured,
                         0.9,
                         format("%zu pairs of triangles crossed and were separated by moves of at "
-                               "most %.3f mm",
+                               "most %.3g mm",
                                crossings.before, 1e3 * crossings.largest_move),
                         {crossings.largest_move},
                         "m"});

@@ -307,6 +307,18 @@ class Info(Command):
         self.assertEqual([part["name"] for part in info["leaflets"]], ["A", "P"])
         self.assertTrue(math.isclose(info["boundary_fraction"], 0))
 
+    def test_tissue_is_that_of_the_file(self):
+        self.ok("generate", "-o", "neo.obj", "--leaflet", "neo_hookean", "--thickness", "1.2")
+        text = (self.dir / "neo.obj").read_text(encoding="ascii")
+        mu = float(re.search(r"law=neo_hookean.* mu=(\S+)", text)[1])
+        for row in self.json("info", "neo.obj")["tissue"]:
+            self.assertEqual(row["law"], "neo_hookean")
+            self.assertEqual(row["constants"], {"mu": mu})
+            self.assertEqual(row["units"], {"mu": "Pa"})
+            self.assertAlmostEqual(row["thickness_min_mm"], 1.2)
+            self.assertAlmostEqual(row["thickness_max_mm"], 1.2)
+        self.assertIn("neo_hookean, mu 200000 Pa, 1.20 mm thick", self.ok("info", "neo.obj").stdout)
+
 
 class BadInput(Command):
     def bad(self, name, content):

@@ -93,6 +93,12 @@ class SurfaceImport(unittest.TestCase):
         self.assertEqual(found["annulus"]["source"], "guessed")
         self.assertEqual(len(found["leak"]["values"]), 3)
 
+    def test_what_is_not_used_of_a_whole_valve_is_said(self):
+        done = self.ok("import", self.dir / "made.obj", "-o", self.dir / "leaflets.h5", "--edge", "2.4")
+        self.assertIn("made.obj is a whole valve: its annulus, chordae", done.stderr)
+        done = self.ok("import", self.dir / "open.stl", "-o", self.dir / "leaflets.h5", "--edge", "2.4")
+        self.assertEqual(done.stderr, "")
+
     def test_findings_read_back_change_no_bit_and_edited_ones_count(self):
         first = self.imported("open.stl", "first.h5", "--edge-error", "0.4")
         findings = self.dir / "first.import.json"

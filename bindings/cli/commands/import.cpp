@@ -1,6 +1,8 @@
 // `mvs import`: builds a valve from a patient's surface and landmarks.
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 
 #include "commands/commands.h"
@@ -143,6 +145,20 @@ std::string findings_path(const ImportOptions &options) {
   return std::filesystem::path(options.out).replace_extension(".import.json").string();
 }
 
+// Says on stderr what is not used of an OBJ file that describes a whole valve.
+void warn_of_whole_valve(const std::string &path) {
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) {
+    if (!line.starts_with("#mvs ")) continue;
+    std::fprintf(stderr,
+                 "mvs: warning: %s is a whole valve: its annulus, chordae, papillary heads and "
+                 "tissue are not used, only the surface of its leaflets; mvs close reads it as it "
+                 "is\n",
+                 path.c_str());
+    return;
+  }
+}
+
 void run_import(const ImportOptions &given, Console &console) {
   ImportOptions options = given;
   options.build.edge = options.edge * 1e-3;
@@ -153,6 +169,7 @@ void run_import(const ImportOptions &given, Console &console) {
   options.build.thickness_error = options.thickness_error * 1e-3;
   options.build.leaflet_law = law_of(options.leaflet);
   const Input input = read_input(given, options);
+  warn_of_whole_valve(options.surface);
   const std::string name = std::filesystem::path(options.surface).stem().string();
   Progress progress(console);
   mvs_sim_desc how = {};

@@ -91,4 +91,53 @@ std::string laws_of(const mvs::Snapshot &valve) {
   return text;
 }
 
+Json tissue_rows(const mvs::Snapshot &valve) {
+  const std::vector<mvs_part> leaflets = valve.parts(MVS_PART_LEAFLET);
+  const std::vector<uint32_t> laws = law_numbers(valve);
+  const auto constants = valve.view<double>(MVS_ARRAY_LEAFLET_CONSTANTS);
+  const auto leaflet = valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_LEAFLET);
+  const auto thickness = valve.view<double>(MVS_ARRAY_TRIANGLE_THICKNESS);
+  Json rows = Json::array();
+  for (uint32_t l = 0; l < leaflets.size(); ++l) {
+    mvs_law law = {};
+    law.struct_size = sizeof law;
+    mvs::must(mvs_get_leaflet_law(laws[l] - 1, &law));
+    Json values = Json::object(), units = Json::object();
+    for (uint32_t k = 0; k < law.constant_count; ++k) {
+      values[law.constants[k].key] = constants.row(l)[1 + k];
+      units[law.constants[k].key] = law.constants[k].unit;
+    }
+    double thin = 1e300, thick = 0;
+    for (size_t t = 0; t < leaflet.rows(); ++t) {
+      if (*leaflet.row(t) != l) continue;
+      thin = std::min(thin, *thickness.row(t));
+      thick = std::max(thick, *thickness.row(t));
+    }
+    rows.push_back({{"leaflet", leaflets[l].name},
+                    {"law", law.word},
+                    {"constants", values},
+                    {"units", units},
+                    {"thickness_min_mm", thin * 1e3},
+                    {"thickness_max_mm", thick * 1e3}});
+  }
+  return rows;
+}
+
+std::string tissue_text(const Json &rows) {
+  std::string out;
+  for (const Json &row : rows) {
+    const double thin = row["thickness_min_mm"], thick = row["thickness_max_mm"];
+    out += text("    %-14s %s", row["leaflet"].get<std::string>().c_str(),
+                row["law"].get<std::string>().c_str());
+    for (const auto &[key, value] : row["constants"].items()) {
+      const std::string unit = row["units"][key];
+      out += text(", %s %g%s%s", key.c_str(), value.get<double>(), unit.empty() ? "" : " ",
+                  unit.c_str());
+    }
+    out += thick - thin < 0.005 ? text(", %.2f mm thick\n", thick)
+                                : text(", %.2f to %.2f mm thick\n", thin, thick);
+  }
+  return out;
+}
+
 }  // namespace cli

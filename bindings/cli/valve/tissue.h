@@ -5,6 +5,8 @@
 #include <mvs/mvs.hpp>
 #include <string>
 
+#include "text/console.h"
+
 namespace cli {
 
 void add_tissue_option(CLI::App &command, std::string &choice);
@@ -20,5 +22,9 @@ void set_tissue(mvs::Simulator &sim, const std::string &choice);
 
 // The distinct laws of the leaflets in their order: "spring, fung".
 std::string laws_of(const mvs::Snapshot &valve);
+
+// A row for each leaflet: its name, law, constants and thickness; and the same as lines of text.
+Json tissue_rows(const mvs::Snapshot &valve);
+std::string tissue_text(const Json &rows);
 
 }  // namespace cli
