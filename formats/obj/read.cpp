@@ -148,6 +148,7 @@ void ObjReader::check_complete(const Line &last) const {
 }
 
 Loaded read_obj(std::string_view text) {
+  MVS_MUST(!text.empty(), MVS_E_FORMAT, "", "the file is empty");
   if (text.size() > max_file_bytes) {
     throw Error(MVS_E_FORMAT, "",
                 format("the file has %zu bytes, the limit is %zu", text.size(), max_file_bytes));

@@ -37,7 +37,9 @@ enum mvs_array_kind_e {
   MVS_ARRAY_NODE_LOADED = 3,   /* F64 n x 3, m: targets of prescribed nodes under load */
   MVS_ARRAY_NODE_VELOCITY = 4, /* F64 n x 3, m/s */
   MVS_ARRAY_NODE_KIND = 5,     /* U8 n: MVS_NODE_KIND_* */
-  MVS_ARRAY_NODE_FORCE = 6,    /* F64 n x 3, N: out-of-balance force; reaction where prescribed */
+  /* F64 n x 3, N: out-of-balance force; where prescribed the force of the valve on what holds it,
+   * the negative of a reaction force of FEBio or Abaqus */
+  MVS_ARRAY_NODE_FORCE = 6,
   MVS_ARRAY_NODE_CONTACT_FORCE = 7,  /* F64 n x 3, N */
   MVS_ARRAY_NODE_COAPTATION = 8,     /* F64 n, m: distance to the facing leaflet, or infinity */
   MVS_ARRAY_NODE_OPEN = 9,           /* F64 n x 3, m: unloaded targets of prescribed nodes */

@@ -1,6 +1,7 @@
 // A model with changed parameters, and the change of the forces at fixed positions.
 #include "energy/bending.h"
 #include "energy/cable.h"
+#include "energy/contact.h"
 #include "energy/follower_pressure.h"
 #include "energy/membrane.h"
 #include "energy/spring.h"
@@ -43,6 +44,7 @@ void shrink_rest(Model &model, double prestrain) {
   const double scale = 1 / (1 + prestrain);
   for (Vec3 &rest : model.valve.rest.edit()) rest *= scale;
   for (double &area : model.rest_area.edit()) area *= scale * scale;
+  for (double &area : model.vertex_area.edit()) area *= scale * scale;
   for (double &length : model.rest_length.edit()) length *= scale;
 }
 
@@ -80,14 +82,23 @@ void apply(Model &model, const Parameter &p, double by) {
   }
 }
 
+void add_contact(const Model &model, const std::vector<Vec3> &x, std::vector<Vec3> &g) {
+  BroadPhase broad_phase(model);
+  broad_phase.build(x, x, 0, StepMotion::together);
+  ContactTerm contact(model);
+  contact.collect(x, broad_phase);
+  contact.gradient(g);
+}
+
 }  // namespace
 
-void add_elastic(const Model &model, double times, const std::vector<Vec3> &x,
-                 std::vector<Vec3> &g) {
+void add_tissue(const Model &model, bool rest_changes, double times, const std::vector<Vec3> &x,
+                std::vector<Vec3> &g) {
   std::vector<Vec3> part(x.size(), Vec3::Zero());
   SpringTerm(model).gradient(x, part);
   MembraneTerm(model).gradient(x, part);
   BendingTerm(model).gradient(x, part);
+  if (rest_changes) add_contact(model, x, part);
   for (size_t i = 0; i < g.size(); ++i) g[i] += times * part[i];
 }
 
@@ -99,11 +110,12 @@ Model changed_model(const Model &model, std::span<const ParameterStep> steps) {
 
 void add_change(const Model &model, std::span<const ParameterStep> steps,
                 const std::vector<Vec3> &x, std::vector<Vec3> &g) {
-  bool chords = false, tissue = false;
+  bool chords = false, tissue = false, rest = false;
   double pressure = 0;
   for (const ParameterStep &step : steps) {
     chords = chords || is_of_chord(step.parameter->kind);
     tissue = tissue || is_of_tissue(step.parameter->kind);
+    rest = rest || step.parameter->kind == Kind::prestrain;
     if (step.parameter->kind == Kind::pressure) pressure += step.by;
   }
   if (pressure != 0) {
@@ -115,8 +127,8 @@ void add_change(const Model &model, std::span<const ParameterStep> steps,
   if (!chords && !tissue) return;
   const Model changed = changed_model(model, steps);
   if (tissue) {
-    add_elastic(changed, 1, x, g);
-    add_elastic(model, -1, x, g);
+    add_tissue(changed, rest, 1, x, g);
+    add_tissue(model, rest, -1, x, g);
   }
   if (chords) {
     std::vector<Vec3> before(x.size(), Vec3::Zero());

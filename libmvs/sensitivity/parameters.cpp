@@ -1,5 +1,5 @@
 // Derivatives of forces and of the positions of prescribed nodes: analytic for cables, pressure and
-// positions, differences of the elastic terms for tissue.
+// positions, differences of the terms for tissue.
 #include "sensitivity/parameters.h"
 
 #include <algorithm>
@@ -28,14 +28,14 @@ double difference_step(const Model &model, const Parameter &p) {
   }
 }
 
-std::vector<Vec3> elastic_difference(const Model &model, const std::vector<Vec3> &x,
-                                     const Parameter &p) {
+std::vector<Vec3> tissue_difference(const Model &model, const std::vector<Vec3> &x,
+                                    const Parameter &p) {
   const double h = difference_step(model, p);
   std::vector<Vec3> g(x.size(), Vec3::Zero());
   for (const auto &[at, weight] : {std::array{1.0, 8.0 / 12}, std::array{-1.0, -8.0 / 12},
                                    std::array{2.0, -1.0 / 12}, std::array{-2.0, 1.0 / 12}}) {
     const ParameterStep step = {&p, at * h};
-    add_elastic(changed_model(model, {&step, 1}), weight / h, x, g);
+    add_tissue(changed_model(model, {&step, 1}), p.kind == Kind::prestrain, weight / h, x, g);
   }
   return g;
 }
@@ -108,7 +108,7 @@ ParameterLoad parameter_load(const Model &model, const State &state, const Param
     case Kind::boundary_mode:
       return {{}, sparse(model, p.mode, true)};
     default:
-      return {sparse(model, elastic_difference(model, x, p), false), {}};
+      return {sparse(model, tissue_difference(model, x, p), false), {}};
   }
 }
 

@@ -64,12 +64,13 @@ struct ParameterStep {
   double by;
 };
 
-// The model after changes; masses and the distances of contact keep their values. Pressure and
+// The model after changes; masses and the contact thickness keep their values. Pressure and
 // positions are not part of it.
 Model changed_model(const Model &model, std::span<const ParameterStep> steps);
-// Adds a multiple of dE/dx of the elastic terms of the leaflets.
-void add_elastic(const Model &model, double times, const std::vector<Vec3> &x,
-                 std::vector<Vec3> &g);
+// Adds a multiple of dE/dx of the terms that parameters of the tissue change: the elastic ones of
+// the leaflets, and contact, whose weights and ranges follow the rest shape, if that changes.
+void add_tissue(const Model &model, bool rest_changes, double times, const std::vector<Vec3> &x,
+                std::vector<Vec3> &g);
 // Adds the change of dE/dx at fixed positions x, without that by the motion of prescribed nodes.
 void add_change(const Model &model, std::span<const ParameterStep> steps,
                 const std::vector<Vec3> &x, std::vector<Vec3> &g);

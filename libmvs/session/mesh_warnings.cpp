@@ -1,4 +1,5 @@
-// Checks of the mesh: crossings, needles, edges below the contact thickness, leaflet names.
+// Checks of the mesh: crossings, needles, edges below the contact thickness, leaflet names, chordae
+// at the annulus.
 #include "session/mesh_warnings.h"
 
 #include <algorithm>
@@ -121,6 +122,27 @@ void check_short_edges(const Model &model, std::vector<Fault> &found) {
               remesh_command(model).c_str())});
 }
 
+// The heart holds the nodes of the annulus, so that a chord there moves nothing. Where most chordae
+// end there, the loop is the free edge.
+void check_chords_on_annulus(const Model &model, std::vector<Fault> &found) {
+  const Valve &valve = model.valve;
+  std::vector<uint8_t> held(model.node_count(), 0);
+  for (const uint32_t node : valve.annulus) held[node] = 1;
+  size_t count = 0, first = 0;
+  for (size_t c = 0; c < valve.chords.size(); ++c) {
+    if (!held[valve.chords[c].a] && !held[valve.chords[c].b]) continue;
+    if (valve.chords[c].kind != ChordKind::suture && count++ == 0) first = c;
+  }
+  if (count == 0) return;
+  found.push_back(
+      {"annulus",
+       format(
+           "%zu of %zu chordae end at the annulus (the first is %s), which the heart holds: they "
+           "move nothing; give other nodes, and check that the loop of the annulus is not that "
+           "of the free edge",
+           count, valve.chords.size(), valve.chords[first].name.c_str())});
+}
+
 }  // namespace
 
 std::vector<Fault> mesh_warnings(const Model &model, const std::vector<Vec3> &x) {
@@ -129,6 +151,7 @@ std::vector<Fault> mesh_warnings(const Model &model, const std::vector<Vec3> &x)
   check_short_edges(model, found);
   check_needles(model, found);
   check_anterior(model, found);
+  check_chords_on_annulus(model, found);
   return found;
 }
 

@@ -177,8 +177,23 @@ static void which_side_is_taken_for_the_anterior_one_is_told(void) {
   mvs_destroy(h.sim);
 }
 
+/* The commonest mistake of an import: the loop of the free edge given as the annulus. */
+static void chordae_at_the_annulus_are_told(void) {
+  static funnel f;
+  host h = {0};
+  mvs_sim_desc desc = {.struct_size = sizeof desc, .log = take_line, .user = &h};
+  make_funnel(&f);
+  f.chords[3].node_b = f.annulus[2];
+  MUST(mvs_create(&desc, &h.sim));
+  MUST(mvs_set_valve(h.sim, &f.desc));
+  CHECK(h.warnings == 1);
+  CHECK(strstr(h.last, "1 of 10 chordae end at the annulus") != NULL);
+  mvs_destroy(h.sim);
+}
+
 int main(void) {
   which_side_is_taken_for_the_anterior_one_is_told();
+  chordae_at_the_annulus_are_told();
   small_edges_and_needles_are_warned_of();
   progress_is_told_rises_and_ends_at_1();
   a_cancelled_settle_changes_nothing();

@@ -230,7 +230,7 @@ TEST_CASE("a_plain_obj_is_refused_with_the_missing_statement") {
                            "leaflet", "`l HEAD LEAFLET`", "FORMAT.md"}) {
     CHECK(plain.message.find(word) != std::string::npos);
   }
-  CHECK(fault_of("").message.find("no vertices") != std::string::npos);
+  CHECK(fault_of("").message.find("the file is empty") != std::string::npos);
   CHECK(fault_of("\n\n# hello\n").message.find("no vertices") != std::string::npos);
   CHECK(fault_of("v 0 0 0\n").message.find("no faces") != std::string::npos);
   CHECK(fault_of("solid ascii\n").message.find("`solid`") != std::string::npos);

@@ -58,6 +58,20 @@ def test_tracked_points_determine_taut_chords(start, truth, found):
     assert (np.diff(found.singular_values) <= 0).all()
 
 
+def test_a_refused_trial_does_not_move_the_start_of_others(start, found):
+    from mvs.fitting.fit import Problem
+
+    cost = 0.5 * ((found.residuals_after / found.noise) ** 2).sum() + 0.5 * (found.z**2).sum()
+    assert found.starts[0].cost == pytest.approx(cost, rel=1e-12)
+    problem = Problem(start, found.free, found.target, found.noise, True, 1e-5)
+    problem.residuals(found.z)
+    best = problem.best
+    problem.residuals(found.z + 2)  # all chordae longer by two deviations: far from the data
+    assert problem.best is best and problem.close(found.z) is best
+    problem.residuals(found.z + 1)
+    assert problem.best is best
+
+
 def test_the_jacobian_is_that_of_differences(start, found):
     from mvs.fitting.fit import Problem
 
@@ -66,7 +80,6 @@ def test_the_jacobian_is_that_of_differences(start, found):
     direction = random.normal(size=len(found.z))
     h, sides = 1e-6, []
     for by in (h, -h):
-        problem.last = found.closed
         sides.append(problem.data(problem.close(found.z + by * direction)))
     difference = (sides[0] - sides[1]) / (2 * h)
     exact = found.jacobian @ direction

@@ -76,6 +76,37 @@ def test_weights_and_tissue(closed):
     assert np.isfinite(found.derivative).all()
 
 
+def test_one_parameter_and_one_quantity_have_a_table(closed):
+    found = closed.sensitivity(of=["coaptation"], to=["pressure"], motion=True)
+    assert found.derivative.shape == found.above.shape == found.below.shape == (1, 1)
+    assert found.motion.shape == (1, len(closed.node_position), 3)
+    assert found["coaptation"].shape == (1,)
+    assert found.table()["d coaptation_area"][0] == found.derivative[0, 0]
+
+
+def test_prestrain_is_that_of_a_smaller_rest_shape(closed):
+    """Contact is weighted by areas of the rest shape, which shrink too."""
+    found = closed.sensitivity(of=["leaflet_area"], to=["prestrain"], motion=True)
+    step, sides = 2e-5, []  # moves nodes by 0.3 um, 1e-5 of which a settle to 1e-10 N resolves
+    leaf = np.unique(closed.triangle_nodes)
+    for by in (step, -step):
+        valve = mvs.valve_of(closed)
+        valve.nodes_open = valve.nodes.copy() if valve.nodes_open is None else valve.nodes_open
+        valve.nodes = valve.nodes.copy()
+        valve.nodes[leaf] /= 1 + by
+        with mvs.Simulator(log=lambda level, text: None) as sim:
+            sim.set_valve(valve)
+            sim.set_load(mvs.SYSTOLE_PA)
+            assert sim.settle(residual=TIGHT).converged
+            sides.append(sim.snapshot())
+    motion = (sides[0].node_position - sides[1].node_position) / (2 * step)
+    bound = closed.node_kind != int(mvs.NodeKind.BRANCH)  # slack branch points have no place
+    error = np.abs(motion - found.motion[0])[bound].max()
+    assert error < 1e-4 * np.abs(motion[bound]).max()
+    area = (sides[0].measures.leaflet_area - sides[1].measures.leaflet_area) / (2 * step)
+    assert found.derivative[0, 0] == pytest.approx(area, rel=1e-4)
+
+
 def test_a_table_is_sorted_by_influence(closed):
     table = closed.sensitivity(of=["coaptation", "leaflet_area"], to="chords").table()
     sizes = np.abs(table["d coaptation_area"])

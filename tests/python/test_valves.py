@@ -107,6 +107,31 @@ def test_a_wrong_array_is_refused_by_name(valve, name, spoil, words):
     assert words in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("field", "value", "sentence"),
+    [
+        ("leaflets", "AP", "leaflets: a sequence is needed, of which each is a name or a mvs.Leaflet"),
+        ("leaflets", [1, 2], r"leaflets\[0\]: a name or a mvs.Leaflet is needed, not 1 \(int\)"),
+        ("leaflets", [mvs.Leaflet("A", thickness="thin"), "P"], "help"),
+        ("scallops", 3, "scallops: a sequence"),
+        ("head_names", b"P", "head_names: a sequence"),
+        ("rings", ["ring"], r"rings\[0\]: a mvs.Ring is needed"),
+        ("curves", [None], r"curves\[0\]: a mvs.Curve is needed"),
+        ("name", b"x", "name: a text is needed, not b'x'"),
+        ("density", "heavy", "another type"),
+        ("orient", "no", "another type"),
+    ],
+)
+def test_a_field_of_another_type_is_refused_by_name(valve, field, value, sentence):
+    with mvs.Simulator() as sim:
+        sim.generate(vertices=250)
+        before = sim.snapshot().hash
+        setattr(valve, field, value)
+        with pytest.raises(mvs.ArgumentError, match=sentence):
+            sim.set_valve(valve)
+        assert sim.snapshot().hash == before
+
+
 def test_check_valve_lists_every_fault(valve):
     assert mvs.check_valve(valve) == []
     valve.triangles[3] = valve.triangles[3, 0]

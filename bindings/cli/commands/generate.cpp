@@ -119,7 +119,7 @@ void add_generate(CLI::App &app, Console &console) {
           "healthy, which seals with every tissue, or founding, that of the founding model")
       ->capture_default_str()
       ->check(one_of({"healthy", "founding"}));
-  add_law_option(*command, options->leaflet);
+  add_law_option(*command, options->leaflet, "membrane; founding shape: spring");
   for (const Dimension &d : lengths) {
     command
         ->add_option(d.option, options->valve.*d.value,

@@ -272,7 +272,7 @@ void add_import(CLI::App &app, Console &console) {
   command->add_option("--chords", options->build.chords, "chord segments, about [100]")
       ->check(CLI::PositiveNumber);
   add_range_options(*command, *options);
-  add_law_option(*command, options->leaflet);
+  add_law_option(*command, options->leaflet, "membrane");
   command->add_option("--with", options->with,
                       "findings of an earlier import, edited: what is given, guessed or assumed in "
                       "them is used");

@@ -39,7 +39,7 @@ void add_tissue_option(CLI::App &command, std::string &choice) {
       ->check(one_of(words));
 }
 
-void add_law_option(CLI::App &command, std::string &choice) {
+void add_law_option(CLI::App &command, std::string &choice, const std::string &fallback) {
   std::vector<std::string> words = {"membrane"};
   const std::vector<std::string> laws = known_laws();
   words.insert(words.end(), laws.begin(), laws.end());
@@ -47,7 +47,8 @@ void add_law_option(CLI::App &command, std::string &choice) {
       .add_option(
           "--leaflet", choice,
           "tissue of the leaflets: membrane (the law bilinear), spring (the founding model), "
-          "or another law [membrane; founding shape: spring]")
+          "or another law [" +
+              fallback + "]")
       ->check(one_of(words));
 }
 

@@ -11,8 +11,9 @@ namespace cli {
 
 void add_tissue_option(CLI::App &command, std::string &choice);
 
-// The option --leaflet of a valve that is generated, and the number of its law: 0 for "".
-void add_law_option(CLI::App &command, std::string &choice);
+// The option --leaflet of a valve that is made, whose help says the default, and the number of its
+// law: 0 for "".
+void add_law_option(CLI::App &command, std::string &choice, const std::string &fallback);
 mvs_leaflet_law law_of(const std::string &choice);
 
 // Sets the law of the leaflets. "file" leaves it, "membrane" turns springs into the membrane of the

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Annotated, Any, Optional, Union
 
 from numpy.typing import NDArray
 
 from .describe import Kind, with_field_help
+from .errors import ArgumentError
 from .kinds import LeafletLaw, RingKind
 from .laws import Constants, constants_of, leaflet_law_of
-from .words import did_you_mean
+from .words import did_you_mean, shown
 
 
 @dataclasses.dataclass(frozen=True)
@@ -45,7 +46,8 @@ class Leaflet:
     constants: of the law, at most 8, moduli in Pa: in order, or a dictionary by the keys of
         ``mvs.leaflet_law(law)``, where a key that is left out takes its default; for the spring
         sheet Young's modulus below and above the kink and the strain at the kink
-    law: a LeafletLaw, or its lower-case name
+    law: a LeafletLaw, or its lower-case name; the default is the spring sheet of the founding
+        model, "bilinear" the membrane that is recommended
     """
 
     name: str
@@ -104,6 +106,30 @@ def _with_near_names(kind: Kind) -> Kind:
 
     kind.__init__ = checked  # type: ignore[misc]
     return kind
+
+
+_PARTS: dict[str, tuple[type, ...]] = {
+    "leaflets": (str, Leaflet), "scallops": (str,), "chord_names": (str,), "head_names": (str,),
+    "rings": (Ring,), "curves": (Curve,),
+}
+
+
+def check_types(valve: Valve) -> None:
+    """Raises ArgumentError where a field of a valve that is no array has another type."""
+    if not isinstance(valve.name, str):
+        raise ArgumentError(f"name: a text is needed, not {shown(valve.name)}", "name")
+    for field, kinds in _PARTS.items():
+        parts = getattr(valve, field)
+        words = " or ".join("a name" if kind is str else f"a mvs.{kind.__name__}" for kind in kinds)
+        if parts is None:
+            continue
+        if isinstance(parts, (str, bytes)) or not isinstance(parts, Iterable):
+            raise ArgumentError(
+                f"{field}: a sequence is needed, of which each is {words}, not {shown(parts)}", field
+            )
+        for k, part in enumerate(parts):
+            if not isinstance(part, kinds):
+                raise ArgumentError(f"{field}[{k}]: {words} is needed, not {shown(part)}", field)
 
 
 def _no_field(name: str) -> str:

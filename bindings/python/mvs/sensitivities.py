@@ -169,6 +169,8 @@ def sensitivity(
     nodes = len(self.node_position)
     notes = {key: tuple(map(_words, found.pop(key).tolist())) for key in ("of_notes", "to_notes")}
     found.pop("weak_chords")
+    for key in ("derivative", "above", "below"):
+        found[key] = found[key].reshape(len(rows), len(columns))  # a view of one column has one axis
     return Sensitivity(
         of=tuple(r[0] for r in rows),
         to=tuple(c[0] for c in columns),

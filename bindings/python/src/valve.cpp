@@ -40,6 +40,17 @@ void read_parts(const py::object &valve, const char *list, std::vector<std::stri
 }  // namespace
 
 ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
+  py::module_::import("mvs.arrays").attr("check_types")(valve);
+  try {
+    read();
+  } catch (const py::cast_error &) {
+    refuse(MVS_E_ARGUMENT, "valve",
+           "a number, flag or id of the valve, or of one of its leaflets, rings or curves, has "
+           "another type than help(mvs.Valve) says");
+  }
+}
+
+void ValveArguments::read() {
   desc_.struct_size = sizeof desc_;
   name_ = py::str(valve_.attr("name"));
   desc_.name = name_.c_str();

@@ -18,6 +18,7 @@ class ValveArguments {
 
  private:
   mvs_array array(const char *name, uint32_t components, std::vector<uint32_t> types);
+  void read();
   void read_arrays();
   void read_leaflets();
   void read_scallops();

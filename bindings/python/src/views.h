@@ -19,7 +19,8 @@ inline constexpr View views[] = {
     {"node_velocity", MVS_ARRAY_NODE_VELOCITY, "(n, 3) float64, m/s."},
     {"node_kind", MVS_ARRAY_NODE_KIND, "(n,) uint8: mvs.NodeKind."},
     {"node_force", MVS_ARRAY_NODE_FORCE,
-     "(n, 3) float64, N: out-of-balance force; the reaction where prescribed."},
+     "(n, 3) float64, N: out-of-balance force; where prescribed the force of the valve "
+     "on what holds it, the negative of a reaction force of FEBio or Abaqus."},
     {"node_contact_force", MVS_ARRAY_NODE_CONTACT_FORCE, "(n, 3) float64, N: force of contact."},
     {"node_coaptation", MVS_ARRAY_NODE_COAPTATION,
      "(n,) float64, m: distance to the facing leaflet; infinity without one."},

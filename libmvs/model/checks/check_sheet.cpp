@@ -170,7 +170,7 @@ void check_winding(const Sheet &sheet, Faults &faults) {
     if (against[c] == 0 || winding.against[t] != odd) continue;
     faults.add(triangle_part(t),
                "triangle %zu is wound against its neighbours: swap two of its nodes, or set "
-               "MVS_VALVE_FLAG_ORIENT",
+               "MVS_VALVE_FLAG_ORIENT (Python: orient=True)",
                t);
   }
 }
@@ -201,7 +201,7 @@ void check_facing(const Valve &valve, const Sheet &sheet, Faults &faults) {
     if (areas[c].dot(atrium.axis) >= 0) continue;
     faults.add("sheet",
                "the sheet faces the ventricle: swap two nodes of every triangle so that normals "
-               "point into the atrium, or set MVS_VALVE_FLAG_ORIENT");
+               "point into the atrium, or set MVS_VALVE_FLAG_ORIENT (Python: orient=True)");
   }
 }
 

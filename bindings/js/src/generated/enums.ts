@@ -269,7 +269,10 @@ export const ArrayKind = {
   node_velocity: 4,
   /** U8 n: MVS_NODE_KIND_* */
   node_kind: 5,
-  /** F64 n x 3, N: out-of-balance force; reaction where prescribed */
+  /**
+   * F64 n x 3, N: out-of-balance force; where prescribed the force of the valve on what holds it,
+   * the negative of a reaction force of FEBio or Abaqus
+   */
   node_force: 6,
   /** F64 n x 3, N */
   node_contact_force: 7,

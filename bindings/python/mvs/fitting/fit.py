@@ -28,40 +28,44 @@ FIRST_RADIUS = 8.0
 
 
 class Problem:
-    """Residuals and Jacobian of one start; keeps the last closures."""
+    """Residuals and Jacobian of one start; keeps the best and the last closure.
+
+    Every trial starts from the best closure: a refused trial that snapped to another fold would else keep all
+    later ones there.
+    """
 
     def __init__(self, start: _core.Snapshot, free: Free, target: Target, noise: float,
                  with_prior: bool, residual: float) -> None:
         self.start, self.free, self.target = start, free, target
         self.noise, self.with_prior, self.residual = noise, with_prior, residual
         self.load = start.load_case
-        self.closed: dict[bytes, Optional[_core.Snapshot]] = {}
-        self.last = start
+        self.last: tuple[bytes, Optional[_core.Snapshot]] = (b"", None)
+        self.best_z: Array = np.zeros(len(free.labels))
+        self.best_cost, self.best = np.inf, start
         self.closures = 0
         self.derivatives: Optional[Array] = None
         self.trace: list[Trace] = []
         self.sim = _core.Simulator(log=lambda level, text: None)
 
     def close(self, z: Array) -> Optional[_core.Snapshot]:
-        """The closed valve with these parameters, from the last closed shape; None if not at rest."""
-        key = z.tobytes()
-        if key not in self.closed:
-            self.closed.clear()
-            self.closed[key] = self._settle(z)
-        return self.closed[key]
+        """The closed valve with these parameters, from the best closed shape; None if not at rest."""
+        if np.isfinite(self.best_cost) and np.array_equal(z, self.best_z):
+            return self.best
+        if self.last[0] != z.tobytes():
+            self.last = (z.tobytes(), self._settle(z))
+        return self.last[1]
 
     def _settle(self, z: Array) -> Optional[_core.Snapshot]:
         self.closures += 1
         with quiet():
-            self.sim.set_valve(self.free.valve(z, self.last.node_position))
+            self.sim.set_valve(self.free.valve(z, self.best.node_position))
             self.sim.set_load(self.load.pressure, self.load.boundary_fraction)
             try:
                 if not self.sim.settle(residual=self.residual).converged:
                     return None
             except DivergedError:
                 return None
-        self.last = self.sim.snapshot()
-        return self.last
+        return self.sim.snapshot()
 
     def data(self, closed: _core.Snapshot) -> Array:
         return self.target.residuals(np.array(closed.node_position))[0] / self.noise
@@ -71,6 +75,9 @@ class Problem:
         count = len(self.data(self.start))
         r = self.data(closed) if closed is not None else np.full(count, LOST)
         self.trace.append(Trace(self.closures, float(r @ r), float(z @ z), closed is not None))
+        cost = 0.5 * float(r @ r + (z @ z if self.with_prior else 0))
+        if closed is not None and cost < self.best_cost:
+            self.best_z, self.best_cost, self.best = z.copy(), cost, closed
         return np.concatenate([r, z]) if self.with_prior else r
 
     def jacobian(self, z: Array) -> Array:
@@ -125,10 +132,12 @@ def fit(
     starts: folds to start from: the closure itself and members of its ensemble; the best is returned
     residual: N, at rest; most: closures of a start; tolerance: of the cost, relative
 
-    The closure of each trial starts from the last closed shape. The start changes nothing.
+    The closure of each trial starts from the closed shape of the best one so far. The start is not changed.
     """
-    from scipy.optimize import least_squares
-
+    try:
+        from scipy.optimize import least_squares
+    except ImportError as error:
+        raise ImportError("mvs.fit needs scipy: pip install 'libmvs[fit]'") from error
     groups = [free] if isinstance(free, str) else list(free)
     if not noise > 0:
         raise ArgumentError(f"noise: a positive number of m is needed, not {noise}", "noise")
@@ -178,18 +187,20 @@ def _folds(start: _core.Snapshot, starts: int) -> list[_core.Snapshot]:
 
 def _result(start: _core.Snapshot, rows: Free, data: Target, noise: float, with_prior: bool,
             fits: list[Any], problems: list[Any], begun: float) -> Fit:
-    costs = [float(found.cost) for found in fits]
+    costs = [problem.best_cost for problem, _ in problems]
     best = int(np.argmin(costs))
-    found, (problem, before) = fits[best], problems[best]
-    closed = problem.close(found.x)
-    if closed is None:
+    problem, before = problems[best]
+    closed, z = problem.best, problem.best_z
+    if not np.isfinite(costs[best]):
         raise StateError("fit: no trial came to rest; tighten the priors or the bounds", "fit")
     return Fit(
-        start=start, closed=closed, free=rows, target=data, noise=noise, z=found.x,
-        jacobian=problem.data_jacobian(found.x), with_prior=with_prior,
+        start=start, closed=closed, free=rows, target=data, noise=noise, z=z,
+        jacobian=problem.data_jacobian(z), with_prior=with_prior,
         residuals_before=before[: len(problem.data(start))] * noise,
         residuals_after=problem.data(closed) * noise,
-        starts=tuple(Start(cost, problems[k][0].closures, fits[k].message) for k, cost in enumerate(costs)),
+        starts=tuple(Start(cost, problems[k][0].closures, fits[k].message, fits[k].status > 0)
+                     for k, cost in enumerate(costs)),
+        converged=fits[best].status > 0,
         trace=tuple(problem.trace), closures=sum(p.closures for p, _ in problems),
         cpu_seconds=time.process_time() - begun,
     )

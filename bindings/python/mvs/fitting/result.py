@@ -40,11 +40,12 @@ class Interval:
 
 @dataclasses.dataclass(frozen=True)
 class Start:
-    """One start of a fit: half the sum of squares at its end, closures, and why it ended."""
+    """One start of a fit: half the sum of squares at its end, closures, why it ended, and whether there."""
 
     cost: float
     closures: int
     message: str
+    converged: bool
 
 
 @dataclasses.dataclass(frozen=True)
@@ -62,7 +63,8 @@ class Fit:
     """A fitted valve, `closed`, with the uncertainty of its parameters.
 
     z: parameters in standard deviations of their priors; jacobian: of the data residuals over `noise`,
-    by z; residuals_before, residuals_after: m
+    by z; residuals_before, residuals_after: m; converged: whether the search ended within its tolerance, not
+    at its number of closures
     """
 
     start: _core.Snapshot
@@ -77,6 +79,7 @@ class Fit:
     residuals_after: Array
     starts: tuple[Start, ...]
     trace: tuple[Trace, ...]
+    converged: bool
     closures: int
     cpu_seconds: float
 
@@ -94,7 +97,9 @@ class Fit:
     @property
     def determined(self) -> Array:
         """Share of the prior variance of each parameter that the data remove: 1 determined, 0 not."""
-        return 1 - np.diag(self.covariance_z) if self.with_prior else np.ones(len(self.z))
+        if not self.with_prior:
+            return np.ones(len(self.z))
+        return np.clip(1 - np.diag(self.covariance_z), 0, 1)  # rounding may leave less than 0
 
     @property
     def covariance_z(self) -> Array:
@@ -183,7 +188,6 @@ class Fit:
 
         problem = Problem(self.closed, self.free, self.target, self.noise, self.with_prior, 1e-5)
         for z in drawn:
-            problem.last = self.closed
             closed = problem.close(z)
             if closed is not None:
                 yield closed
@@ -198,7 +202,7 @@ class Fit:
 
     def __repr__(self) -> str:
         return (f"<mvs.Fit: {len(self.z)} parameters, residual {self.rms * 1e3:.3f} mm RMS, "
-                f"{self.closures} closures>")
+                f"{self.closures} closures{'' if self.converged else ', not converged'}>")
 
 
 def _normal_quantile(p: float) -> float:
