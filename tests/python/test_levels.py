@@ -48,3 +48,7 @@ def test_impossible_levels_are_refused(sim):
         sim.coarsen()
     with pytest.raises(mvs.ArgumentError, match="refine"):
         sim.coarsen(vertices=10**6)
+    before = sim.snapshot().hash
+    with pytest.raises(mvs.ArgumentError, match="cannot be split 20 times: the limit is"):
+        sim.refine(20)
+    assert sim.snapshot().hash == before

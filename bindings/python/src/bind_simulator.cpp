@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
+
 #include "build.h"
 #include "simulator.h"
 #include "values.h"
@@ -234,8 +236,24 @@ void bind_work(py::class_<Simulator> &type) {
       "The load in force (mvs.Load).");
 }
 
+// All levels or none. The last level is checked first: the ones before it may take minutes.
 void refine(Simulator &self, uint32_t times) {
-  self.repeat(times, &mvs_refine_valve);
+  constexpr double most_triangles = 1 << 24;  // of mvs_refine_valve
+  const std::unique_ptr<Snapshot> before = self.snapshot();
+  mvs_view triangles{};
+  must(mvs_snapshot_get_array(before->get(), MVS_ARRAY_TRIANGLE_NODES, &triangles));
+  const auto now = static_cast<double>(triangles.count);
+  if (times > 12 || std::ldexp(now, 2 * static_cast<int>(times)) > most_triangles) {
+    refuse(MVS_E_ARGUMENT, "times",
+           "times: " + std::to_string(triangles.count) + " triangles cannot be split " +
+               std::to_string(times) + " times: the limit is 16,777,216 triangles");
+  }
+  try {
+    self.repeat(times, &mvs_refine_valve);
+  } catch (...) {
+    self.call([&](mvs_sim *sim) { return mvs_restore(sim, before->get()); });
+    throw;
+  }
 }
 
 py::object coarsen(Simulator &self, Count vertices, Number edge) {
@@ -254,7 +272,8 @@ void transfer_state(Simulator &self, const Snapshot &from) {
 void bind_levels(py::class_<Simulator> &type) {
   type.def("refine", &refine, "times"_a = 1,
            "Splits every triangle into four, this many times. Surface and parts stay, old nodes "
-           "keep their index, and the state is interpolated. The history restarts.");
+           "keep their index, and the state is interpolated. The history restarts. ArgumentError "
+           "beyond 16,777,216 triangles; an interrupted call changes nothing.");
   type.def("coarsen", &coarsen, py::kw_only(), "vertices"_a = py::none(), "edge"_a = py::none(),
            "Removes vertices from the leaflets and returns mvs.Coarsening. The others keep "
            "position and state; Snapshot.node_origin identifies them. The history restarts. "
