@@ -6,7 +6,17 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, beforeEach, describe, it } from 'node:test';
 import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, chordNames, chordPlace, open, openLeaflets, openPanel, save } from './person.mjs';
+import {
+  apply,
+  begin,
+  cameraRests,
+  chordNames,
+  chordPlace,
+  open,
+  openLeaflets,
+  openPanel,
+  save,
+} from './person.mjs';
 
 describe('planner features', () => {
   let context, page, errors;

@@ -5,7 +5,16 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { closed, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, chordNames, chordPlace, open, openLeaflets, openPanel } from './person.mjs';
+import {
+  apply,
+  begin,
+  cameraRests,
+  chordNames,
+  chordPlace,
+  open,
+  openLeaflets,
+  openPanel,
+} from './person.mjs';
 
 /** Whether a line meets a box, by its points. */
 function passes(a, b, box) {

@@ -185,6 +185,7 @@ describe('planner', () => {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill('94');
     await page.keyboard.press('Enter');
+    await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
     await closed(page);
     const applied = await page.evaluate(() => (window.unsubscribe(), window.applied));
@@ -207,9 +208,11 @@ describe('planner', () => {
     await closed(page);
   });
 
-  it('applies_the_value_that_is_typed_last', async () => {
+  it('takes_a_typed_value_at_Enter_and_applies_it_at_the_next', async () => {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill('93');
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => window.planner.state.draft.value?.fields.factor), 0.93);
     await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
     assert.match((await figures(page)).history.at(-1).title, /93/);

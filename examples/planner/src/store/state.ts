@@ -133,7 +133,7 @@ export const earlier = computed<Shown | null>(() => {
   const begin = first.value;
   return begin && begin.figures.hash !== main.value?.figures.hash ? begin : null;
 });
-export const inPast = computed(() => past.value && !!earlier.value);
+export const inPast = computed(() => past.value && !!earlier.value && !motion.value);
 /** The valve of picture and figures: the preview if there is one, or the valve before. */
 export const shown = computed<Shown | null>(() =>
   inPast.value ? earlier.value : (preview.value ?? main.value),

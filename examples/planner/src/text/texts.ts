@@ -1,4 +1,5 @@
 // Every text that the page shows, in a surgeon's words. To translate the page, translate this file.
+import { leakPlaces } from '../notable';
 import type { Figures } from '../protocol';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
@@ -12,6 +13,10 @@ export function grade(orifice: number): { level: number; word: string } {
   return { level: 4, word: 'Severe leak' };
 }
 
+/** A list in words. */
+export const listOf = (names: string[]): string =>
+  [names.slice(0, -1).join(', '), ...names.slice(-1)].filter(Boolean).join(' and ');
+
 /** Smallest share of a leak that is named. */
 const leastShare = 0.1;
 
@@ -24,8 +29,8 @@ export function where(figures: Figures): string {
     .filter((region) => region.orifice >= leastShare * total)
     .sort((a, b) => b.orifice - a.orifice)
     .map((region) => (region.commissure ? `commissure ${region.name}` : region.name));
-  const places = [names.slice(0, -1).join(', '), ...names.slice(-1)].filter(Boolean).join(' and ');
-  const count = figures.orificeParts.length;
+  const places = listOf(names);
+  const count = leakPlaces(figures.orificeParts).length;
   return count > 1 ? `${places}, in ${count} places` : places;
 }
 
@@ -44,7 +49,7 @@ export const operationWords: Record<string, Words> = {
   band: {
     title: 'Posterior band',
     short: 'Flexible band from trigone to trigone',
-    fields: { factor: 'Length, of the present one', length: 'Length', name: 'Name' },
+    fields: { factor: 'Length, in % of the present posterior annulus', length: 'Length', name: 'Name' },
   },
   annulus_scale: {
     title: 'Annulus size',
@@ -67,7 +72,7 @@ export const operationWords: Record<string, Words> = {
   chord_length: {
     title: 'Chord length',
     short: 'Shorten or lengthen a chord',
-    fields: { chord: 'Chord', length: 'Length without pull', factor: 'Length, of the present one' },
+    fields: { chord: 'Chord', length: 'Length without pull', factor: 'Length, in % of the present one' },
   },
   chord_remove: { title: 'Cut a chord', short: 'Remove a chord', fields: { chord: 'Chord' } },
   chord_add: {
@@ -204,13 +209,15 @@ export const tourTexts = {
   study: 'What the study’s surgeon did',
   show: (chord: string) => `Show the chord ${chord}`,
   columnsHelp:
-    'Healthy: this same valve before its illness, with its annulus and chordae as they were. Study surgeon: the repair of 2011, repeated here.',
+    'Before illness: this same valve with its annulus and chordae as they were; the valve that the page begins with is another one. Study surgeon: the repair of 2011, repeated here. Coaptation: mean along the whole line of closure, in which a gap counts as 0.',
+  namesHelp:
+    'AL1 to AL3 are heads of the anterolateral papillary muscle, PM1 to PM3 of the posteromedial one; A2/13 is chord 13 of the scallop A2.',
   whenSealed: '(measured once it is sealed)',
-  columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Healthy' },
+  columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Before illness' },
   rows: {
     leak: 'Leak, mm²',
-    coaptation: 'Coaptation, mm',
-    over: 'Chordae beyond limit',
+    coaptation: 'Coaptation, mean, mm',
+    load: 'Highest chord load, % of limit',
     area: 'Open area, cm²',
     ap: 'Annulus AP, mm',
   },
@@ -244,10 +251,10 @@ export const tourTexts = {
   ],
   goals: {
     sealed: 'No leak under 120 mmHg',
-    chords: (healthy: number | undefined) =>
-      healthy === 0
+    chords: (percent: number | null) =>
+      percent === null || percent <= 100
         ? 'No chord beyond its working limit'
-        : `No more chordae beyond their limit than before its illness${healthy ? ` (${healthy})` : ''}`,
+        : `No chord above ${percent} % of its working limit, the highest load before its illness`,
     open: 'Opens to at least 90 % of its area before its illness',
   },
   shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens' },
@@ -269,7 +276,7 @@ export const help = {
     ['G, B', 'Grasp, push with a ball'],
     ['A D, Q E', 'Slide, turn the clip of the form'],
     ['Arrows, Space', 'Move a cross and click with it, while a place in the picture is asked for'],
-    ['Enter, Esc', 'Apply, discard the operation'],
+    ['Enter, Esc', 'Apply, discard the operation; in a number, Enter takes it first'],
     ['Ctrl Z, Ctrl Y', 'Undo, redo'],
     ['Ctrl S', 'Save the session'],
     ['Ctrl O', 'Open a file'],
@@ -291,7 +298,7 @@ export const mapWords: Record<
   },
   height: { title: 'Height', scale: 'Above (+) or below the annulus plane' },
   stretch: { title: 'Stretch', scale: 'Stretch of the leaflets' },
-  load: { title: 'Chord load', scale: 'Chord load, of its limit' },
+  load: { title: 'Chord load', scale: 'Load of the chordae; 100 % is their limit' },
   distance: { title: 'Change', scale: 'Moved from the valve before' },
 };
 
@@ -358,12 +365,13 @@ export const verdictTexts = {
   atPressure: ' at 120 mmHg',
   was: (orifice: string) => ` was ${orifice}`,
   at: (place: string) => `at ${place}`,
-  meet: (length: string) => `leaflets meet over ${length} mm`,
-  chordsOver: (count: number, healthy: string) =>
-    `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit` +
-    (healthy ? ` (before its illness: ${healthy})` : ''),
+  meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
+  ofClosed: 'when closed',
+  chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit:`,
+  chordOver: (name: string, percent: number) => `${name} ${percent} %`,
+  chordsMore: (count: number) => `and ${count} more`,
   limitHelp:
-    'Working limit: the largest stretch and pull at which chordae of this kind work. They tear beyond it, so such a chord deserves a look. A healthy valve may have a few of them.',
+    'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it a chord may tear. A healthy valve may have one just at its limit.',
 };
 
 export const leaveTexts = {
@@ -427,7 +435,7 @@ export const barTexts = {
   colours: 'Colours',
   atrial: 'atrial side',
   ventricular: 'ventricular side',
-  leak: 'leak',
+  leak: 'leak; arrow: its jet',
   over: 'chord beyond its limit',
   slack: 'slack chord',
 };
@@ -539,9 +547,11 @@ export const formTexts = {
   axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
 };
 
-/** Names in the picture of what can be dragged. */
+/** Names in the picture, also of what can be dragged. */
 export const markTexts = {
-  plane: 'Section plane: drag',
+  plane: (through: string[]) => `Section plane through ${listOf(through)}: drag`,
+  chord: (name: string, length: number, percent: number | null) =>
+    `${name}  ${number(length)} mm${percent === null ? '' : `, ${percent} % of its limit`}`,
   clip: 'Clip: drag',
   turn: (angle: number) => (angle ? `Turn: ${number(angle, 0)}°` : 'Turn: drag'),
 };
@@ -587,12 +597,12 @@ export const repairTexts = {
   hint: 'Click a chord, a papillary head or a leaflet in the picture, or choose an operation.',
   chord: (name: string) => `Chord ${name}`,
   between: (kind: string, heads: string, scallops: string) =>
-    `${kind}, ${heads || 'branch'} to ${scallops || 'branch'}`,
+    `${kind} chord, from ${heads ? `head ${heads}` : 'a branch'} to ${scallops || 'a branch'}`,
   rest: 'Length without pull',
   pull: 'Pull',
   stretch: 'Stretch',
   slack: 'slack',
-  limit: 'Load, of its limit',
+  limit: 'Share of its limit',
   becomes: (was: string, now: string) => `${was} → ${now}`,
   changeLength: 'Change length',
   cut: 'Cut',
@@ -689,11 +699,13 @@ export const sectionTexts = {
   posterior: 'posterior',
   anterior: 'anterior',
   scale: '10 mm',
-  healthy: 'healthy',
+  healthy: 'before its illness',
   now: 'now',
   before: 'before',
   preview: 'preview',
-  plane: (mm: number) => `Plane, from the middle: ${mm.toFixed(1)} mm`,
+  plane: (mm: number, through: string[]) =>
+    `Plane through ${listOf(through)}, ${number(Math.abs(mm))} mm from the middle`,
+  middle: 'To the middle',
   cut: 'Cut the picture at this plane',
 };
 

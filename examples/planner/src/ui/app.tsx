@@ -193,7 +193,7 @@ function onKey(event: KeyboardEvent): void {
   if (panel) state.panel.value = panel[0];
   else if (key === 'o' && state.main.value && !state.draft.value)
     void openTo(state.openness.value >= 1 ? 0 : 1);
-  else if (key === 'w') state.past.value = !state.inPast.value;
+  else if (key === 'w' && !state.motion.value) state.past.value = !state.inPast.value;
   else if (key === 'x') state.sectionOn.value = !state.sectionOn.value;
   else if (key === 'c') state.chordsOn.value = !state.chordsOn.value;
   else if (key === 'n') state.labelsOn.value = !state.labelsOn.value;

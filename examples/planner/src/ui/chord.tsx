@@ -1,17 +1,13 @@
 // The card of a chosen chord, with its figures, also in a form that changes it.
-import { figure, kinds, repairTexts } from '../text/texts';
+import { percentOfLimit, shareOfLimit } from '../notable';
+import { figure, kinds, repairTexts, verdictTexts } from '../text/texts';
 import type { Chord } from '../protocol';
-
-/** The larger share of the working limit, of stretch or pull. */
-export function shareOfLimit(chord: Chord): number {
-  return Math.max(chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
-}
 
 const facts: [string, (chord: Chord) => string, string][] = [
   [repairTexts.rest, (chord) => figure(chord.rest), 'mm'],
   [repairTexts.pull, (chord) => figure(chord.tension, 2), 'N'],
   [repairTexts.stretch, (chord) => (chord.strain > 0 ? figure(100 * chord.strain) : repairTexts.slack), '%'],
-  [repairTexts.limit, (chord) => figure(100 * Math.max(0, shareOfLimit(chord)), 0), '%'],
+  [repairTexts.limit, (chord) => String(percentOfLimit(shareOfLimit(chord))), '%'],
 ];
 
 /** `after`: the chord in the preview of a change. */
@@ -33,6 +29,7 @@ export function ChordFacts({ chord, after }: { chord: Chord; after?: Chord }) {
           </>
         ))}
       </dl>
+      {(after ?? chord).over && <p class="beyond">{verdictTexts.limitHelp}</p>}
     </>
   );
 }

@@ -184,6 +184,17 @@ function boundary(topology: Topology, picture: Picture, options: SceneOptions): 
   return shapes.mesh();
 }
 
+/** Opacity of a leak that leaflets hide: it is still found, and reads as behind them. */
+const behind = 0.22;
+
+/** A mesh where it is seen, and faintly where something hides it. */
+function throughTissue(mesh: Mesh): Mesh[] {
+  return [
+    { ...mesh, overlay: true, opacity: behind },
+    { ...mesh, overlay: false },
+  ];
+}
+
 function orifice(picture: Picture): Mesh {
   const count = picture.orificeVertices.length;
   const colours = new Float32Array(count);
@@ -195,7 +206,7 @@ function orifice(picture: Picture): Mesh {
     front: colours,
     back: colours,
     opacity: 0.85,
-    overlay: true,
+    overlay: false,
     cut: false,
     flat: true,
   };
@@ -205,13 +216,12 @@ function orifice(picture: Picture): Mesh {
 function jets(parts: OrificePart[]): Mesh {
   const shapes = new Shapes();
   for (const part of parts) {
-    if (part.area < 1) continue;
     const length = 4 + Math.min(8, Math.sqrt(part.area));
     const along = (s: number) => part.centroid.map((v, c) => v + s * part.direction[c]);
     shapes.tube(along(0.5), along(length), 0.45, tissue.orifice, 10);
     shapes.tube(along(length), along(length + 2.5), 1.2, tissue.orifice, 12, 0.02);
   }
-  return shapes.mesh({ overlay: true });
+  return shapes.mesh();
 }
 
 /** The chosen chord once more, through whatever hides it. */
@@ -230,8 +240,8 @@ export function sceneMeshes(topology: Topology, picture: Picture, options: Scene
     boundary(topology, picture, options),
   ];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));
-  if (picture.orificeTriangles.length) meshes.push(orifice(picture));
-  if (options.jets.length) meshes.push(jets(options.jets));
+  if (picture.orificeTriangles.length) meshes.push(...throughTissue(orifice(picture)));
+  if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));
   if (options.chosenChord >= 0)
     meshes.push(throughAll(topology, picture, options.chosenChord, meshes[0].normals));
   if (picture.hand) {

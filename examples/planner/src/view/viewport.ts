@@ -1,10 +1,11 @@
 // The picture: canvas, renderer, camera, labels, and the pointer. Draws only when something has changed; while
 // something moves at a lower resolution, then once more in full.
-import { effect } from '@preact/signals';
+import { effect, untracked } from '@preact/signals';
+import { leakPlaces, shareOfLimit } from '../notable';
 import * as state from '../store/state';
 import { appTexts } from '../text/texts';
 import { Camera, type Preset } from './camera';
-import { cutMesh } from './cut';
+import { cutMesh, planeOf } from './cut';
 import { Gestures } from './gestures';
 import { overlayInputs, sameInputs, sceneInputs } from './inputs';
 import { Labels } from './labels';
@@ -73,15 +74,19 @@ export class Viewport {
       this.moved();
     });
     effect(() => {
-      this.showSurface(state.surface.value);
+      const shown = state.surface.value;
+      untracked(() => this.showSurface(shown));
     });
+    // a view is gone to when it is asked for, not whenever the valve changes that gives it its frame
     effect(() => {
       const wanted = state.wantedView.value;
-      if (wanted) this.go(wanted.preset);
+      if (wanted) untracked(() => this.go(wanted.preset));
     });
     effect(() => {
       const field = state.picking.value;
-      if (field && hidesFromAtrium(field) && this.fromAtrium()) this.go('ventricle');
+      untracked(() => {
+        if (field && hidesFromAtrium(field) && this.fromAtrium()) this.go('ventricle');
+      });
     });
     requestAnimationFrame((now) => this.frame(now));
   }
@@ -195,9 +200,7 @@ export class Viewport {
 
   plane(): CutPlane | null {
     if (!state.sectionOn.value || this.surface) return null;
-    const f = this.frameOf();
-    const normal: [number, number, number] = [f[6], f[7], f[8]];
-    return { normal, offset: f[0] * f[6] + f[1] * f[7] + f[2] * f[8] + state.sectionAt.value };
+    return planeOf(this.frameOf(), state.sectionAt.value);
   }
 
   /** The place of the handle of the section plane. */
@@ -228,15 +231,11 @@ export class Viewport {
       fields: figures?.fields ?? null,
       distance: this.distances(),
       frame: this.frameOf(),
-      load: figures
-        ? Float32Array.from(figures.chords, (c) =>
-            Math.max(c.strain / c.strainLimit, c.tension / c.tensionLimit),
-          )
-        : null,
+      load: figures ? Float32Array.from(figures.chords, shareOfLimit) : null,
       chosenChord: topology.chords.findIndex((part) => part.id === chord),
       chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
       chordsOn: state.chordsOn.value,
-      jets: figures?.orificeParts ?? [],
+      jets: leakPlaces(figures?.orificeParts ?? []),
     });
   }
 
