@@ -129,6 +129,7 @@ describe('planner to look at', () => {
     writeFileSync(path, await openLeaflets(page, [2, 0, 1]));
     const valve = await page.evaluate(() => window.planner.state.main.value.figures.frame);
     await open(page, path);
+    await page.getByRole('button', { name: 'Leave' }).waitFor();
     const found = await page.evaluate(() => window.planner.viewport.frameOf());
     const along = (row) => {
       const [x, y, z] = valve.slice(3 * row, 3 * row + 3);

@@ -87,6 +87,11 @@ describe('tour', () => {
           assert.equal(await button.locator('svg').count(), 1, 'the tick stays');
           const next = page.getByRole('button', { name: 'Valve 2' });
           assert.equal(await next.locator('svg').count(), 0, 'the goals are not judged on the valve before');
+          await button.click();
+          await page.getByText('Your repair of this valve').waitFor({ timeout: 30_000 });
+          await page.getByRole('button', { name: 'Return to it' }).click();
+          await page.getByText('gives exactly the saved valve').waitFor({ timeout: 30_000 });
+          assert.equal((await figures(page)).measures.orifice, 0);
         }
         if (number === 3) {
           // valves that were passed over are still offered

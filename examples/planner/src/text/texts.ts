@@ -231,9 +231,9 @@ export const tourTexts = {
     {
       title: 'Valve 1: dilated, and a long strut chord',
       story:
-        'The annulus is 15 % too large, and a strut chord of the anterior leaflet is 25 % too long. The leaflets do not meet.',
+        'In systole the annulus is 15 % too large, and a strut chord of the anterior leaflet is 25 % too long. The leaflets do not meet.',
       chord: 'A1/11',
-      hint: 'Make the annulus smaller first: a ring, or “Annulus size”. If a leak remains, hold the middle of A2 with artificial chordae.',
+      hint: 'Make the annulus smaller first: a ring, a band, or “Annulus size”. If a leak remains, hold the middle of A2 with artificial chordae. To shorten the long strut chord alone does not seal this valve.',
     },
     {
       title: 'Valve 2: a short chord',
@@ -244,7 +244,7 @@ export const tourTexts = {
     },
     {
       title: 'Valve 3: dilated, and a short chord',
-      story: 'The annulus is 10 % too large, and a chord to A2 is 33 % too short.',
+      story: 'In systole the annulus is 10 % too large, and a chord to A2 is 33 % too short.',
       chord: 'A2/4',
       hint: 'Two faults need two steps: free the leaflet from the short chord, then bring the annulus back to its size.',
     },
@@ -266,7 +266,7 @@ export const help = {
   keys: [
     ['1 2 3 4', 'Views: surgeon, ventricle, side, section'],
     ['Arrows, + −', 'Turn, zoom (in the picture)'],
-    ['V R P L I', 'Panels: Valve, Repair, Plan, Learn, Import'],
+    ['V R P L I', 'Panels: Valve, Repair, Plan, Learn; Import, once a surface was opened'],
     ['O', 'Open and close the valve'],
     ['W', 'The valve before, and the present one again'],
     ['X', 'Cut the picture at the section plane'],
@@ -276,7 +276,10 @@ export const help = {
     ['G, B', 'Grasp, push with a ball'],
     ['A D, Q E', 'Slide, turn the clip of the form'],
     ['Arrows, Space', 'Move a cross and click with it, while a place in the picture is asked for'],
-    ['Enter, Esc', 'Apply, discard the operation; in a number, Enter takes it first'],
+    [
+      'Enter, Esc',
+      'Apply, discard the operation; in a number, Enter takes it first. Esc also lets go of a chosen part',
+    ],
     ['Ctrl Z, Ctrl Y', 'Undo, redo'],
     ['Ctrl S', 'Save the session'],
     ['Ctrl O', 'Open a file'],
@@ -367,8 +370,8 @@ export const verdictTexts = {
   at: (place: string) => `at ${place}`,
   meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
   ofClosed: 'when closed',
-  chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit:`,
-  chordOver: (name: string, percent: number) => `${name} ${percent} %`,
+  chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
+  chordOver: (name: string, percent: number) => `${name} ${percent} %`,
   chordsMore: (count: number) => `and ${count} more`,
   limitHelp:
     'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it a chord may tear. A healthy valve may have one just at its limit.',
@@ -377,6 +380,7 @@ export const verdictTexts = {
 export const leaveTexts = {
   finished: (title: string) => `“${title}” is finished. Its repair can be opened once more.`,
   left: (title: string) => `The changed plan “${title || 'without a name'}” was closed.`,
+  repaired: 'Your repair of this valve can be opened again.',
   back: 'Return to it',
 };
 
@@ -445,6 +449,8 @@ export const valveTexts = {
   coaptationMeanHelp:
     'Length over which the leaflets lie against each other. Surgeons aim at 8 mm or more at A2-P2.',
   coaptationHeight: 'Coaptation height, A2–P2',
+  coaptationHeightHelp:
+    'How high the leaflets touch in the middle section, along the axis of the valve; the length along the leaflets is larger where they lie at a slant.',
   tenting: 'Tenting height',
   tentingHelp: 'Deepest point of the closed leaflets below the plane of the annulus',
   prolapse: 'Prolapse above annulus',
@@ -467,10 +473,10 @@ export const valveTexts = {
   strongestPull: 'Strongest chord pull',
   pullOn: (head: string) => `Pull on ${head}`,
   head: (h: number) => `head ${h}`,
-  closedAt: 'Closed at 120 mmHg. Fingerprint of this valve:',
+  closedAt: 'Closed at 120 mmHg. The same letters stand for the same valve, to the last digit:',
   howCertain: 'How certain? Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
-    `${converged} of ${members} closures at rest, ${shapes} ${shapes === 1 ? 'shape' : 'different folds'}, at most ${number(apart)} mm apart.`,
+    `${converged} of ${members} closures came to rest, ${shapes === 1 ? 'all in one shape' : `in ${shapes} shapes of the folds`}, which differ by at most ${number(apart)} mm.`,
   spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
@@ -559,14 +565,16 @@ export const markTexts = {
 export const openingTexts = {
   opens: (area: number | undefined) =>
     `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
+  elsewhere:
+    'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   beside: (before: number | undefined, least: number | null) =>
     [
-      before === undefined ? '' : `was ${number(before / 100, 2)}`,
+      before === undefined ? '' : `without it ${number(before / 100, 2)}`,
       least === null ? '' : `goal ${number(least / 100, 2)} or more`,
     ]
       .filter(Boolean)
       .join(', '),
-  help: 'Smallest opening of the valve at 5 mmHg after this operation; a ring or clip narrows it.',
+  help: 'Smallest opening of the valve at 5 mmHg after this operation; a ring or clip can narrow it.',
 };
 
 export const pointTexts = {
@@ -604,6 +612,7 @@ export const repairTexts = {
   slack: 'slack',
   limit: 'Share of its limit',
   becomes: (was: string, now: string) => `${was} → ${now}`,
+  letGo: 'Let go of this part',
   changeLength: 'Change length',
   cut: 'Cut',
   transfer: 'Transfer',

@@ -39,15 +39,15 @@ const tabs = (): Tab[] => (state.imported.value ? [...panels, importTab] : panel
 function Panels() {
   const panel = state.panel.value;
   const body = useRef<HTMLDivElement>(null);
-  // another panel or form begins at its top
+  // another panel, form or valve of the tour begins at its top
   const form = state.draft.value?.kind;
+  const valve = state.tour.value?.number;
   const findings = state.imported.value?.findings;
-  useEffect(() => body.current?.scrollTo(0, 0), [panel, form, findings]);
+  useEffect(() => body.current?.scrollTo(0, 0), [panel, form, valve, findings]);
   const steps = (by: number) => {
     const all = tabs();
     const k = all.findIndex(([name]) => name === panel);
-    state.panel.value = all[(k + by + all.length) % all.length][0];
-    requestAnimationFrame(() => document.getElementById(`tab-${state.panel.value}`)?.focus());
+    showPanel(all[(k + by + all.length) % all.length][0]);
   };
   return (
     <aside class="side">
@@ -151,6 +151,12 @@ function Picture() {
   );
 }
 
+/** Opens a panel and goes to its tab, so that Tab goes on into the panel. */
+function showPanel(name: state.Panel): void {
+  state.panel.value = name;
+  requestAnimationFrame(() => document.getElementById(`tab-${name}`)?.focus());
+}
+
 const mapNames: MapName[] = ['tissue', ...(Object.keys(maps) as MapName[])];
 
 /** Keys of the page; not while text is typed. */
@@ -174,6 +180,7 @@ function onKey(event: KeyboardEvent): void {
   }
   if (event.key === 'Escape' && state.picking.value === 'outline') return pickField(null);
   if (event.key === 'Escape' && state.draft.value) return discard();
+  if (event.key === 'Escape') state.choice.value = null;
   if (typing || control || event.altKey) return;
   if (
     event.key === 'Enter' &&
@@ -190,7 +197,7 @@ function onKey(event: KeyboardEvent): void {
   }
   if (clipKey(key)) return;
   const panel = tabs().find(([, , letter]) => letter.toLowerCase() === key);
-  if (panel) state.panel.value = panel[0];
+  if (panel) showPanel(panel[0]);
   else if (key === 'o' && state.main.value && !state.draft.value)
     void openTo(state.openness.value >= 1 ? 0 : 1);
   else if (key === 'w' && !state.motion.value) state.past.value = !state.inPast.value;

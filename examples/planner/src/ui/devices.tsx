@@ -2,6 +2,7 @@
 import * as state from '../store/state';
 import { deviceTexts } from '../text/texts';
 import type { Figures, Picture, Topology } from '../protocol';
+import { isClosed } from '../view/scene';
 import { Section } from './parts';
 
 const suture = 7;
@@ -11,7 +12,7 @@ interface Device {
   figures: string;
 }
 
-/** Largest extents along CC and AP, and the length of a ring's curve; closed if its ends are near. */
+/** Largest extents along CC and AP and the length of a ring's curve; the length of a band. */
 function ringFigures(picture: Picture, r: number, frame: number[]): string {
   const points: number[][] = [];
   for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k)
@@ -25,7 +26,7 @@ function ringFigures(picture: Picture, r: number, frame: number[]): string {
   let length = 0;
   for (let k = 1; k < points.length; ++k) length += distance(points[k - 1], points[k]);
   const gap = distance(points[0], points[points.length - 1]);
-  if (gap > 0.25 * length) return deviceTexts.band(length);
+  if (!isClosed(points)) return deviceTexts.band(length);
   return deviceTexts.ring(extent(2), extent(1), length + gap);
 }
 

@@ -4,6 +4,8 @@ import { leastOpening } from '../store/tour';
 import * as state from '../store/state';
 import { openingTexts } from '../text/texts';
 
+const ofAnnulus = new Set(['ring', 'band']);
+
 export function Opening({ kind }: { kind: string }) {
   const preview = state.preview.value?.figures;
   if (!narrowing.has(kind) || !preview) return null;
@@ -11,10 +13,13 @@ export function Opening({ kind }: { kind: string }) {
   const before = openingOf(state.main.value?.figures.hash);
   const least = leastOpening();
   const small = now && least ? now.openArea < least : false;
+  // the annulus became smaller and the opening did not
+  const elsewhere = ofAnnulus.has(kind) && now && before && now.openArea >= before.openArea;
   return (
     <p class={`opens${small ? ' warn' : ''}`} data-testid="opening" title={openingTexts.help}>
       {openingTexts.opens(now?.openArea)}
       <span class="was"> {openingTexts.beside(before?.openArea, least)}</span>
+      {elsewhere && <small>{openingTexts.elsewhere}</small>}
     </p>
   );
 }

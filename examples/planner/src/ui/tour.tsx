@@ -47,7 +47,7 @@ function Goal() {
     <>
       <h2>{texts.title}</h2>
       <p>{texts.story}</p>
-      <details class="section">
+      <details class="section" key={tour.number}>
         <summary>{tourTexts.hint}</summary>
         <div class="section-body">
           <p>{texts.hint}</p>
@@ -116,6 +116,7 @@ function Score() {
                 <li>{say(line)}</li>
               ))}
             </ol>
+            <p class="hint">{tourTexts.namesHelp}</p>
           </div>
         </details>
       )}

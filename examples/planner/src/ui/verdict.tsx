@@ -20,15 +20,7 @@ export function Verdict() {
   const shape = figures.known === 'shape';
   const graded = m.atRest && m.underLoad && !shape;
   const { level, word } = grade(m.orifice);
-  const tag = opening()
-    ? words.ofClosed
-    : state.inPast.value
-      ? words.past
-      : state.outdated.value
-        ? words.trying
-        : state.preview.value
-          ? words.preview
-          : '';
+  const tag = tagOf();
   return (
     <div
       class={`verdict level-${graded ? level : 'none'}${state.outdated.value ? ' outdated' : ''}`}
@@ -46,8 +38,13 @@ export function Verdict() {
   );
 }
 
-/** The picture shows a valve that opens, the card the closed one. */
-const opening = () => !!state.motion.value && state.openness.value < 1 && !!state.main.value;
+/** Which valve the figures belong to, where it is not the one of the plan as the picture shows it. */
+function tagOf(): string {
+  if (state.motion.value && state.openness.value < 1) return verdictTexts.ofClosed;
+  if (state.inPast.value) return verdictTexts.past;
+  if (state.outdated.value) return verdictTexts.trying;
+  return state.preview.value ? verdictTexts.preview : '';
+}
 
 /** Chordae that are named on the card, as many as have room. */
 const named = 2;
@@ -61,13 +58,15 @@ function Beyond({ figures }: { figures: Figures }) {
   const warned = percentOfLimit(figures.measures.chordLoad) > most;
   return (
     <div class={warned ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
-      {words.chordsOver(beyond.length)}{' '}
-      {beyond.slice(0, named).map((chord) => (
-        <button type="button" class="link" onClick={() => open(chord.name)}>
-          {words.chordOver(chord.name, percentOfLimit(shareOfLimit(chord)))}
-        </button>
-      ))}
-      {beyond.length > named && words.chordsMore(beyond.length - named)}
+      <div>{words.chordsOver(beyond.length)}</div>
+      <div class="beyond-names">
+        {beyond.slice(0, named).map((chord) => (
+          <button type="button" class="link" onClick={() => open(chord.name)}>
+            {words.chordOver(chord.name, percentOfLimit(shareOfLimit(chord)))}
+          </button>
+        ))}
+        {beyond.length > named && words.chordsMore(beyond.length - named)}
+      </div>
     </div>
   );
 }

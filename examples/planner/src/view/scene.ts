@@ -16,6 +16,10 @@ export interface SceneOptions {
   chosenHead: number;
   chordsOn: boolean;
   jets: OrificePart[];
+  /** The closed valve of a moving picture. */
+  closed: Picture | null;
+  /** Ends of chordae that the preview takes away, mm. */
+  removed: [number[], number[]][];
 }
 
 const suture = 7;
@@ -151,6 +155,27 @@ function chordae(topology: Topology, picture: Picture, options: SceneOptions, no
   return shapes.mesh({ cut: true });
 }
 
+/** The curves of rings and bands in a moving valve: each point goes with the node of the annulus to which it is sewn. */
+function carriedRings(topology: Topology, picture: Picture, closed: Picture | null): Float32Array {
+  if (closed?.topology !== picture.topology) return picture.ringPoints;
+  const points = closed.ringPoints.slice();
+  const [now, then] = [picture.positions, closed.positions];
+  for (let k = 0; k < points.length; k += 3) {
+    const range = (node: number) =>
+      Math.hypot(...[0, 1, 2].map((c) => then[3 * node + c] - closed.ringPoints[k + c]));
+    const node = topology.annulus.reduce((best, other) => (range(other) < range(best) ? other : best));
+    for (let c = 0; c < 3; ++c) points[k + c] += now[3 * node + c] - then[3 * node + c];
+  }
+  return points;
+}
+
+/** Whether a curve is a ring: its ends are as near as its points; those of a band are apart. */
+export function isClosed(points: number[][]): boolean {
+  const range = (a: number[], b: number[]) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  const steps = points.slice(1).map((point, k) => range(points[k], point));
+  return range(points[0], points[points.length - 1]) < 3 * Math.max(...steps);
+}
+
 function boundary(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
   const shapes = new Shapes();
   const x = picture.positions;
@@ -173,13 +198,11 @@ function boundary(topology: Topology, picture: Picture, options: SceneOptions): 
     shapes.tube(at, below, radius, tissue.head, 16, radius * 1.25);
     shapes.sphere(below, radius * 1.25, tissue.head, 10, 16);
   });
+  const rings = carriedRings(topology, picture, options.closed);
   for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
     const points = [];
-    for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k)
-      points.push(point(picture.ringPoints, k));
-    const [a, b] = [points[0], points[points.length - 1]];
-    const closed = Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 6;
-    shapes.path(points, 1.15, tissue.ring, closed, 10);
+    for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k) points.push(point(rings, k));
+    shapes.path(points, 1.15, tissue.ring, isClosed(points), 10);
   }
   return shapes.mesh();
 }
@@ -232,8 +255,32 @@ function throughAll(topology: Topology, picture: Picture, k: number, normals: Fl
   return shapes.mesh({ overlay: true, opacity: 0.55 });
 }
 
+/** mm between the middle of a leaflet and its atrial side: half the distance at which leaflets of the library touch. */
+const halfThickness = 0.5;
+/** Share of the distance to the facing leaflet by which each comes nearer: they meet, and do not cross. */
+const meeting = 0.48;
+let lifted: { of: Picture; fields: Fields; picture: Picture } | null = null;
+
+/** The picture with the atrial side of the leaflets in place of their middle. Where leaflets touch, their middles are apart by
+ *  the thickness of a leaflet: seen from the atrium a sealed valve would seem to leak. The last one is kept. */
+export function atrialSide(topology: Topology, picture: Picture, fields: Fields | null): Picture {
+  if (!fields) return picture;
+  if (lifted?.of === picture && lifted.fields === fields) return lifted.picture;
+  const positions = picture.positions.slice();
+  const normals = vertexNormals(positions, topology.triangles);
+  for (const node of topology.annulus) normals.fill(0, 3 * node, 3 * node + 3);
+  for (let i = 0; i < positions.length; ++i) {
+    const apart = fields.coaptation[Math.floor(i / 3)];
+    positions[i] +=
+      (apart < Infinity ? Math.min(halfThickness, meeting * apart) : halfThickness) * normals[i];
+  }
+  lifted = { of: picture, fields, picture: { ...picture, positions } };
+  return lifted.picture;
+}
+
 /** Everything that is drawn of a valve. */
-export function sceneMeshes(topology: Topology, picture: Picture, options: SceneOptions): Mesh[] {
+export function sceneMeshes(topology: Topology, middle: Picture, options: SceneOptions): Mesh[] {
+  const picture = atrialSide(topology, middle, options.fields);
   const meshes = [
     leafletMesh(topology, picture, options),
     seams(topology, picture),
@@ -244,6 +291,11 @@ export function sceneMeshes(topology: Topology, picture: Picture, options: Scene
   if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));
   if (options.chosenChord >= 0)
     meshes.push(throughAll(topology, picture, options.chosenChord, meshes[0].normals));
+  if (options.removed.length) {
+    const shapes = new Shapes();
+    for (const [a, b] of options.removed) shapes.tube(a, b, 0.35, tissue.chosen);
+    meshes.push(shapes.mesh({ opacity: 0.4 }));
+  }
   if (picture.hand) {
     const hand = new Shapes();
     hand.sphere(picture.hand.subarray(0, 3), 1.1, tissue.hand);
