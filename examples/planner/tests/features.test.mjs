@@ -264,7 +264,7 @@ describe('planner features', () => {
   it('compares_with_the_healthy_valve_from_the_first_moment_of_the_next_tour_valve', async () => {
     // the verdict names the chord, and the goal the load that is compared with
     await openPanel(page, 'Learn');
-    const note = /beyond the working limit\s+A2\/4 \d+\s%[^]*No chord above 101\s% of its working limit/;
+    const note = /beyond the working limit\s+A2\/4 \d+\s%[^]*No chord above 111\s% of its working limit/;
     await page.evaluate(() => {
       window.notes = [];
       const text = (id) => document.querySelector(`[data-testid=${id}]`)?.innerText;

@@ -50,11 +50,11 @@ export function leastOpening(): number | null {
   return healthy ? 0.9 * healthy.openArea : null;
 }
 
-/** The largest load of a chord that the tour allows, in per cent of its working limit: the limit, or the highest load before the
- *  illness; null where it is not known. */
+/** The largest load of a chord that the tour allows, in per cent of its working limit: a tenth above the limit or above the highest
+ *  load before the illness, which is as little as limits are known; null where it is not known. */
 export function allowedLoad(): number | null {
   const healthy = state.tour.value?.founding?.healthy;
-  return healthy ? Math.max(100, percentOfLimit(healthy.measures.chordLoad)) : null;
+  return healthy ? percentOfLimit(1.1 * Math.max(1, healthy.measures.chordLoad)) : null;
 }
 
 /** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */

@@ -252,9 +252,7 @@ export const tourTexts = {
   goals: {
     sealed: 'No leak under 120 mmHg',
     chords: (percent: number | null) =>
-      percent === null || percent <= 100
-        ? 'No chord beyond its working limit'
-        : `No chord above ${percent} % of its working limit, the highest load before its illness`,
+      `No chord above ${percent ?? '…'} % of its working limit, a tenth more than before its illness`,
     open: 'Opens to at least 90 % of its area before its illness',
   },
   shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens' },

@@ -257,8 +257,8 @@ function throughAll(topology: Topology, picture: Picture, k: number, normals: Fl
 
 /** mm between the middle of a leaflet and its atrial side: half the distance at which leaflets of the library touch. */
 const halfThickness = 0.5;
-/** Share of the distance to the facing leaflet by which each comes nearer: they meet, and do not cross. */
-const meeting = 0.48;
+/** mm that stay between two leaflets, so that they do not cross between their nodes. */
+const clearance = 0.2;
 let lifted: { of: Picture; fields: Fields; picture: Picture } | null = null;
 
 /** The picture with the atrial side of the leaflets in place of their middle. Where leaflets touch, their middles are apart by
@@ -272,7 +272,8 @@ export function atrialSide(topology: Topology, picture: Picture, fields: Fields 
   for (let i = 0; i < positions.length; ++i) {
     const apart = fields.coaptation[Math.floor(i / 3)];
     positions[i] +=
-      (apart < Infinity ? Math.min(halfThickness, meeting * apart) : halfThickness) * normals[i];
+      (apart < Infinity ? Math.min(halfThickness, Math.max(0, 0.5 * (apart - clearance))) : halfThickness) *
+      normals[i];
   }
   lifted = { of: picture, fields, picture: { ...picture, positions } };
   return lifted.picture;
