@@ -1,6 +1,9 @@
 // What of the figures is named one by one: chordae beyond their working limit, and the places of a leak.
 import type { Chord, OrificePart } from './protocol';
 
+/** The kind of the stitches of a suture or a clip. */
+export const suture = 7;
+
 /** The larger share of the working limit, of stretch or pull; 1 is the limit. */
 export function shareOfLimit(chord: Chord): number {
   return Math.max(0, chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);

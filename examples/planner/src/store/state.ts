@@ -15,6 +15,7 @@ import type {
   SurfaceKind,
   Topology,
 } from '../protocol';
+import { suture } from '../notable';
 import type { MapName } from '../view/colours';
 
 export interface Draft {
@@ -143,8 +144,6 @@ export const figures = computed<Figures | null>(() => shown.value?.figures ?? nu
 export const before = computed<Figures | null>(() =>
   inPast.value ? null : (earlier.value?.figures ?? null),
 );
-/** The kind of stitches. */
-const suture = 7;
 /** The chord that the preview adds; stitches of a clip or a suture do not count. */
 export const added = computed(() => {
   const old = new Set(main.value?.figures.chords.map((chord) => chord.id));

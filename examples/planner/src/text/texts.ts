@@ -25,11 +25,12 @@ export function where(figures: Figures): string {
   if (figures.known !== 'all') return '…';
   const leaking = figures.regions.filter((region) => region.orifice > 0);
   const total = leaking.reduce((sum, region) => sum + region.orifice, 0);
-  const names = leaking
+  const sorted = leaking
     .filter((region) => region.orifice >= leastShare * total)
     .sort((a, b) => b.orifice - a.orifice)
     .map((region) => (region.commissure ? `commissure ${region.name}` : region.name));
-  const places = listOf(names);
+  // as many as the card has room for
+  const places = sorted.length > 3 ? `${sorted.slice(0, 2).join(', ')} and others` : listOf(sorted);
   const count = leakPlaces(figures.orificeParts).length;
   return count > 1 ? `${places}, in ${count} places` : places;
 }
@@ -53,8 +54,12 @@ export const operationWords: Record<string, Words> = {
   },
   annulus_scale: {
     title: 'Annulus size',
-    short: 'Make the annulus larger or smaller',
-    fields: { factor: 'Overall size', ap: 'Front to back', cc: 'Side to side' },
+    short: 'Make the annulus larger or smaller, in all or in one direction',
+    fields: {
+      factor: 'Overall size',
+      ap: 'Front to back, beside the overall size',
+      cc: 'Side to side, beside the overall size',
+    },
   },
   neochord: {
     title: 'Artificial chord',
@@ -110,7 +115,7 @@ export const operationWords: Record<string, Words> = {
     fields: {
       anterior: 'Anterior scallop',
       posterior: 'Posterior scallop',
-      position: 'Position along the edge (A, D)',
+      position: 'Position, −1 at A3–P3 to 1 at A1–P1 (A, D)',
       angle: 'Turn, seen from the atrium (Q, E)',
       width: 'Width',
       reach: 'Depth of the grasp',
@@ -122,7 +127,7 @@ export const operationWords: Record<string, Words> = {
     short: 'Take out a piece of a leaflet and suture',
     fields: {
       scallop: 'Scallop',
-      position: 'Position along the scallop',
+      position: 'Position in the scallop, −1 at A3–P3 to 1 at A1–P1',
       width: 'Width at the free edge',
       base_width: 'Width at the annulus',
       depth: 'Depth',
@@ -267,7 +272,7 @@ export const help = {
     ['V R P L I', 'Panels: Valve, Repair, Plan, Learn; Import, once a surface was opened'],
     ['O', 'Open and close the valve'],
     ['W', 'The valve before, and the present one again'],
-    ['X', 'Cut the picture at the section plane'],
+    ['X', 'Slice the picture at the section plane'],
     ['C', 'Chordae on and off'],
     ['N', 'Names on and off'],
     ['M', 'Next colour map'],
@@ -297,7 +302,10 @@ export const mapWords: Record<
     high: 'apart',
     none: 'no leaflet faces it',
   },
-  height: { title: 'Height', scale: 'Above (+) or below the annulus plane' },
+  height: {
+    title: 'Height',
+    scale: 'Above (+) or below the flat plane of the annulus; prolapse counts from its saddle',
+  },
   stretch: { title: 'Stretch', scale: 'Stretch of the leaflets' },
   load: { title: 'Chord load', scale: 'Load of the chordae; 100 % is their limit' },
   distance: { title: 'Change', scale: 'Moved from the valve before' },
@@ -425,21 +433,26 @@ export const barTexts = {
   closed: 'Closed',
   opening: 'Open or closed',
   show: 'Show',
-  cut: 'Cut at the section plane',
+  cut: 'Slice at the section plane',
   // short words below the icons; each begins the name of its button
-  words: { cut: 'Cut', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
+  words: { cut: 'Slice', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
   pointer: 'Pointer',
   look: 'Turn and choose',
   grasp: 'Grasp and pull tissue',
   push: 'Push tissue with a ball',
+  tools: {
+    grasp: 'Drag the tissue. The living valve follows, and springs back when you let go.',
+    push: 'Press on the tissue: a ball pushes it. It springs back when you let go.',
+  },
   colours: 'Colours',
   atrial: 'atrial side',
   ventricular: 'ventricular side',
   leak: 'leak; arrow: its jet',
   over: 'chord beyond its limit',
   slack: 'slack chord',
+  stitch: 'stitch',
 };
 
 export const valveTexts = {
@@ -497,6 +510,7 @@ export const tableTexts = {
   prolapse: 'Prolapse, mm',
   commissure: (name: string) => `Commissure ${name}`,
   was: (value: string) => ` was ${value}`,
+  leakHint: 'A leak between two leaflets counts by half for the scallop on either side.',
   chordae: (count: number) => `Chordae (${count})`,
   chordaeHint: 'The most loaded first. Choose one to shorten, lengthen or cut it.',
   chord: 'Chord',
@@ -526,7 +540,7 @@ export const formTexts = {
   more: 'More',
   enter: '(Enter)',
   questions: {
-    site: 'Click the place on the leaflet.',
+    site: 'Click the place on the leaflet; or the arrow keys move a cross, and Space clicks.',
     head: 'Click a papillary head, or choose it below.',
     chord: 'Click a chord, or choose it below.',
     scallop: 'Click a scallop, or choose it below.',
@@ -536,6 +550,8 @@ export const formTexts = {
     Math.abs(now - was) < 0.06
       ? 'as at present'
       : `was ${number(was)} mm, ${now < was ? 'shorter' : 'longer'} by ${number(Math.abs(now - was))} mm`,
+  annulus: (was: { ap: number; cc: number }, now: { ap: number; cc: number }) =>
+    `Annulus front to back ${number(was.ap)} → ${number(now.ap)} mm, side to side ${number(was.cc)} → ${number(now.cc)} mm.`,
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
   leftEmpty: (fallback: string) => `left empty: ${fallback}`,
@@ -545,8 +561,8 @@ export const formTexts = {
   default: 'default',
   pick: (label: string) => `Pick in the picture: ${label}`,
   picked: (scallop: string) => `picked on ${scallop}`,
-  along: 'Along the scallop',
-  height: 'From annulus to free edge',
+  along: (percent: number) => `Along the scallop: ${percent} %`,
+  height: (percent: number) => `From annulus to free edge: ${percent} %`,
   axes: ['Towards the front', 'To the side', 'Towards the atrium'],
   axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
 };
@@ -563,6 +579,7 @@ export const markTexts = {
 export const openingTexts = {
   opens: (area: number | undefined) =>
     `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
+  narrow: 'Below 1.5 cm² an open mitral valve counts as a severe stenosis.',
   elsewhere:
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   beside: (before: number | undefined, least: number | null) =>
@@ -713,7 +730,7 @@ export const sectionTexts = {
   plane: (mm: number, through: string[]) =>
     `Plane through ${listOf(through)}, ${number(Math.abs(mm))} mm from the middle`,
   middle: 'To the middle',
-  cut: 'Cut the picture at this plane',
+  cut: 'Slice the picture at this plane',
 };
 
 export const gestureTexts = {

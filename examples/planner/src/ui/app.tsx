@@ -5,7 +5,7 @@ import { openFile } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { appTexts, help, importTexts, t } from '../text/texts';
+import { appTexts, barTexts, help, importTexts, t } from '../text/texts';
 import { clipKey } from '../view/clip';
 import type { MapName } from '../view/colours';
 import { maps } from '../view/colours';
@@ -128,6 +128,12 @@ function Compare() {
   );
 }
 
+/** What the pointer does to the living valve. */
+function ToolHint() {
+  const tool = state.tool.value;
+  return tool === 'look' ? null : <p class="tool-hint">{barTexts.tools[tool]}</p>;
+}
+
 function Picture() {
   const host = useRef<HTMLDivElement>(null);
   // before the page is painted for the first time: the valve is in that picture
@@ -145,6 +151,7 @@ function Picture() {
       </p>
       <Scale />
       <Compare />
+      <ToolHint />
       <Busy />
       <ViewBar go={go} />
     </main>

@@ -17,6 +17,7 @@ export function ChordFacts({ chord, after }: { chord: Chord; after?: Chord }) {
     const value = was === now ? was : repairTexts.becomes(was, now);
     return now === repairTexts.slack ? value : `${value}\u00a0${unit}`;
   };
+  const { over } = after ?? chord;
   return (
     <>
       <h3>{repairTexts.chord(chord.name)}</h3>
@@ -25,11 +26,11 @@ export function ChordFacts({ chord, after }: { chord: Chord; after?: Chord }) {
         {facts.map(([label, of, unit]) => (
           <>
             <dt>{label}</dt>
-            <dd>{fact(of, unit)}</dd>
+            <dd class={label === repairTexts.limit && over ? 'over' : undefined}>{fact(of, unit)}</dd>
           </>
         ))}
       </dl>
-      {(after ?? chord).over && <p class="beyond">{verdictTexts.limitHelp}</p>}
+      {over && <p class="beyond">{verdictTexts.limitHelp}</p>}
     </>
   );
 }

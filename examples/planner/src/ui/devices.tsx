@@ -1,11 +1,10 @@
 // Rings, bands, clips and artificial chordae as a table: the twin of what the picture shows of them.
+import { suture } from '../notable';
 import * as state from '../store/state';
 import { deviceTexts } from '../text/texts';
 import type { Figures, Picture, Topology } from '../protocol';
 import { isClosed } from '../view/scene';
 import { Section } from './parts';
-
-const suture = 7;
 
 interface Device {
   name: string;

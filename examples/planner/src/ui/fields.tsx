@@ -217,7 +217,7 @@ function SiteField(props: FieldProps) {
       {value && !('triangle' in value) && (
         <>
           <label class="slider">
-            <span>{formTexts.along}</span>
+            <span>{formTexts.along(Math.round(100 * value.along))}</span>
             <input
               type="range"
               min="0"
@@ -228,7 +228,7 @@ function SiteField(props: FieldProps) {
             />
           </label>
           <label class="slider">
-            <span>{formTexts.height}</span>
+            <span>{formTexts.height(Math.round(100 * value.height))}</span>
             <input
               type="range"
               min="0.1"

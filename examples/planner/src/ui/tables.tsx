@@ -41,6 +41,7 @@ export function Scallops({ figures }: { figures: Figures }) {
           })}
         </tbody>
       </table>
+      {!waiting && regions.some((region) => region.orifice > 0) && <p class="hint">{tableTexts.leakHint}</p>}
     </Section>
   );
 }

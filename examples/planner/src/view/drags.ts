@@ -55,15 +55,15 @@ export function dragAt(view: Viewport, p: Place, reach: number, hit: Hit | null)
   const chosen = hit.chord >= 0 && choice?.kind === 'chord' && topology.chords[hit.chord].id === choice.id;
   if (chosen && !state.motion.value) {
     const chord = state.main.value?.figures.chords.find((item) => item.id === choice.id);
-    if (chord) return { kind: 'chord', id: choice.id, rest: presentLength(chord.rest) };
+    if (chord) return { kind: 'chord', id: choice.id, rest: presentLength(chord.id, chord.rest) };
   }
   return { kind: 'turn' };
 }
 
-/** The length in the form, or that of the valve. */
-function presentLength(rest: number): number {
+/** The length in the form, if that is about this chord, or that of the valve. */
+function presentLength(id: string, rest: number): number {
   const draft = state.draft.value;
-  if (draft?.kind !== 'chord_length') return rest;
+  if (draft?.kind !== 'chord_length' || draft.fields.chord !== id) return rest;
   if (typeof draft.fields.length === 'number') return draft.fields.length;
   return typeof draft.fields.factor === 'number' ? rest * draft.fields.factor : rest;
 }

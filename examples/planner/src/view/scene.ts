@@ -1,6 +1,7 @@
 // Meshes of a valve: leaflets with both sides told apart, chordae as tubes, papillary heads, annulus, ring,
 // seams of the scallops, the orifice over everything, and the marks of the chosen part.
 import type { Fields, OrificePart, Picture, Topology } from '../protocol';
+import { suture } from '../notable';
 import { colourOf, maps, tissue, type MapName } from './colours';
 import { Shapes, vertexNormals, type Colour, type Mesh } from './mesh';
 
@@ -22,8 +23,9 @@ export interface SceneOptions {
   removed: [number[], number[]][];
 }
 
-const suture = 7;
 const strut = 3;
+/** mm between the middle of a leaflet and its sides: half the distance at which leaflets of the library touch. */
+const halfThickness = 0.5;
 
 function point(x: Float32Array, node: number): number[] {
   return [x[3 * node], x[3 * node + 1], x[3 * node + 2]];
@@ -91,8 +93,9 @@ function leafletMesh(topology: Topology, picture: Picture, options: SceneOptions
   };
 }
 
-/** Edges between two scallops, and the free edge, as thin lines on the sheet. */
-function seams(topology: Topology, picture: Picture): Mesh {
+/** Edges between two scallops, and the free edge, as thin lines on the sheet. Sewn edges are as thick as the leaflet, in its colour:
+ *  its thickness is what lies between their lines. */
+function seams(topology: Topology, picture: Picture, leaflet: Mesh): Mesh {
   const shapes = new Shapes();
   const x = picture.positions;
   const owner = new Map<number, number>();
@@ -106,13 +109,25 @@ function seams(topology: Topology, picture: Picture): Mesh {
       else if (other !== triangleScallop[t]) shapes.tube(point(x, a), point(x, b), 0.1, tissue.seam, 4);
     }
   }
-  const edge = Array.from(topology.freeEdge, (node) => point(x, node));
-  for (let k = 0; k < edge.length; ++k) {
-    const [a, b] = [edge[k], edge[(k + 1) % edge.length]];
-    if (Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < 8) shapes.tube(a, b, 0.2, tissue.edge, 5);
-  }
+  const sewn = new Set<number>();
+  topology.chordKind.forEach((kind, k) => {
+    if (kind === suture) sewn.add(topology.chordNodes[2 * k]).add(topology.chordNodes[2 * k + 1]);
+  });
+  topology.freeEdge.forEach((node, k) => {
+    const next = topology.freeEdge[(k + 1) % topology.freeEdge.length];
+    const [a, b] = [point(x, node), point(x, next)];
+    if (Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) >= 8) return;
+    if (sewn.has(node) || sewn.has(next)) shapes.tube(a, b, halfThickness, colourAt(leaflet, node), 8);
+    else shapes.tube(a, b, 0.2, tissue.edge, 5);
+  });
   return shapes.mesh({ cut: true });
 }
+
+const colourAt = ({ front }: Mesh, node: number): Colour => [
+  front[3 * node],
+  front[3 * node + 1],
+  front[3 * node + 2],
+];
 
 function chordColour(topology: Topology, picture: Picture, options: SceneOptions, k: number): Colour {
   if (k === options.chosenChord) return tissue.chosen;
@@ -188,15 +203,15 @@ function boundary(topology: Topology, picture: Picture, options: SceneOptions): 
   const radius = topology.headNodes.length > 8 ? 0.9 : topology.headNodes.length > 2 ? 1.5 : 2;
   topology.headNodes.forEach((node, h) => {
     const at = point(x, node);
-    const chosen = h === options.chosenHead;
-    shapes.sphere(at, radius, chosen ? tissue.chosen : tissue.head, 10, 16);
+    const colour = h === options.chosenHead ? tissue.chosen : tissue.head;
+    shapes.sphere(at, radius, colour, 10, 16);
     const below = [
       at[0] - 4.5 * options.frame[9],
       at[1] - 4.5 * options.frame[10],
       at[2] - 4.5 * options.frame[11],
     ];
-    shapes.tube(at, below, radius, tissue.head, 16, radius * 1.25);
-    shapes.sphere(below, radius * 1.25, tissue.head, 10, 16);
+    shapes.tube(at, below, radius, colour, 16, radius * 1.25);
+    shapes.sphere(below, radius * 1.25, colour, 10, 16);
   });
   const rings = carriedRings(topology, picture, options.closed);
   for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
@@ -255,8 +270,6 @@ function throughAll(topology: Topology, picture: Picture, k: number, normals: Fl
   return shapes.mesh({ overlay: true, opacity: 0.55 });
 }
 
-/** mm between the middle of a leaflet and its atrial side: half the distance at which leaflets of the library touch. */
-const halfThickness = 0.5;
 /** mm that stay between two leaflets, so that they do not cross between their nodes. */
 const clearance = 0.2;
 let lifted: { of: Picture; fields: Fields; picture: Picture } | null = null;
@@ -282,11 +295,8 @@ export function atrialSide(topology: Topology, picture: Picture, fields: Fields 
 /** Everything that is drawn of a valve. */
 export function sceneMeshes(topology: Topology, middle: Picture, options: SceneOptions): Mesh[] {
   const picture = atrialSide(topology, middle, options.fields);
-  const meshes = [
-    leafletMesh(topology, picture, options),
-    seams(topology, picture),
-    boundary(topology, picture, options),
-  ];
+  const leaflets = leafletMesh(topology, picture, options);
+  const meshes = [leaflets, seams(topology, picture, leaflets), boundary(topology, picture, options)];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));
   if (picture.orificeTriangles.length) meshes.push(...throughTissue(orifice(picture)));
   if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));
