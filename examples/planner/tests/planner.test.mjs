@@ -208,6 +208,19 @@ describe('planner', () => {
     await closed(page);
   });
 
+  it('keeps_the_view_while_a_number_is_changed', async () => {
+    // a view that the page was asked for before, as by “Show the chord”
+    await page.evaluate(() => (window.planner.state.wantedView.value = { preset: 'ventricle' }));
+    await page.keyboard.press('1');
+    await cameraRests(page);
+    const view = () => page.evaluate(() => window.planner.viewport.camera.orientation.toArray());
+    const chosen = await view();
+    await begin(page, 'ring');
+    await page.keyboard.press('Escape');
+    await cameraRests(page);
+    assert.deepEqual(await view(), chosen);
+  });
+
   it('takes_a_typed_value_at_Enter_and_applies_it_at_the_next', async () => {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill('93');
