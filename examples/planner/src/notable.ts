@@ -1,4 +1,4 @@
-// What of the figures is named one by one: chordae beyond their working limit, and the places of a leak.
+// Figures that are named one by one: chordae beyond their working limit, and the places of a leak.
 import type { Chord, OrificePart } from './protocol';
 
 /** The kind of the stitches of a suture or a clip. */

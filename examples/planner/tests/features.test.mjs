@@ -238,11 +238,11 @@ describe('planner features', () => {
     const { hash } = await figures(page);
     await page.evaluate(() => (window.planner.state.changed.value = true));
     await page.getByRole('button', { name: 'Healthy valve' }).click();
-    await page.waitForTimeout(200);
+    await page.getByRole('button', { name: 'Return to it' }).waitFor();
     await closed(page);
     assert.notEqual((await figures(page)).hash, hash);
     await page.getByRole('button', { name: 'Return to it' }).click();
-    await page.waitForTimeout(200);
+    await page.getByText('gives exactly the saved valve').waitFor();
     await closed(page);
     assert.equal((await figures(page)).hash, hash);
   });

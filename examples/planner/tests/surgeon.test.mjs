@@ -1,4 +1,4 @@
-// What surgeons new to the page stumbled over: names, figures and forms that did not say what the picture showed.
+// Stumbles of surgeons new to the page: names, figures and forms that did not say what the picture showed.
 import assert from 'node:assert/strict';
 import { after, before, describe, it } from 'node:test';
 import { closed, figures, openBrowser, openPlanner } from './browser.mjs';

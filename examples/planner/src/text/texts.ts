@@ -567,7 +567,7 @@ export const formTexts = {
   axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
 };
 
-/** Names in the picture, also of what can be dragged. */
+/** Names in the picture, of handles too. */
 export const markTexts = {
   plane: (through: string[]) => `Section plane through ${listOf(through)}: drag`,
   chord: (name: string, length: number, percent: number | null) =>

@@ -128,7 +128,7 @@ function Compare() {
   );
 }
 
-/** What the pointer does to the living valve. */
+/** A sentence on the tool that moves tissue. */
 function ToolHint() {
   const tool = state.tool.value;
   return tool === 'look' ? null : <p class="tool-hint">{barTexts.tools[tool]}</p>;

@@ -210,7 +210,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
   );
 }
 
-/** Of a suture or a clip. */
+/** Stitches are those of a suture or a clip. */
 const hasStitches = (): boolean => !!state.figures.value?.chords.some((chord) => chord.kind === suture);
 
 /** The scale of the colour map, in its unit. */
