@@ -112,6 +112,8 @@ export interface Measures {
   leafletStrain95: number;
   leafletStress95: number;
   chordsOver: number;
+  /** The largest share of its working limit that a chord carries; 1 is the limit. */
+  chordLoad: number;
   crossings: number;
   atRest: boolean;
   underLoad: boolean;

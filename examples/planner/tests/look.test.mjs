@@ -5,7 +5,16 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, describe, it } from 'node:test';
 import { closed, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, chordNames, chordPlace, open, openLeaflets, openPanel } from './person.mjs';
+import {
+  apply,
+  begin,
+  cameraRests,
+  chordNames,
+  chordPlace,
+  open,
+  openLeaflets,
+  openPanel,
+} from './person.mjs';
 
 /** Whether a line meets a box, by its points. */
 function passes(a, b, box) {
@@ -120,6 +129,7 @@ describe('planner to look at', () => {
     writeFileSync(path, await openLeaflets(page, [2, 0, 1]));
     const valve = await page.evaluate(() => window.planner.state.main.value.figures.frame);
     await open(page, path);
+    await page.getByRole('button', { name: 'Leave' }).waitFor();
     const found = await page.evaluate(() => window.planner.viewport.frameOf());
     const along = (row) => {
       const [x, y, z] = valve.slice(3 * row, 3 * row + 3);

@@ -185,6 +185,7 @@ describe('planner', () => {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill('94');
     await page.keyboard.press('Enter');
+    await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
     await closed(page);
     const applied = await page.evaluate(() => (window.unsubscribe(), window.applied));
@@ -207,9 +208,24 @@ describe('planner', () => {
     await closed(page);
   });
 
-  it('applies_the_value_that_is_typed_last', async () => {
+  it('keeps_the_view_while_a_number_is_changed', async () => {
+    // a view that the page was asked for before, as by “Show the chord”
+    await page.evaluate(() => (window.planner.state.wantedView.value = { preset: 'ventricle' }));
+    await page.keyboard.press('1');
+    await cameraRests(page);
+    const view = () => page.evaluate(() => window.planner.viewport.camera.orientation.toArray());
+    const chosen = await view();
+    await begin(page, 'ring');
+    await page.keyboard.press('Escape');
+    await cameraRests(page);
+    assert.deepEqual(await view(), chosen);
+  });
+
+  it('takes_a_typed_value_at_Enter_and_applies_it_at_the_next', async () => {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill('93');
+    await page.keyboard.press('Enter');
+    assert.equal(await page.evaluate(() => window.planner.state.draft.value?.fields.factor), 0.93);
     await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
     assert.match((await figures(page)).history.at(-1).title, /93/);

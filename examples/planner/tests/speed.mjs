@@ -72,11 +72,12 @@ async function changeForm(page) {
   }
 }
 
-/** Types a value and applies it by Enter, again and again on the valve that it makes. */
+/** Types a value, which Enter takes, and applies it by Enter, again and again on the valve that it makes. */
 async function applyTyped(page) {
   for (let k = 0; k < rounds; ++k) {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill(String(k % 2 ? 104 : 97));
+    await page.keyboard.press('Enter');
     await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
     await closed(page);

@@ -34,10 +34,9 @@ export const replacements: Record<string, { points: string; instead: string[] }>
   ring: { points: 'curve', instead: ['size', 'ap_ratio', 'saddle'] },
 };
 
-/** Length without pull of a chord of the plan, mm: where a change of it begins. */
+/** Length without pull of a chord of the plan, mm: where a change of it begins. Not rounded: that would be a change already. */
 export function presentLength(id: string): number {
-  const chord = state.main.value!.figures.chords.find((item) => item.id === id)!;
-  return +chord.rest.toFixed(1);
+  return state.main.value!.figures.chords.find((item) => item.id === id)!.rest;
 }
 
 /** Sets a field; a chord that answers the form is chosen in the picture as well, and its length is the present one. */

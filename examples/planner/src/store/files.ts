@@ -16,6 +16,9 @@ interface Left {
   finished: boolean;
 }
 
+/** The last changed plan of each valve of the tour, by its number. */
+const repairs = new Map<number, Left>();
+
 /** The present plan if it has changes that are not saved. */
 async function leave(): Promise<Left | null> {
   if (!state.changed.value || !state.canUndo.value) return null;
@@ -41,6 +44,18 @@ function offerReturn(left: Left | null, said = state.notice.value): void {
       .filter(Boolean)
       .join(' '),
     action: { text: leaveTexts.back, run: () => void comeBack(left) },
+  };
+}
+
+/** Offers the repair of a valve of the tour that is opened again, or the way back to a plan of another kind. */
+function offerRepair(number: number, left: Left | null): void {
+  if (left?.tour) repairs.set(left.tour.number, left);
+  const own = repairs.get(number);
+  if (!own || (left && !left.tour)) return offerReturn(left, null);
+  state.notice.value = {
+    kind: 'info',
+    text: leaveTexts.repaired,
+    action: { text: leaveTexts.back, run: () => void comeBack(own) },
   };
 }
 
@@ -81,7 +96,9 @@ export async function openShipped(
   );
   batch(() => {
     begun(shown, title, left);
-    if (shown) state.tour.value = tour;
+    if (!shown) return;
+    state.tour.value = tour;
+    if (tour) offerRepair(tour.number, left);
   });
 }
 

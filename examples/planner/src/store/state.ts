@@ -15,6 +15,7 @@ import type {
   SurfaceKind,
   Topology,
 } from '../protocol';
+import { suture } from '../notable';
 import type { MapName } from '../view/colours';
 
 export interface Draft {
@@ -133,7 +134,7 @@ export const earlier = computed<Shown | null>(() => {
   const begin = first.value;
   return begin && begin.figures.hash !== main.value?.figures.hash ? begin : null;
 });
-export const inPast = computed(() => past.value && !!earlier.value);
+export const inPast = computed(() => past.value && !!earlier.value && !motion.value);
 /** The valve of picture and figures: the preview if there is one, or the valve before. */
 export const shown = computed<Shown | null>(() =>
   inPast.value ? earlier.value : (preview.value ?? main.value),
@@ -143,8 +144,6 @@ export const figures = computed<Figures | null>(() => shown.value?.figures ?? nu
 export const before = computed<Figures | null>(() =>
   inPast.value ? null : (earlier.value?.figures ?? null),
 );
-/** The kind of stitches. */
-const suture = 7;
 /** The chord that the preview adds; stitches of a clip or a suture do not count. */
 export const added = computed(() => {
   const old = new Set(main.value?.figures.chords.map((chord) => chord.id));

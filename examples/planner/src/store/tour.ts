@@ -2,6 +2,7 @@
 import { effect } from '@preact/signals';
 import { shippedVertices } from '../shipped';
 import { tourTexts } from '../text/texts';
+import { percentOfLimit } from '../notable';
 import type { FoundingResult } from '../protocol';
 import { openShipped } from './files';
 import { measureCost } from './measure';
@@ -12,7 +13,7 @@ import * as state from './state';
 /** The healthy valve of the tour, the same for all its valves: known from the first moment of the second one. */
 let healthyValve: FoundingResult['healthy'] | null = null;
 
-/** Chooses a chord and shows it from the ventricle. */
+/** Chooses a chord of the valve of the plan and shows it from the ventricle. */
 export function showChord(name: string): void {
   const chord = state.main.value?.figures.chords.find((item) => item.name === name);
   if (!chord) return;
@@ -49,15 +50,21 @@ export function leastOpening(): number | null {
   return healthy ? 0.9 * healthy.openArea : null;
 }
 
+/** The largest load of a chord that the tour allows, in per cent of its working limit: a tenth above the limit or above the highest
+ *  load before the illness, which is as little as limits are known; null where it is not known. */
+export function allowedLoad(): number | null {
+  const healthy = state.tour.value?.founding?.healthy;
+  return healthy ? percentOfLimit(1.1 * Math.max(1, healthy.measures.chordLoad)) : null;
+}
+
 /** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */
 export function reached(): Record<'sealed' | 'chords' | 'open', boolean | null> {
-  const founding = state.tour.value?.founding;
   const { hash, known, measures } = state.main.value!.figures;
   const cost = openingOf(hash);
-  const least = leastOpening();
+  const [least, allowed] = [leastOpening(), allowedLoad()];
   return {
     sealed: known === 'shape' ? null : measures.atRest && measures.orifice === 0,
-    chords: founding ? measures.chordsOver <= founding.healthy.measures.chordsOver : null,
+    chords: allowed !== null ? percentOfLimit(measures.chordLoad) <= allowed : null,
     open: cost && least !== null ? cost.openArea >= least : null,
   };
 }

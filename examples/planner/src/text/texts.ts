@@ -1,4 +1,5 @@
 // Every text that the page shows, in a surgeon's words. To translate the page, translate this file.
+import { leakPlaces } from '../notable';
 import type { Figures } from '../protocol';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
@@ -12,6 +13,10 @@ export function grade(orifice: number): { level: number; word: string } {
   return { level: 4, word: 'Severe leak' };
 }
 
+/** A list in words. */
+export const listOf = (names: string[]): string =>
+  [names.slice(0, -1).join(', '), ...names.slice(-1)].filter(Boolean).join(' and ');
+
 /** Smallest share of a leak that is named. */
 const leastShare = 0.1;
 
@@ -20,12 +25,13 @@ export function where(figures: Figures): string {
   if (figures.known !== 'all') return '…';
   const leaking = figures.regions.filter((region) => region.orifice > 0);
   const total = leaking.reduce((sum, region) => sum + region.orifice, 0);
-  const names = leaking
+  const sorted = leaking
     .filter((region) => region.orifice >= leastShare * total)
     .sort((a, b) => b.orifice - a.orifice)
     .map((region) => (region.commissure ? `commissure ${region.name}` : region.name));
-  const places = [names.slice(0, -1).join(', '), ...names.slice(-1)].filter(Boolean).join(' and ');
-  const count = figures.orificeParts.length;
+  // as many as the card has room for
+  const places = sorted.length > 3 ? `${sorted.slice(0, 2).join(', ')} and others` : listOf(sorted);
+  const count = leakPlaces(figures.orificeParts).length;
   return count > 1 ? `${places}, in ${count} places` : places;
 }
 
@@ -44,12 +50,16 @@ export const operationWords: Record<string, Words> = {
   band: {
     title: 'Posterior band',
     short: 'Flexible band from trigone to trigone',
-    fields: { factor: 'Length, of the present one', length: 'Length', name: 'Name' },
+    fields: { factor: 'Length, in % of the present posterior annulus', length: 'Length', name: 'Name' },
   },
   annulus_scale: {
     title: 'Annulus size',
-    short: 'Make the annulus larger or smaller',
-    fields: { factor: 'Overall size', ap: 'Front to back', cc: 'Side to side' },
+    short: 'Make the annulus larger or smaller, in all or in one direction',
+    fields: {
+      factor: 'Overall size',
+      ap: 'Front to back, beside the overall size',
+      cc: 'Side to side, beside the overall size',
+    },
   },
   neochord: {
     title: 'Artificial chord',
@@ -67,7 +77,7 @@ export const operationWords: Record<string, Words> = {
   chord_length: {
     title: 'Chord length',
     short: 'Shorten or lengthen a chord',
-    fields: { chord: 'Chord', length: 'Length without pull', factor: 'Length, of the present one' },
+    fields: { chord: 'Chord', length: 'Length without pull', factor: 'Length, in % of the present one' },
   },
   chord_remove: { title: 'Cut a chord', short: 'Remove a chord', fields: { chord: 'Chord' } },
   chord_add: {
@@ -105,7 +115,7 @@ export const operationWords: Record<string, Words> = {
     fields: {
       anterior: 'Anterior scallop',
       posterior: 'Posterior scallop',
-      position: 'Position along the edge (A, D)',
+      position: 'Position, −1 at A3–P3 to 1 at A1–P1 (A, D)',
       angle: 'Turn, seen from the atrium (Q, E)',
       width: 'Width',
       reach: 'Depth of the grasp',
@@ -117,7 +127,7 @@ export const operationWords: Record<string, Words> = {
     short: 'Take out a piece of a leaflet and suture',
     fields: {
       scallop: 'Scallop',
-      position: 'Position along the scallop',
+      position: 'Position in the scallop, −1 at A3–P3 to 1 at A1–P1',
       width: 'Width at the free edge',
       base_width: 'Width at the annulus',
       depth: 'Depth',
@@ -204,13 +214,15 @@ export const tourTexts = {
   study: 'What the study’s surgeon did',
   show: (chord: string) => `Show the chord ${chord}`,
   columnsHelp:
-    'Healthy: this same valve before its illness, with its annulus and chordae as they were. Study surgeon: the repair of 2011, repeated here.',
+    'Before illness: this same valve with its annulus and chordae as they were; the valve that the page begins with is another one. Study surgeon: the repair of 2011, repeated here. Coaptation: mean along the whole line of closure, in which a gap counts as 0.',
+  namesHelp:
+    'AL1 to AL3 are heads of the anterolateral papillary muscle, PM1 to PM3 of the posteromedial one; A2/13 is chord 13 of the scallop A2.',
   whenSealed: '(measured once it is sealed)',
-  columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Healthy' },
+  columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Before illness' },
   rows: {
     leak: 'Leak, mm²',
-    coaptation: 'Coaptation, mm',
-    over: 'Chordae beyond limit',
+    coaptation: 'Coaptation, mean, mm',
+    load: 'Highest chord load, % of limit',
     area: 'Open area, cm²',
     ap: 'Annulus AP, mm',
   },
@@ -224,9 +236,9 @@ export const tourTexts = {
     {
       title: 'Valve 1: dilated, and a long strut chord',
       story:
-        'The annulus is 15 % too large, and a strut chord of the anterior leaflet is 25 % too long. The leaflets do not meet.',
+        'In systole the annulus is 15 % too large, and a strut chord of the anterior leaflet is 25 % too long. The leaflets do not meet.',
       chord: 'A1/11',
-      hint: 'Make the annulus smaller first: a ring, or “Annulus size”. If a leak remains, hold the middle of A2 with artificial chordae.',
+      hint: 'Make the annulus smaller first: a ring, a band, or “Annulus size”. If a leak remains, hold the middle of A2 with artificial chordae. To shorten the long strut chord alone does not seal this valve.',
     },
     {
       title: 'Valve 2: a short chord',
@@ -237,17 +249,15 @@ export const tourTexts = {
     },
     {
       title: 'Valve 3: dilated, and a short chord',
-      story: 'The annulus is 10 % too large, and a chord to A2 is 33 % too short.',
+      story: 'In systole the annulus is 10 % too large, and a chord to A2 is 33 % too short.',
       chord: 'A2/4',
       hint: 'Two faults need two steps: free the leaflet from the short chord, then bring the annulus back to its size.',
     },
   ],
   goals: {
     sealed: 'No leak under 120 mmHg',
-    chords: (healthy: number | undefined) =>
-      healthy === 0
-        ? 'No chord beyond its working limit'
-        : `No more chordae beyond their limit than before its illness${healthy ? ` (${healthy})` : ''}`,
+    chords: (percent: number | null) =>
+      `No chord above ${percent ?? '…'} % of its working limit, a tenth more than before its illness`,
     open: 'Opens to at least 90 % of its area before its illness',
   },
   shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens' },
@@ -259,17 +269,20 @@ export const help = {
   keys: [
     ['1 2 3 4', 'Views: surgeon, ventricle, side, section'],
     ['Arrows, + −', 'Turn, zoom (in the picture)'],
-    ['V R P L I', 'Panels: Valve, Repair, Plan, Learn, Import'],
+    ['V R P L I', 'Panels: Valve, Repair, Plan, Learn; Import, once a surface was opened'],
     ['O', 'Open and close the valve'],
     ['W', 'The valve before, and the present one again'],
-    ['X', 'Cut the picture at the section plane'],
+    ['X', 'Slice the picture at the section plane'],
     ['C', 'Chordae on and off'],
     ['N', 'Names on and off'],
     ['M', 'Next colour map'],
     ['G, B', 'Grasp, push with a ball'],
     ['A D, Q E', 'Slide, turn the clip of the form'],
     ['Arrows, Space', 'Move a cross and click with it, while a place in the picture is asked for'],
-    ['Enter, Esc', 'Apply, discard the operation'],
+    [
+      'Enter, Esc',
+      'Apply, discard the operation; in a number, Enter takes it first. Esc also lets go of a chosen part',
+    ],
     ['Ctrl Z, Ctrl Y', 'Undo, redo'],
     ['Ctrl S', 'Save the session'],
     ['Ctrl O', 'Open a file'],
@@ -289,9 +302,12 @@ export const mapWords: Record<
     high: 'apart',
     none: 'no leaflet faces it',
   },
-  height: { title: 'Height', scale: 'Above (+) or below the annulus plane' },
+  height: {
+    title: 'Height',
+    scale: 'Above (+) or below the flat plane of the annulus; prolapse counts from its saddle',
+  },
   stretch: { title: 'Stretch', scale: 'Stretch of the leaflets' },
-  load: { title: 'Chord load', scale: 'Chord load, of its limit' },
+  load: { title: 'Chord load', scale: 'Load of the chordae; 100 % is their limit' },
   distance: { title: 'Change', scale: 'Moved from the valve before' },
 };
 
@@ -358,17 +374,19 @@ export const verdictTexts = {
   atPressure: ' at 120 mmHg',
   was: (orifice: string) => ` was ${orifice}`,
   at: (place: string) => `at ${place}`,
-  meet: (length: string) => `leaflets meet over ${length} mm`,
-  chordsOver: (count: number, healthy: string) =>
-    `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit` +
-    (healthy ? ` (before its illness: ${healthy})` : ''),
+  meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
+  ofClosed: 'when closed',
+  chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
+  chordOver: (name: string, percent: number) => `${name} ${percent} %`,
+  chordsMore: (count: number) => `and ${count} more`,
   limitHelp:
-    'Working limit: the largest stretch and pull at which chordae of this kind work. They tear beyond it, so such a chord deserves a look. A healthy valve may have a few of them.',
+    'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it a chord may tear. A healthy valve may have one just at its limit.',
 };
 
 export const leaveTexts = {
   finished: (title: string) => `“${title}” is finished. Its repair can be opened once more.`,
   left: (title: string) => `The changed plan “${title || 'without a name'}” was closed.`,
+  repaired: 'Your repair of this valve can be opened again.',
   back: 'Return to it',
 };
 
@@ -415,21 +433,26 @@ export const barTexts = {
   closed: 'Closed',
   opening: 'Open or closed',
   show: 'Show',
-  cut: 'Cut at the section plane',
+  cut: 'Slice at the section plane',
   // short words below the icons; each begins the name of its button
-  words: { cut: 'Cut', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
+  words: { cut: 'Slice', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
   pointer: 'Pointer',
   look: 'Turn and choose',
   grasp: 'Grasp and pull tissue',
   push: 'Push tissue with a ball',
+  tools: {
+    grasp: 'Drag the tissue. The living valve follows, and springs back when you let go.',
+    push: 'Press on the tissue: a ball pushes it. It springs back when you let go.',
+  },
   colours: 'Colours',
   atrial: 'atrial side',
   ventricular: 'ventricular side',
-  leak: 'leak',
+  leak: 'leak; arrow: its jet',
   over: 'chord beyond its limit',
   slack: 'slack chord',
+  stitch: 'stitch',
 };
 
 export const valveTexts = {
@@ -437,6 +460,8 @@ export const valveTexts = {
   coaptationMeanHelp:
     'Length over which the leaflets lie against each other. Surgeons aim at 8 mm or more at A2-P2.',
   coaptationHeight: 'Coaptation height, A2–P2',
+  coaptationHeightHelp:
+    'How high the leaflets touch in the middle section, along the axis of the valve; the length along the leaflets is larger where they lie at a slant.',
   tenting: 'Tenting height',
   tentingHelp: 'Deepest point of the closed leaflets below the plane of the annulus',
   prolapse: 'Prolapse above annulus',
@@ -459,10 +484,10 @@ export const valveTexts = {
   strongestPull: 'Strongest chord pull',
   pullOn: (head: string) => `Pull on ${head}`,
   head: (h: number) => `head ${h}`,
-  closedAt: 'Closed at 120 mmHg. Fingerprint of this valve:',
+  closedAt: 'Closed at 120 mmHg. The same letters stand for the same valve, to the last digit:',
   howCertain: 'How certain? Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
-    `${converged} of ${members} closures at rest, ${shapes} ${shapes === 1 ? 'shape' : 'different folds'}, at most ${number(apart)} mm apart.`,
+    `${converged} of ${members} closures came to rest, ${shapes === 1 ? 'all in one shape' : `in ${shapes} shapes of the folds`}, which differ by at most ${number(apart)} mm.`,
   spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
@@ -485,6 +510,7 @@ export const tableTexts = {
   prolapse: 'Prolapse, mm',
   commissure: (name: string) => `Commissure ${name}`,
   was: (value: string) => ` was ${value}`,
+  leakHint: 'A leak between two leaflets counts by half for the scallop on either side.',
   chordae: (count: number) => `Chordae (${count})`,
   chordaeHint: 'The most loaded first. Choose one to shorten, lengthen or cut it.',
   chord: 'Chord',
@@ -514,7 +540,7 @@ export const formTexts = {
   more: 'More',
   enter: '(Enter)',
   questions: {
-    site: 'Click the place on the leaflet.',
+    site: 'Click the place on the leaflet; or the arrow keys move a cross, and Space clicks.',
     head: 'Click a papillary head, or choose it below.',
     chord: 'Click a chord, or choose it below.',
     scallop: 'Click a scallop, or choose it below.',
@@ -524,6 +550,8 @@ export const formTexts = {
     Math.abs(now - was) < 0.06
       ? 'as at present'
       : `was ${number(was)} mm, ${now < was ? 'shorter' : 'longer'} by ${number(Math.abs(now - was))} mm`,
+  annulus: (was: { ap: number; cc: number }, now: { ap: number; cc: number }) =>
+    `Annulus front to back ${number(was.ap)} → ${number(now.ap)} mm, side to side ${number(was.cc)} → ${number(now.cc)} mm.`,
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
   leftEmpty: (fallback: string) => `left empty: ${fallback}`,
@@ -533,15 +561,17 @@ export const formTexts = {
   default: 'default',
   pick: (label: string) => `Pick in the picture: ${label}`,
   picked: (scallop: string) => `picked on ${scallop}`,
-  along: 'Along the scallop',
-  height: 'From annulus to free edge',
+  along: (percent: number) => `Along the scallop: ${percent} %`,
+  height: (percent: number) => `From annulus to free edge: ${percent} %`,
   axes: ['Towards the front', 'To the side', 'Towards the atrium'],
   axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
 };
 
-/** Names in the picture of what can be dragged. */
+/** Names in the picture, of handles too. */
 export const markTexts = {
-  plane: 'Section plane: drag',
+  plane: (through: string[]) => `Section plane through ${listOf(through)}: drag`,
+  chord: (name: string, length: number, percent: number | null) =>
+    `${name}  ${number(length)} mm${percent === null ? '' : `, ${percent} % of its limit`}`,
   clip: 'Clip: drag',
   turn: (angle: number) => (angle ? `Turn: ${number(angle, 0)}°` : 'Turn: drag'),
 };
@@ -549,14 +579,17 @@ export const markTexts = {
 export const openingTexts = {
   opens: (area: number | undefined) =>
     `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
+  narrow: 'Below 1.5 cm² an open mitral valve counts as a severe stenosis.',
+  elsewhere:
+    'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   beside: (before: number | undefined, least: number | null) =>
     [
-      before === undefined ? '' : `was ${number(before / 100, 2)}`,
+      before === undefined ? '' : `without it ${number(before / 100, 2)}`,
       least === null ? '' : `goal ${number(least / 100, 2)} or more`,
     ]
       .filter(Boolean)
       .join(', '),
-  help: 'Smallest opening of the valve at 5 mmHg after this operation; a ring or clip narrows it.',
+  help: 'Smallest opening of the valve at 5 mmHg after this operation; a ring or clip can narrow it.',
 };
 
 export const pointTexts = {
@@ -587,13 +620,14 @@ export const repairTexts = {
   hint: 'Click a chord, a papillary head or a leaflet in the picture, or choose an operation.',
   chord: (name: string) => `Chord ${name}`,
   between: (kind: string, heads: string, scallops: string) =>
-    `${kind}, ${heads || 'branch'} to ${scallops || 'branch'}`,
+    `${kind} chord, from ${heads ? `head ${heads}` : 'a branch'} to ${scallops || 'a branch'}`,
   rest: 'Length without pull',
   pull: 'Pull',
   stretch: 'Stretch',
   slack: 'slack',
-  limit: 'Load, of its limit',
+  limit: 'Share of its limit',
   becomes: (was: string, now: string) => `${was} → ${now}`,
+  letGo: 'Let go of this part',
   changeLength: 'Change length',
   cut: 'Cut',
   transfer: 'Transfer',
@@ -689,12 +723,14 @@ export const sectionTexts = {
   posterior: 'posterior',
   anterior: 'anterior',
   scale: '10 mm',
-  healthy: 'healthy',
+  healthy: 'before its illness',
   now: 'now',
   before: 'before',
   preview: 'preview',
-  plane: (mm: number) => `Plane, from the middle: ${mm.toFixed(1)} mm`,
-  cut: 'Cut the picture at this plane',
+  plane: (mm: number, through: string[]) =>
+    `Plane through ${listOf(through)}, ${number(Math.abs(mm))} mm from the middle`,
+  middle: 'To the middle',
+  cut: 'Slice the picture at this plane',
 };
 
 export const gestureTexts = {

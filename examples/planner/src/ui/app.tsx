@@ -5,7 +5,7 @@ import { openFile } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { appTexts, help, importTexts, t } from '../text/texts';
+import { appTexts, barTexts, help, importTexts, t } from '../text/texts';
 import { clipKey } from '../view/clip';
 import type { MapName } from '../view/colours';
 import { maps } from '../view/colours';
@@ -39,15 +39,15 @@ const tabs = (): Tab[] => (state.imported.value ? [...panels, importTab] : panel
 function Panels() {
   const panel = state.panel.value;
   const body = useRef<HTMLDivElement>(null);
-  // another panel or form begins at its top
+  // another panel, form or valve of the tour begins at its top
   const form = state.draft.value?.kind;
+  const valve = state.tour.value?.number;
   const findings = state.imported.value?.findings;
-  useEffect(() => body.current?.scrollTo(0, 0), [panel, form, findings]);
+  useEffect(() => body.current?.scrollTo(0, 0), [panel, form, valve, findings]);
   const steps = (by: number) => {
     const all = tabs();
     const k = all.findIndex(([name]) => name === panel);
-    state.panel.value = all[(k + by + all.length) % all.length][0];
-    requestAnimationFrame(() => document.getElementById(`tab-${state.panel.value}`)?.focus());
+    showPanel(all[(k + by + all.length) % all.length][0]);
   };
   return (
     <aside class="side">
@@ -128,6 +128,12 @@ function Compare() {
   );
 }
 
+/** A sentence on the tool that moves tissue. */
+function ToolHint() {
+  const tool = state.tool.value;
+  return tool === 'look' ? null : <p class="tool-hint">{barTexts.tools[tool]}</p>;
+}
+
 function Picture() {
   const host = useRef<HTMLDivElement>(null);
   // before the page is painted for the first time: the valve is in that picture
@@ -145,10 +151,17 @@ function Picture() {
       </p>
       <Scale />
       <Compare />
+      <ToolHint />
       <Busy />
       <ViewBar go={go} />
     </main>
   );
+}
+
+/** Opens a panel and goes to its tab, so that Tab goes on into the panel. */
+function showPanel(name: state.Panel): void {
+  state.panel.value = name;
+  requestAnimationFrame(() => document.getElementById(`tab-${name}`)?.focus());
 }
 
 const mapNames: MapName[] = ['tissue', ...(Object.keys(maps) as MapName[])];
@@ -174,6 +187,7 @@ function onKey(event: KeyboardEvent): void {
   }
   if (event.key === 'Escape' && state.picking.value === 'outline') return pickField(null);
   if (event.key === 'Escape' && state.draft.value) return discard();
+  if (event.key === 'Escape') state.choice.value = null;
   if (typing || control || event.altKey) return;
   if (
     event.key === 'Enter' &&
@@ -190,10 +204,10 @@ function onKey(event: KeyboardEvent): void {
   }
   if (clipKey(key)) return;
   const panel = tabs().find(([, , letter]) => letter.toLowerCase() === key);
-  if (panel) state.panel.value = panel[0];
+  if (panel) showPanel(panel[0]);
   else if (key === 'o' && state.main.value && !state.draft.value)
     void openTo(state.openness.value >= 1 ? 0 : 1);
-  else if (key === 'w') state.past.value = !state.inPast.value;
+  else if (key === 'w' && !state.motion.value) state.past.value = !state.inPast.value;
   else if (key === 'x') state.sectionOn.value = !state.sectionOn.value;
   else if (key === 'c') state.chordsOn.value = !state.chordsOn.value;
   else if (key === 'n') state.labelsOn.value = !state.labelsOn.value;

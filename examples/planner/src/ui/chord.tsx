@@ -1,17 +1,13 @@
 // The card of a chosen chord, with its figures, also in a form that changes it.
-import { figure, kinds, repairTexts } from '../text/texts';
+import { percentOfLimit, shareOfLimit } from '../notable';
+import { figure, kinds, repairTexts, verdictTexts } from '../text/texts';
 import type { Chord } from '../protocol';
-
-/** The larger share of the working limit, of stretch or pull. */
-export function shareOfLimit(chord: Chord): number {
-  return Math.max(chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
-}
 
 const facts: [string, (chord: Chord) => string, string][] = [
   [repairTexts.rest, (chord) => figure(chord.rest), 'mm'],
   [repairTexts.pull, (chord) => figure(chord.tension, 2), 'N'],
   [repairTexts.stretch, (chord) => (chord.strain > 0 ? figure(100 * chord.strain) : repairTexts.slack), '%'],
-  [repairTexts.limit, (chord) => figure(100 * Math.max(0, shareOfLimit(chord)), 0), '%'],
+  [repairTexts.limit, (chord) => String(percentOfLimit(shareOfLimit(chord))), '%'],
 ];
 
 /** `after`: the chord in the preview of a change. */
@@ -21,6 +17,7 @@ export function ChordFacts({ chord, after }: { chord: Chord; after?: Chord }) {
     const value = was === now ? was : repairTexts.becomes(was, now);
     return now === repairTexts.slack ? value : `${value}\u00a0${unit}`;
   };
+  const { over } = after ?? chord;
   return (
     <>
       <h3>{repairTexts.chord(chord.name)}</h3>
@@ -29,10 +26,11 @@ export function ChordFacts({ chord, after }: { chord: Chord; after?: Chord }) {
         {facts.map(([label, of, unit]) => (
           <>
             <dt>{label}</dt>
-            <dd>{fact(of, unit)}</dd>
+            <dd class={label === repairTexts.limit && over ? 'over' : undefined}>{fact(of, unit)}</dd>
           </>
         ))}
       </dl>
+      {over && <p class="beyond">{verdictTexts.limitHelp}</p>}
     </>
   );
 }

@@ -1,17 +1,17 @@
 // Rings, bands, clips and artificial chordae as a table: the twin of what the picture shows of them.
+import { suture } from '../notable';
 import * as state from '../store/state';
 import { deviceTexts } from '../text/texts';
 import type { Figures, Picture, Topology } from '../protocol';
+import { isClosed } from '../view/scene';
 import { Section } from './parts';
-
-const suture = 7;
 
 interface Device {
   name: string;
   figures: string;
 }
 
-/** Largest extents along CC and AP, and the length of a ring's curve; closed if its ends are near. */
+/** Largest extents along CC and AP and the length of a ring's curve; the length of a band. */
 function ringFigures(picture: Picture, r: number, frame: number[]): string {
   const points: number[][] = [];
   for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k)
@@ -25,7 +25,7 @@ function ringFigures(picture: Picture, r: number, frame: number[]): string {
   let length = 0;
   for (let k = 1; k < points.length; ++k) length += distance(points[k - 1], points[k]);
   const gap = distance(points[0], points[points.length - 1]);
-  if (gap > 0.25 * length) return deviceTexts.band(length);
+  if (!isClosed(points)) return deviceTexts.band(length);
   return deviceTexts.ring(extent(2), extent(1), length + gap);
 }
 

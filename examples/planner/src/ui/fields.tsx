@@ -2,7 +2,7 @@
 import { Crosshair } from 'lucide-preact';
 import { pickField, setField } from '../store/edit';
 import * as state from '../store/state';
-import { formTexts } from '../text/texts';
+import { figure, formTexts } from '../text/texts';
 import type { FieldInfo, FieldValue, Site } from '../protocol';
 import { Button } from './parts';
 import { PointsField } from './points';
@@ -62,6 +62,12 @@ function fallbackOf(field: FieldInfo): number | undefined {
   return Number.isFinite(value) ? value : undefined;
 }
 
+/** A number as it stands in its box; the present length of a chord as its card says it. */
+function textOf(value: number | undefined, scale: number, present: number | null): string {
+  if (value === undefined) return '';
+  return value === present ? figure(value) : String(+(value * scale).toPrecision(6));
+}
+
 function NumberField(props: FieldProps) {
   const { kind, field } = props;
   const value = state.draft.value?.fields[field.name] as number | undefined;
@@ -77,6 +83,7 @@ function NumberField(props: FieldProps) {
     setField(field.name, Number.isFinite(number) ? number / scale : undefined);
   };
   const shown = value ?? (range ? fallback : undefined);
+  const text = textOf(value, scale, rest);
   const low = rest ? +(0.4 * rest).toFixed(1) : range?.[0];
   const high = rest ? +(1.6 * rest).toFixed(1) : range?.[1];
   return (
@@ -105,7 +112,7 @@ function NumberField(props: FieldProps) {
           type="number"
           inputMode="decimal"
           step="any"
-          value={value === undefined ? '' : +(value * scale).toPrecision(6)}
+          value={text}
           placeholder={
             fallback !== undefined
               ? String(+(fallback * scale).toPrecision(3))
@@ -113,7 +120,13 @@ function NumberField(props: FieldProps) {
                 ? formTexts.auto
                 : ''
           }
-          onChange={(event) => set(event.currentTarget.value)}
+          onChange={(event) => event.currentTarget.value !== text && set(event.currentTarget.value)}
+          onKeyDown={(event) => {
+            // Enter takes a number that was typed; once more, with its preview in sight, it applies
+            if (event.key !== 'Enter' || event.currentTarget.value === text) return;
+            event.preventDefault();
+            set(event.currentTarget.value);
+          }}
         />
         <span class="unit">{unit}</span>
       </div>
@@ -204,7 +217,7 @@ function SiteField(props: FieldProps) {
       {value && !('triangle' in value) && (
         <>
           <label class="slider">
-            <span>{formTexts.along}</span>
+            <span>{formTexts.along(Math.round(100 * value.along))}</span>
             <input
               type="range"
               min="0"
@@ -215,7 +228,7 @@ function SiteField(props: FieldProps) {
             />
           </label>
           <label class="slider">
-            <span>{formTexts.height}</span>
+            <span>{formTexts.height(Math.round(100 * value.height))}</span>
             <input
               type="range"
               min="0.1"

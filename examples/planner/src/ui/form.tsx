@@ -71,6 +71,7 @@ export function OperationForm() {
       {shown.map((field) => (
         <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
       ))}
+      {(draft.kind === 'annulus_scale' || draft.kind === 'band') && <AnnulusSize />}
       {more.length > 0 && (
         <Section title={formTexts.more}>
           {more.map((field) => (
@@ -99,6 +100,14 @@ export function OperationForm() {
       </div>
     </form>
   );
+}
+
+/** The annulus before and after, mm. */
+function AnnulusSize() {
+  const [was, now] = [state.main, state.preview].map((valve) => valve.value?.figures.measures);
+  if (!was || !now) return null;
+  const size = ({ annulusAp, annulusCc }: typeof was) => ({ ap: annulusAp, cc: annulusCc });
+  return <small class="hint">{formTexts.annulus(size(was), size(now))}</small>;
 }
 
 const question = (field: FieldInfo): string => formTexts.questions[field.type] ?? '';

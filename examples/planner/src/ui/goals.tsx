@@ -1,6 +1,6 @@
 // The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair".
 import { Check, CircleHelp, X } from 'lucide-preact';
-import { reached, startValve } from '../store/tour';
+import { allowedLoad, reached, startValve } from '../store/tour';
 import * as state from '../store/state';
 import { tourTexts } from '../text/texts';
 import { Button } from './parts';
@@ -15,12 +15,11 @@ interface Check {
 }
 
 function checks(): Check[] {
-  const healthyOver = state.tour.value!.founding?.healthy.measures.chordsOver;
   const { goals, shortGoals } = tourTexts;
   const { sealed, chords, open } = reached();
   return [
     { text: goals.sealed, short: shortGoals.sealed, done: sealed },
-    { text: goals.chords(healthyOver), short: shortGoals.chords, done: chords },
+    { text: goals.chords(allowedLoad()), short: shortGoals.chords, done: chords },
     { text: goals.open, short: shortGoals.open, done: open, later: tourTexts.whenSealed },
   ];
 }
@@ -48,17 +47,16 @@ export function Goals({ number, short }: { number: number; short?: boolean }) {
         ))}
       </ul>
       {found.every((check) => check.done) && (
-        <p class="won" role="status">
-          {tourTexts.won} {count > 0 && tourTexts.finishedOf(count)}
+        <div class="won" role="status">
+          <p>
+            {tourTexts.won} {count > 0 && tourTexts.finishedOf(count)}
+          </p>
           {next && (
-            <>
-              {' '}
-              <Button kind="main" onClick={() => void startValve(next)}>
-                {tourTexts.next(next)}
-              </Button>
-            </>
+            <Button kind="main" onClick={() => void startValve(next)}>
+              {tourTexts.next(next)}
+            </Button>
           )}
-        </p>
+        </div>
       )}
     </>
   );

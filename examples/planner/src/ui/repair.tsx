@@ -14,6 +14,7 @@ import {
   Spline,
   Square,
   Triangle,
+  X,
 } from 'lucide-preact';
 import { edit, presentLength } from '../store/edit';
 import * as state from '../store/state';
@@ -86,6 +87,10 @@ export function firstPick(kind: string, fields: Record<string, FieldValue>): str
 
 export function begin(kind: string): void {
   const fields = firstFields(kind);
+  const info = state.operations.value.find((operation) => operation.name === kind);
+  // a chord that the operation is not about is let go
+  if (state.choice.value?.kind === 'chord' && !info?.fields.some((field) => field.type === 'chord'))
+    state.choice.value = null;
   edit(kind, fields);
   state.picking.value = firstPick(kind, fields);
 }
@@ -132,6 +137,18 @@ function rank(name: string): number {
   return k < 0 ? order.length : k;
 }
 
+function LetGo() {
+  return (
+    <Button
+      kind="quiet"
+      icon={<X size={16} />}
+      label={repairTexts.letGo}
+      keys="Escape"
+      onClick={() => (state.choice.value = null)}
+    />
+  );
+}
+
 function Chosen() {
   const choice = state.choice.value;
   const figures = state.main.value?.figures;
@@ -141,6 +158,7 @@ function Chosen() {
     if (!chord) return null;
     return (
       <div class="chosen-card" data-testid="chosen">
+        <LetGo />
         <ChordFacts chord={chord} />
         <div class="row">
           <Button kind="main" icon={<ArrowUpDown size={16} />} onClick={() => begin('chord_length')}>
@@ -163,6 +181,7 @@ function Chosen() {
     if (h < 0) return null;
     return (
       <div class="chosen-card" data-testid="chosen">
+        <LetGo />
         <h3>{repairTexts.head(topology!.heads[h].name)}</h3>
         <dl>
           <dt>{repairTexts.pullOfChordae}</dt>
@@ -188,6 +207,7 @@ function Chosen() {
   if (!part || !region) return null;
   return (
     <div class="chosen-card" data-testid="chosen">
+      <LetGo />
       <h3>{repairTexts.scallop(part.name)}</h3>
       <dl>
         <dt>{repairTexts.coaptation}</dt>

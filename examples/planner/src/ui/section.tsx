@@ -4,6 +4,8 @@ import { fail, request } from '../store/requests';
 import * as state from '../store/state';
 import { sectionTexts } from '../text/texts';
 import type { Section, SectionRequest } from '../protocol';
+import { cutScallops, planeOf } from '../view/cut';
+import { Button } from './parts';
 
 interface Curve {
   points: Section;
@@ -17,6 +19,14 @@ export function lines(points: Section): string {
   let path = '';
   for (let i = 0; i < points.length; i += 4) path += `M${put(i)}L${put(i + 2)}`;
   return path;
+}
+
+/** The scallops of the shown valve that the plane cuts. */
+function through(): string[] {
+  const { picture, figures } = state.shown.value!;
+  const topology = state.topologyOf(picture);
+  const plane = planeOf(figures.frame, state.sectionAt.value);
+  return topology ? cutScallops(topology, picture.positions, plane) : [];
 }
 
 /** The curves to draw, and a key that changes with the valves, the plane and the preview. */
@@ -89,7 +99,7 @@ export function SectionPlot() {
         ))}
       </div>
       <label class="slider">
-        <span>{sectionTexts.plane(state.sectionAt.value)}</span>
+        <span>{sectionTexts.plane(state.sectionAt.value, through())}</span>
         <input
           type="range"
           min={-limit}
@@ -99,6 +109,9 @@ export function SectionPlot() {
           onInput={(event) => (state.sectionAt.value = +event.currentTarget.value)}
         />
       </label>
+      {state.sectionAt.value !== 0 && (
+        <Button onClick={() => (state.sectionAt.value = 0)}>{sectionTexts.middle}</Button>
+      )}
       <label class="check">
         <input
           type="checkbox"

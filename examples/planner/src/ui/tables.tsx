@@ -2,7 +2,7 @@
 import * as state from '../store/state';
 import { figure, kinds, tableTexts } from '../text/texts';
 import type { Figures } from '../protocol';
-import { shareOfLimit } from './chord';
+import { percentOfLimit, shareOfLimit } from '../notable';
 import { Section } from './parts';
 
 export function Scallops({ figures }: { figures: Figures }) {
@@ -41,6 +41,7 @@ export function Scallops({ figures }: { figures: Figures }) {
           })}
         </tbody>
       </table>
+      {!waiting && regions.some((region) => region.orifice > 0) && <p class="hint">{tableTexts.leakHint}</p>}
     </Section>
   );
 }
@@ -80,7 +81,7 @@ export function Chordae({ figures }: { figures: Figures }) {
                     </button>{' '}
                     <small>{kinds[chord.kind]}</small>
                   </th>
-                  <td>{chord.strain <= 0 ? tableTexts.slack : `${Math.round(100 * share)} %`}</td>
+                  <td>{chord.strain <= 0 ? tableTexts.slack : `${percentOfLimit(share)} %`}</td>
                   <td>{figure(chord.tension, 2)}</td>
                   <td>{figure(chord.rest)}</td>
                 </tr>

@@ -7,6 +7,7 @@ import * as state from '../store/state';
 import { barTexts, mapWords, t, tourTexts } from '../text/texts';
 import { gradient, maps, type MapName } from '../view/colours';
 import type { Preset } from '../view/camera';
+import { suture } from '../notable';
 import { Button } from './parts';
 
 export const chooseFile = (): void => document.getElementById('file')?.click();
@@ -209,6 +210,9 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
   );
 }
 
+/** Stitches are those of a suture or a clip. */
+const hasStitches = (): boolean => !!state.figures.value?.chords.some((chord) => chord.kind === suture);
+
 /** The scale of the colour map, in its unit. */
 export function Scale() {
   const name = state.map.value;
@@ -235,6 +239,11 @@ export function Scale() {
         {!surface && state.chordsOn.value && state.picture.value?.chordTaut.some((strain) => strain < 0) && (
           <span>
             <i class="key key-slack" /> {barTexts.slack}
+          </span>
+        )}
+        {!surface && state.chordsOn.value && hasStitches() && (
+          <span>
+            <i class="key key-stitch" /> {barTexts.stitch}
           </span>
         )}
       </div>

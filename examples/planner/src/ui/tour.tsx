@@ -1,6 +1,7 @@
 // The tour: the three leaking valves of the founding study, a goal, and a score beside the healthy valve and the
 // founding surgeon's repair.
 import { Check, Eye, Wrench } from 'lucide-preact';
+import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
 import { openingOf } from '../store/opening';
 import { showChord, startValve } from '../store/tour';
@@ -46,7 +47,7 @@ function Goal() {
     <>
       <h2>{texts.title}</h2>
       <p>{texts.story}</p>
-      <details class="section">
+      <details class="section" key={tour.number}>
         <summary>{tourTexts.hint}</summary>
         <div class="section-body">
           <p>{texts.hint}</p>
@@ -100,7 +101,7 @@ function Score() {
         <tbody>
           {row(tourTexts.rows.leak, (c) => figure(c.m.orifice, 1))}
           {row(tourTexts.rows.coaptation, (c) => figure(c.m.coaptationMean, 1))}
-          {row(tourTexts.rows.over, (c) => String(c.m.chordsOver))}
+          {row(tourTexts.rows.load, (c) => String(percentOfLimit(c.m.chordLoad)))}
           {row(tourTexts.rows.area, (c) => (c.area === undefined ? '?' : figure(c.area / 100, 2)))}
           {row(tourTexts.rows.ap, (c) => figure(c.m.annulusAp, 1))}
         </tbody>
@@ -115,6 +116,7 @@ function Score() {
                 <li>{say(line)}</li>
               ))}
             </ol>
+            <p class="hint">{tourTexts.namesHelp}</p>
           </div>
         </details>
       )}

@@ -38,6 +38,7 @@ export function ValvePanel() {
           unit="mm"
           good="high"
           spread={range('coaptationHeight')}
+          help={valveTexts.coaptationHeightHelp}
         />
         <Figure
           label={valveTexts.tenting}

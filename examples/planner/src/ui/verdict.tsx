@@ -1,7 +1,9 @@
 // The verdict in large letters over all panels: sealed or leaking, where and how much; dots stand for what is still to
 // come.
+import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import * as state from '../store/state';
-import { figure, grade, verdictTexts, where } from '../text/texts';
+import { allowedLoad, showChord } from '../store/tour';
+import { figure, grade, valveTexts, verdictTexts, where } from '../text/texts';
 import type { Figures } from '../protocol';
 
 export function Verdict() {
@@ -18,13 +20,7 @@ export function Verdict() {
   const shape = figures.known === 'shape';
   const graded = m.atRest && m.underLoad && !shape;
   const { level, word } = grade(m.orifice);
-  const tag = state.inPast.value
-    ? words.past
-    : state.outdated.value
-      ? words.trying
-      : state.preview.value
-        ? words.preview
-        : '';
+  const tag = tagOf();
   return (
     <div
       class={`verdict level-${graded ? level : 'none'}${state.outdated.value ? ' outdated' : ''}`}
@@ -37,25 +33,48 @@ export function Verdict() {
       </div>
       <Leak figures={figures} graded={graded} />
       {!graded && !shape && <div class="verdict-where">{words.notFinal}</div>}
-      {m.chordsOver > 0 && (
-        <div class={m.chordsOver > usual() ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
-          {words.chordsOver(m.chordsOver, comparison())}
-        </div>
-      )}
+      <Beyond figures={figures} />
     </div>
   );
 }
 
-/** Chordae beyond their limit in the healthy valve of the tour, as soon as it is known: no more of them is no warning. */
-function usual(): number {
-  const tour = state.tour.value;
-  return tour ? (tour.founding?.healthy.measures.chordsOver ?? Infinity) : 0;
+/** Which valve the figures belong to, where it is not the one of the plan as the picture shows it. */
+function tagOf(): string {
+  if (state.motion.value && state.openness.value < 1) return verdictTexts.ofClosed;
+  if (state.inPast.value) return verdictTexts.past;
+  if (state.outdated.value) return verdictTexts.trying;
+  return state.preview.value ? verdictTexts.preview : '';
 }
 
-/** That number in words; '…' while it is measured, nothing outside of the tour. */
-function comparison(): string {
-  const { value } = state.tour;
-  return value ? String(value.founding?.healthy.measures.chordsOver ?? '…') : '';
+/** Chordae that are named on the card, as many as have room. */
+const named = 2;
+
+/** The chordae beyond their limit, by name: a press shows them. No warning where the tour allows their load. */
+function Beyond({ figures }: { figures: Figures }) {
+  const beyond = beyondLimit(figures.chords);
+  if (!beyond.length) return null;
+  const words = verdictTexts;
+  const most = state.tour.value ? (allowedLoad() ?? Infinity) : 100;
+  const warned = percentOfLimit(figures.measures.chordLoad) > most;
+  return (
+    <div class={warned ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
+      <div>{words.chordsOver(beyond.length)}</div>
+      <div class="beyond-names">
+        {beyond.slice(0, named).map((chord) => (
+          <button type="button" class="link" onClick={() => open(chord.name)}>
+            {words.chordOver(chord.name, percentOfLimit(shareOfLimit(chord)))}
+          </button>
+        ))}
+        {beyond.length > named && words.chordsMore(beyond.length - named)}
+      </div>
+    </div>
+  );
+}
+
+/** Shows a chord in the picture and, unless a form stands there, its figures. */
+function open(name: string): void {
+  showChord(name);
+  if (!state.draft.value) state.panel.value = 'repair';
 }
 
 /** Digits of a leak in mm2. */
@@ -81,7 +100,7 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
         )}
       </div>
       {graded && (
-        <div class="verdict-where">
+        <div class="verdict-where" title={orifice > 0 ? undefined : valveTexts.coaptationMeanHelp}>
           {orifice > 0 ? words.at(where(figures)) : words.meet(figure(coaptationMean))}
         </div>
       )}

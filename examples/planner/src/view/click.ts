@@ -2,6 +2,7 @@
 // point of an imported surface.
 import * as state from '../store/state';
 import type { Topology } from '../protocol';
+import { setField } from '../store/edit';
 import { fillField } from './answer';
 import type { Place } from './drags';
 import { addOutlinePoint } from './outline';
@@ -57,5 +58,20 @@ export function click(view: Viewport, p: Place, hit: Hit | null): void {
   const { picking } = state;
   if (picking.value === 'outline') return addOutlinePoint(hit);
   if (picking.value) return fillField(hit, picking.value);
-  choose(choiceOf(hit, topology));
+  const choice = choiceOf(hit, topology);
+  if (!choice || !answer(choice)) choose(choice);
+}
+
+/** A chord or a head that is clicked while a form asks for one is the one of the form, even if it has another already. */
+function answer({ kind, id }: state.Choice): boolean {
+  const draft = state.draft.value;
+  const info = state.operations.value.find((operation) => operation.name === draft?.kind);
+  const field = info?.fields.find((candidate) => candidate.required && candidate.type === kind);
+  if (!field || !(kind === 'chord' || kind === 'head')) return false;
+  // a chord that the preview has added is no part of the valve
+  const known = state.topologyOf(state.main.value!.picture);
+  const parts = kind === 'chord' ? known?.chords : known?.heads;
+  if (!parts?.some((part) => part.id === id)) return false;
+  if (draft!.fields[field.name] !== id) setField(field.name, id);
+  return true;
 }

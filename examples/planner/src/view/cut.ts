@@ -8,6 +8,28 @@ import type { CutPlane } from './renderer';
 const lineRadius = 0.28;
 const frameRadius = 0.12;
 
+/** The plane across the CC axis of a frame at an offset from its origin, mm. */
+export function planeOf(f: number[], offset: number): CutPlane {
+  const normal: [number, number, number] = [f[6], f[7], f[8]];
+  return { normal, offset: f[0] * f[6] + f[1] * f[7] + f[2] * f[8] + offset };
+}
+
+/** The name of the scallop of each leaflet that a plane cuts, the one with the most cut triangles. */
+export function cutScallops(topology: Topology, x: Float32Array, plane: CutPlane): string[] {
+  const { triangles, triangleLeaflet, triangleScallop } = topology;
+  const counts = topology.leaflets.map(() => topology.scallops.map(() => 0));
+  const above = (node: number) =>
+    [0, 1, 2].reduce((sum, c) => sum + plane.normal[c] * x[3 * node + c], 0) > plane.offset;
+  triangleScallop.forEach((scallop, t) => {
+    const sides = [0, 1, 2].map((k) => above(triangles[3 * t + k]));
+    if (sides.includes(true) && sides.includes(false)) counts[triangleLeaflet[t]][scallop] += 1;
+  });
+  return counts.flatMap((count) => {
+    const most = Math.max(...count);
+    return most > 0 ? [topology.scallops[count.indexOf(most)].name] : [];
+  });
+}
+
 /** Ends of the cut through each triangle that the plane crosses. */
 function cutsOf(topology: Topology, x: Float32Array, plane: CutPlane): [number[], number[]][] {
   const away = new Float32Array(topology.nodes);

@@ -55,15 +55,15 @@ export function dragAt(view: Viewport, p: Place, reach: number, hit: Hit | null)
   const chosen = hit.chord >= 0 && choice?.kind === 'chord' && topology.chords[hit.chord].id === choice.id;
   if (chosen && !state.motion.value) {
     const chord = state.main.value?.figures.chords.find((item) => item.id === choice.id);
-    if (chord) return { kind: 'chord', id: choice.id, rest: presentLength(chord.rest) };
+    if (chord) return { kind: 'chord', id: choice.id, rest: presentLength(chord.id, chord.rest) };
   }
   return { kind: 'turn' };
 }
 
-/** The length in the form, or that of the valve. */
-function presentLength(rest: number): number {
+/** The length in the form, if that is about this chord, or that of the valve. */
+function presentLength(id: string, rest: number): number {
   const draft = state.draft.value;
-  if (draft?.kind !== 'chord_length') return rest;
+  if (draft?.kind !== 'chord_length' || draft.fields.chord !== id) return rest;
   if (typeof draft.fields.length === 'number') return draft.fields.length;
   return typeof draft.fields.factor === 'number' ? rest * draft.fields.factor : rest;
 }
@@ -106,7 +106,10 @@ export function dropHand(): void {
   request('hand_end', null).then(() => (state.motion.value = null), fail);
 }
 
-/** Motion of the pointer along an axis of the valve, mm; `across` where the axis points at the viewer. */
+/** Below this share of its length on the screen an axis counts as one that points at the viewer. */
+const endOn = 0.25;
+
+/** Motion of the pointer along an axis of the valve, mm; to the right where the axis points at the viewer. */
 function along(view: Viewport, from: number[], axis: number[], dx: number, dy: number): number {
   const [a, b] = [
     project(view, from),
@@ -117,8 +120,8 @@ function along(view: Viewport, from: number[], axis: number[], dx: number, dy: n
   ];
   const [ux, uy] = [b[0] - a[0], b[1] - a[1]];
   const length = ux * ux + uy * uy;
-  // seen along its axis a part follows the pointer to the left and right
-  return length > 1 ? (dx * ux + dy * uy) / length : dx * view.camera.scale(view.height);
+  const scale = view.camera.scale(view.height);
+  return Math.sqrt(length) * scale > endOn ? (dx * ux + dy * uy) / length : dx * scale;
 }
 
 export function dragHandle(view: Viewport, dx: number, dy: number): void {

@@ -9,9 +9,9 @@ export function sceneInputs(): unknown[] {
     state.motion.value,
     figures?.hash,
     figures?.orificeParts.length,
-    // colours of the leaflets and chordae
+    // colours of the leaflets and chordae, and the sides of the leaflets
     state.map.value,
-    state.map.value === 'tissue' ? null : figures?.fields,
+    figures?.fields,
     state.map.value === 'distance' ? state.compared.value : null,
     state.map.value === 'distance' ? state.main.value : null,
     state.choice.value,

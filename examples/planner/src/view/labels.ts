@@ -1,26 +1,30 @@
 // Names over the picture: scallops, papillary heads, the chosen chord, as HTML text at projected places.
 import * as state from '../store/state';
-import { figure, markTexts } from '../text/texts';
+import { percentOfLimit, shareOfLimit } from '../notable';
+import { markTexts } from '../text/texts';
+import { cutScallops } from './cut';
 import { Callout, type Box, type Line } from './callout';
 import { clipPlace } from './clip';
 import { pickSurface } from './pick';
 import type { Topology } from '../protocol';
 import type { Viewport } from './viewport';
+import { visiblePlaces } from './visible';
 
 interface Label {
   text: string;
+  /** Its place in the valve, mm; of a scallop the pixel. */
   at: number[];
-  kind: string;
-  /** Lies on tissue, which may be cut away. */
-  tissue?: boolean;
+  kind: 'scallop' | 'head' | 'chord' | 'handle';
   chosen?: boolean;
 }
 
-/** One label for all heads of a papillary muscle: AL1, AL2 and AL3 are AL. */
+/** One label for all heads of a papillary muscle: AL1, AL2 and AL3 are AL; the chosen head has its own. */
 function headLabels(topology: Topology, x: Float32Array): Label[] {
+  const choice = state.choice.value;
   const muscles = new Map<string, number[][]>();
   topology.headNodes.forEach((node, h) => {
-    const name = topology.heads[h].name.replace(/\d+$/, '') || topology.heads[h].name;
+    const { id, name: own } = topology.heads[h];
+    const name = choice?.kind === 'head' && choice.id === id ? own : own.replace(/\d+$/, '') || own;
     muscles.set(name, [...(muscles.get(name) ?? []), [0, 1, 2].map((c) => x[3 * node + c])]);
   });
   return [...muscles].map(([text, places]) => ({
@@ -31,9 +35,13 @@ function headLabels(topology: Topology, x: Float32Array): Label[] {
 }
 
 /** Names of the handles: the section plane, the clip of the form and its turn. */
-function handleLabels(view: Viewport): Label[] {
+function handleLabels(view: Viewport, topology: Topology, x: Float32Array): Label[] {
   const labels: Label[] = [];
-  if (state.sectionOn.value) labels.push({ text: markTexts.plane, at: view.handle(), kind: 'handle' });
+  const plane = view.plane();
+  if (plane) {
+    const through = cutScallops(topology, x, plane);
+    labels.push({ text: markTexts.plane(through), at: view.handle(), kind: 'handle' });
+  }
   const clip = clipPlace();
   if (clip)
     labels.push(
@@ -43,7 +51,32 @@ function handleLabels(view: Viewport): Label[] {
   return labels;
 }
 
-/** mm behind the leaflets at which a label is still shown: its place is the mean of a curved scallop. */
+/** Names of the scallops where they are seen. */
+function scallopLabels(view: Viewport, topology: Topology, x: Float32Array): Label[] {
+  const choice = state.choice.value;
+  const places = visiblePlaces(view, topology, x);
+  return topology.scallops.flatMap((part, s) => {
+    const at = places[s];
+    const chosen = choice?.kind === 'scallop' && choice.id === part.id;
+    return at ? [{ text: part.name, at, kind: 'scallop', chosen }] : [];
+  });
+}
+
+/** The name of the chosen or added chord with its length, and its load where that is beyond the limit. */
+function chordLabel(topology: Topology, x: Float32Array): Label[] {
+  const choice = state.choice.value;
+  const named = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
+  const k = topology.chords.findIndex((part) => part.id === named);
+  if (k < 0) return [];
+  const [a, b] = [topology.chordNodes[2 * k], topology.chordNodes[2 * k + 1]];
+  const at = [0, 1, 2].map((c) => 0.5 * (x[3 * a + c] + x[3 * b + c]));
+  const chord = state.figures.value?.chords[k];
+  const load = chord?.over ? percentOfLimit(shareOfLimit(chord)) : null;
+  const text = chord ? markTexts.chord(chord.name, chord.rest, load) : topology.chords[k].name;
+  return [{ text, at, kind: 'chord' }];
+}
+
+/** mm behind the leaflets at which the name of a papillary muscle is still shown. */
 const tolerance = 4;
 
 export class Labels {
@@ -67,43 +100,18 @@ export class Labels {
     const topology = picture && state.topologyOf(picture);
     if (!picture || !topology || state.surface.value) return [];
     const x = picture.positions;
-    const labels: Label[] = [];
-    const choice = state.choice.value;
-    if (state.labelsOn.value) {
-      labels.push(...headLabels(topology, x));
-      const sums = topology.scallops.map(() => [0, 0, 0, 0]);
-      for (let i = 0; i < topology.triangles.length; ++i) {
-        const sum = sums[topology.triangleScallop[Math.floor(i / 3)]];
-        for (let c = 0; c < 3; ++c) sum[c] += x[3 * topology.triangles[i] + c];
-        sum[3] += 1;
-      }
-      topology.scallops.forEach((part, s) => {
-        const [a, b, c, n] = sums[s];
-        const chosen = choice?.kind === 'scallop' && choice.id === part.id;
-        const at = [a / n, b / n, c / n];
-        if (n) labels.push({ text: part.name, at, kind: 'scallop', tissue: true, chosen });
-      });
-    }
-    const named = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
-    const k = topology.chords.findIndex((part) => part.id === named);
-    if (k >= 0) {
-      const [a, b] = [topology.chordNodes[2 * k], topology.chordNodes[2 * k + 1]];
-      const at = [0, 1, 2].map((c) => 0.5 * (x[3 * a + c] + x[3 * b + c]));
-      const chord = state.figures.value?.chords[k];
-      const text = chord ? `${chord.name}  ${figure(chord.rest)} mm` : topology.chords[k].name;
-      labels.push({ text, at, kind: 'chord' });
-    }
-    return [...labels, ...handleLabels(view)];
+    const names = state.labelsOn.value
+      ? [...headLabels(topology, x), ...scallopLabels(view, topology, x)]
+      : [];
+    return [...names, ...chordLabel(topology, x), ...handleLabels(view, topology, x)];
   }
 
-  /** Whether a leaflet lies between the eye and a place, or tissue is cut away there. */
-  private hidden(view: Viewport, { at, tissue }: Label, px: number, py: number): boolean {
-    const plane = view.plane();
-    if (tissue && plane && at.reduce((sum, v, c) => sum + v * plane.normal[c], 0) > plane.offset) return true;
+  /** Whether a leaflet lies between the eye and a place. */
+  private hidden(view: Viewport, { at }: Label, px: number, py: number): boolean {
     const picture = state.picture.value!;
     const topology = state.topologyOf(picture)!;
     const { camera, width, height } = view;
-    const hit = pickSurface(camera, topology, picture.positions, px, py, width, height, plane);
+    const hit = pickSurface(camera, topology, picture.positions, px, py, width, height, view.plane());
     const eye = camera.position();
     return !!hit && Math.hypot(at[0] - eye.x, at[1] - eye.y, at[2] - eye.z) > hit.distance + tolerance;
   }
@@ -127,13 +135,16 @@ export class Labels {
     while (this.elements.length > labels.length) this.elements.pop()!.remove();
     labels.forEach((label, k) => {
       const element = this.elementOf(k, label);
-      const [px, py] = view.camera.project(label.at[0], label.at[1], label.at[2], view.width, view.height);
+      const tissue = label.kind === 'scallop';
+      const [px, py] = tissue
+        ? label.at
+        : view.camera.project(label.at[0], label.at[1], label.at[2], view.width, view.height);
       if (label.kind === 'chord') return this.callOut(view, element, [px, py], taken);
       // a scallop gives way to labels in front of it
       const covered =
-        label.kind === 'scallop' &&
+        tissue &&
         taken.some(({ x, y, width, height }) => Math.hypot(x + width / 2 - px, y + height / 2 - py) < 32);
-      element.hidden = label.kind !== 'handle' && (covered || this.hidden(view, label, px, py));
+      element.hidden = covered || (label.kind === 'head' && this.hidden(view, label, px, py));
       if (!element.hidden) taken.push({ x: px - 12, y: py - 9, width: 24, height: 18 });
       element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(${label.kind === 'handle' ? '24px' : '-50%'}, -50%)`;
     });

@@ -1,17 +1,19 @@
 // The picture: canvas, renderer, camera, labels, and the pointer. Draws only when something has changed; while
 // something moves at a lower resolution, then once more in full.
-import { effect } from '@preact/signals';
+import { effect, untracked } from '@preact/signals';
+import { leakPlaces, shareOfLimit } from '../notable';
 import * as state from '../store/state';
 import { appTexts } from '../text/texts';
+import type { Fields, Topology } from '../protocol';
 import { Camera, type Preset } from './camera';
-import { cutMesh } from './cut';
+import { cutMesh, planeOf } from './cut';
 import { Gestures } from './gestures';
 import { overlayInputs, sameInputs, sceneInputs } from './inputs';
 import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
-import { sceneMeshes } from './scene';
+import { atrialSide, sceneMeshes } from './scene';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh, type SurfaceFrame } from './surface';
 import { WebGl } from './webgl';
@@ -73,15 +75,19 @@ export class Viewport {
       this.moved();
     });
     effect(() => {
-      this.showSurface(state.surface.value);
+      const shown = state.surface.value;
+      untracked(() => this.showSurface(shown));
     });
+    // a view is gone to when it is asked for, not whenever the valve changes that gives it its frame
     effect(() => {
       const wanted = state.wantedView.value;
-      if (wanted) this.go(wanted.preset);
+      if (wanted) untracked(() => this.go(wanted.preset));
     });
     effect(() => {
       const field = state.picking.value;
-      if (field && hidesFromAtrium(field) && this.fromAtrium()) this.go('ventricle');
+      untracked(() => {
+        if (field && hidesFromAtrium(field) && this.fromAtrium()) this.go('ventricle');
+      });
     });
     requestAnimationFrame((now) => this.frame(now));
   }
@@ -195,9 +201,7 @@ export class Viewport {
 
   plane(): CutPlane | null {
     if (!state.sectionOn.value || this.surface) return null;
-    const f = this.frameOf();
-    const normal: [number, number, number] = [f[6], f[7], f[8]];
-    return { normal, offset: f[0] * f[6] + f[1] * f[7] + f[2] * f[8] + state.sectionAt.value };
+    return planeOf(this.frameOf(), state.sectionAt.value);
   }
 
   /** The place of the handle of the section plane. */
@@ -205,6 +209,11 @@ export class Viewport {
     const f = this.frameOf();
     const up = 0.3 * this.radius();
     return [0, 1, 2].map((c) => f[c] + state.sectionAt.value * f[6 + c] + up * f[9 + c]);
+  }
+
+  /** Values per node of the valve that is shown at rest. */
+  private fields(): Fields | null {
+    return state.motion.value ? null : (state.figures.value?.fields ?? null);
   }
 
   private buildScene(): void {
@@ -225,19 +234,29 @@ export class Viewport {
     const chord = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
     this.meshes = sceneMeshes(topology, picture, {
       map: shown ? state.map.value : 'tissue',
-      fields: figures?.fields ?? null,
+      fields: this.fields(),
       distance: this.distances(),
       frame: this.frameOf(),
-      load: figures
-        ? Float32Array.from(figures.chords, (c) =>
-            Math.max(c.strain / c.strainLimit, c.tension / c.tensionLimit),
-          )
-        : null,
+      load: figures ? Float32Array.from(figures.chords, shareOfLimit) : null,
       chosenChord: topology.chords.findIndex((part) => part.id === chord),
       chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
       chordsOn: state.chordsOn.value,
-      jets: figures?.orificeParts ?? [],
+      jets: leakPlaces(figures?.orificeParts ?? []),
+      closed: state.motion.value ? (state.main.value?.picture ?? null) : null,
+      removed: state.chordsOn.value && shown === state.preview.value ? this.removed(topology) : [],
     });
+  }
+
+  /** Ends of the chordae that the preview takes away, in the valve before. */
+  private removed(topology: Topology): [number[], number[]][] {
+    const before = state.main.value?.picture;
+    const old = before && state.topologyOf(before);
+    if (!old || old === topology) return [];
+    const kept = new Set(topology.chords.map((part) => part.id));
+    const at = (node: number) => [...before.positions.subarray(3 * node, 3 * node + 3)];
+    return old.chords.flatMap((part, k): [number[], number[]][] =>
+      kept.has(part.id) ? [] : [[at(old.chordNodes[2 * k]), at(old.chordNodes[2 * k + 1])]],
+    );
   }
 
   /** Distance of each node from its place in the valve before, matched by origin. */
@@ -275,8 +294,10 @@ export class Viewport {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
     const plane = this.plane();
-    if (plane && topology && !this.surface)
-      meshes.push(cutMesh(topology, picture, plane, this.frameOf(), this.radius()));
+    if (plane && topology && !this.surface) {
+      const drawn = atrialSide(topology, picture, this.fields());
+      meshes.push(cutMesh(topology, drawn, plane, this.frameOf(), this.radius()));
+    }
     const marks = marksMesh(state.sectionOn.value && !this.surface ? this.handle() : null);
     if (marks) meshes.push(marks);
     return { meshes, background, plane };

@@ -13,6 +13,7 @@ import type {
   Region,
   Topology,
 } from '../protocol';
+import { beyondLimit, shareOfLimit } from '../notable';
 import { ml, mm, mm2, scaled } from './units';
 
 /** Topologies that the page has; the oldest are forgotten on both sides in the same order. */
@@ -148,6 +149,7 @@ function measuresOf(snapshot: Snapshot, known: Known): Measures {
     leafletStrain95: m.leaflet_strain_p95,
     leafletStress95: m.leaflet_stress_p95,
     chordsOver: 0,
+    chordLoad: 0,
     crossings: m.intersections,
     atRest: m.at_rest === 1,
     underLoad: m.under_load === 1,
@@ -240,7 +242,8 @@ export function figuresOf(mvs: Mvs, snapshot: Snapshot, known: Known = 'all'): F
   const all = known === 'all';
   const chords = chordsOf(mvs, snapshot);
   const measures = measuresOf(snapshot, known);
-  measures.chordsOver = new Set(chords.filter((c) => c.over).map((c) => c.name)).size;
+  measures.chordsOver = beyondLimit(chords).length;
+  measures.chordLoad = Math.max(0, ...chords.map(shareOfLimit));
   const force = snapshot.array<Float64Array>('head_force');
   const heads = [];
   for (let h = 0; h < force.length; h += 3) heads.push(Math.hypot(force[h], force[h + 1], force[h + 2]));

@@ -1,0 +1,35 @@
+// Figures that are named one by one: chordae beyond their working limit, and the places of a leak.
+import type { Chord, OrificePart } from './protocol';
+
+/** The kind of the stitches of a suture or a clip. */
+export const suture = 7;
+
+/** The larger share of the working limit, of stretch or pull; 1 is the limit. */
+export function shareOfLimit(chord: Chord): number {
+  return Math.max(0, chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
+}
+
+/** The share in whole per cent, as it is shown and judged; a share above the limit never reads 100. */
+export function percentOfLimit(share: number): number {
+  const percent = Math.round(100 * share);
+  return share > 1 ? Math.max(101, percent) : percent;
+}
+
+/** Chordae beyond their limit, the most loaded first; segments of a branched chord have one name and count once. */
+export function beyondLimit(chords: Chord[]): Chord[] {
+  const named = new Map<string, Chord>();
+  for (const chord of chords) {
+    const other = named.get(chord.name);
+    if (chord.over && (!other || shareOfLimit(chord) > shareOfLimit(other))) named.set(chord.name, chord);
+  }
+  return [...named.values()].sort((a, b) => shareOfLimit(b) - shareOfLimit(a));
+}
+
+/** mm2 below which a part of a leak is neither counted nor drawn with an arrow, unless it is the largest. */
+const smallLeak = 1;
+
+/** The parts of a leak that are counted and get an arrow. */
+export function leakPlaces(parts: OrificePart[]): OrificePart[] {
+  const largest = Math.max(0, ...parts.map((part) => part.area));
+  return parts.filter((part) => part.area >= Math.min(smallLeak, largest));
+}
