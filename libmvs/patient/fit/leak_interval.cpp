@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "measure/orifice/orifice.h"
@@ -21,8 +22,8 @@ constexpr double same_leak_confidence = 0.8, unknown_leak = 20e-6;
 // m2, by which meshes of one valve differ: a valve with less is sealed.
 constexpr double sealed = 0.5e-6;
 constexpr double least_thickness = 0.3;  // share of the thickness that thinner tissue keeps
-constexpr uint32_t most_draws = 6;
-constexpr double widening = 0.25;  // of the range, on both sides
+constexpr uint32_t most_draws = 6, most_trials = 10;  // random closures that count; in all
+constexpr double widening = 0.25;                     // of the range, on both sides
 constexpr uint64_t seed = 22;
 const double half_range = std::sqrt(3.0);  // of a uniform deviate, in standard deviations
 
@@ -30,6 +31,7 @@ struct Closed {
   double leak;
   bool at_rest;
   uint32_t iterations;
+  double distance = 0;  // m, RMS from the closed leaflets, if they are given
 };
 // What a closure of the interval changes.
 struct ClosureChange {
@@ -38,7 +40,23 @@ struct ClosureChange {
   double thickness = 1;        // factor
 };
 
-Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRange &range) {
+// Distances from the closed leaflets; the first closed valve decides how they are wound.
+class SeenDistance {
+ public:
+  explicit SeenDistance(const SeenClosed &seen) : seen_(seen) {}
+  double of(const Model &model, const std::vector<Vec3> &x) {
+    if (!seen_.surface) return 0;
+    if (!matcher_) matcher_.emplace(*seen_.surface, model, x);
+    return rms_distance(matcher_->match(model, x));
+  }
+
+ private:
+  const SeenClosed &seen_;
+  std::optional<SurfaceMatcher> matcher_;
+};
+
+Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRange &range,
+                  SeenDistance &distance) {
   const auto &[factor, by, thickness] = change;
   const bool moves = range.geometry && by != 0;
   Valve changed = moves ? with_edge_moved(valve, *range.geometry, by) : valve;
@@ -49,7 +67,7 @@ Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRan
     const ClosedValve closed =
         close_open(solver, make_model(std::move(changed)), systolic_pressure);
     return {measure_orifice(*closed.model, closed.state.x).area, closed.stats.converged,
-            closed.stats.iterations};
+            closed.stats.iterations, distance.of(*closed.model, closed.state.x)};
   } catch (const Error &error) {
     // the valve is built all the same: its closure is the caller's
     if (error.code != MVS_E_DIVERGED) throw;
@@ -84,8 +102,21 @@ std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, doubl
   return ranges;
 }
 
+// What the interval is the range of, beside closures within the ranges.
+std::string closures_of(const LeakInterval &interval, bool is_sealed) {
+  if (is_sealed) return ": sealed with all of them";
+  std::string words = format("; %u closures with random ones are among them", interval.draws);
+  if (interval.left_out > 0) {
+    words += format(
+        "; %u closures are left out, as they lie farther from the closed leaflets than "
+        "fits that are as good",
+        interval.left_out);
+  }
+  return words;
+}
+
 void report(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
-            bool at_rest, Findings &findings) {
+            bool at_rest, bool is_sealed, Findings &findings) {
   const double unsure = std::min(1.0, (interval.most - interval.least) / unknown_leak);
   const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
   const auto &[f0, f1, f2] = interval.factor;
@@ -100,18 +131,14 @@ void report(const LeakInterval &interval, const EdgeRange &edge, double thicknes
               interval.leak[2] * 1e6, at_rest ? "" : ", not all of them at rest"),
        {interval.leak.begin(), interval.leak.end()},
        "m2"});
-  findings.push_back(
-      {"leak_interval",
-       FindingSource::measured,
-       confidence,
-       format(
-           "%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
-           ranges_of(interval, edge, thickness_error).c_str(),
-           interval.draws == 0
-               ? ": sealed with all of them"
-               : format("; %u closures with random ones are among them", interval.draws).c_str()),
-       {interval.least, interval.most},
-       "m2"});
+  findings.push_back({"leak_interval",
+                      FindingSource::measured,
+                      confidence,
+                      format("%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
+                             ranges_of(interval, edge, thickness_error).c_str(),
+                             closures_of(interval, is_sealed).c_str()),
+                      {interval.least, interval.most},
+                      "m2"});
 }
 
 }  // namespace
@@ -128,54 +155,59 @@ LengthRange range_after(const ChordFit &fit) {
 }
 
 LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
-                           double thickness_error, const std::vector<double> &known,
-                           Findings &findings,
+                           double thickness_error, const SeenClosed &seen, Findings &findings,
                            const std::function<void(uint32_t, uint32_t)> &tell) {
   const size_t chords = model->valve.chords.size();
   LeakInterval interval;
   interval.factor = {1 - range.all, 1, 1 + range.all};
   bool at_rest = true;
-  std::vector<double> leaks = known;
+  std::vector<double> leaks = seen.leaks;
+  SeenDistance distance(seen);
+  double largest = 0;  // of all closures at rest, also those that do not count
   uint32_t number = 0;
   const uint32_t closures =
-      3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_draws;
+      3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_trials;
   const auto close = [&](const ClosureChange &change) {
     if (tell) tell(number, closures);
     ++number;
-    const Closed closed = close_with(model->valve, change, edge);
-    if (closed.at_rest) leaks.push_back(closed.leak);
+    const Closed closed = close_with(model->valve, change, edge, distance);
+    const bool counts = closed.at_rest && closed.distance <= seen.farthest;
+    if (counts) leaks.push_back(closed.leak);
+    if (closed.at_rest && !counts) ++interval.left_out;
+    if (closed.at_rest) largest = std::max(largest, closed.leak);
     at_rest = at_rest && closed.at_rest;
-    return closed;
+    return std::pair(closed, counts);
   };
   for (size_t k = 0; k < 3; ++k) {
-    const Closed closed = close({std::vector<double>(chords, interval.factor[k])});
+    const Closed closed = close({std::vector<double>(chords, interval.factor[k])}).first;
     interval.leak[k] = closed.leak;
     interval.at_rest[k] = closed.at_rest;
     interval.iterations[k] = closed.iterations;
   }
   for (size_t k = 0; edge.geometry && k < 2; ++k) {
-    interval.edge_leak[k] = close({{}, k == 0 ? edge.out : -edge.in}).leak;
+    interval.edge_leak[k] = close({{}, k == 0 ? edge.out : -edge.in}).first.leak;
   }
   const double spread = thickness_error / mean_thickness(model->valve);
   const auto thickness = [&](double by) { return std::max(least_thickness, 1 + by * spread); };
   for (size_t k = 0; thickness_error > 0 && k < 2; ++k) {
-    interval.tissue_leak[k] = close({{}, 0, thickness(k == 0 ? 1 : -1)}).leak;
+    interval.tissue_leak[k] = close({{}, 0, thickness(k == 0 ? 1 : -1)}).first.leak;
   }
-  const bool is_sealed = at_rest && *std::max_element(leaks.begin(), leaks.end()) < sealed;
+  for (const double leak : seen.leaks) largest = std::max(largest, leak);
+  const bool is_sealed = at_rest && largest < sealed;
   NormalNumbers random(seed);
   const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
-  for (; !is_sealed && interval.draws < most_draws; ++interval.draws) {
+  for (uint32_t k = 0; !is_sealed && k < most_trials && interval.draws < most_draws; ++k) {
     ClosureChange change{drawn_factors(groups, range, chords, random)};
     if (edge.geometry) change.edge = random.uniform() * (edge.out + edge.in) - edge.in;
     if (thickness_error > 0) change.thickness = thickness(2 * random.uniform() - 1);
-    close(change);
+    if (close(change).second) ++interval.draws;
   }
   if (leaks.empty()) leaks.assign(interval.leak.begin(), interval.leak.end());
   const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
   const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
   interval.least = std::max(0.0, *least - more);
   interval.most = *most + more;
-  report(interval, edge, thickness_error, at_rest, findings);
+  report(interval, edge, thickness_error, at_rest, is_sealed, findings);
   return interval;
 }
 
