@@ -242,6 +242,26 @@ TEST_CASE("an_edge_that_is_not_sure_widens_the_interval_of_leaks") {
   CHECK(exact[1].sentence.find("farther") == std::string::npos);
 }
 
+TEST_CASE("closures_far_from_the_closed_leaflets_do_not_widen_the_interval_of_leaks") {
+  Valve valve = patient_valve(200);
+  for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
+  Findings without, with;
+  const ModelPtr model = make_model(valve);
+  const LeakInterval wide = leak_interval(model, {}, {}, 0, {}, without);
+  const ClosedPatient closed = close_patient(valve);
+  const ClosedSurface given{closed.state.x, valve.triangles.get()};
+  // the valve itself is at distance 0
+  const SeenClosed seen{&given, as_good_limit(0), {wide.leak[1]}};
+  const LeakInterval narrow = leak_interval(model, {}, {}, 0, seen, with);
+  CHECK(narrow.leak == wide.leak);
+  CHECK(narrow.left_out >= 2);  // at least the shorter and the longer chordae, by a tenth
+  CHECK(narrow.most - narrow.least < 0.5 * (wide.most - wide.least));
+  CHECK(narrow.least <= wide.leak[1]);
+  CHECK(narrow.most >= wide.leak[1]);
+  CHECK(with[1].sentence.find("are left out") != std::string::npos);
+  CHECK(without[1].sentence.find("left out") == std::string::npos);
+}
+
 TEST_CASE("a_thickness_that_is_not_sure_widens_the_interval_of_leaks") {
   Valve valve = patient_valve(200);
   for (Chord &chord : valve.chords) chord.rest_length *= 0.75;

@@ -14,7 +14,7 @@ from mvs import imaging  # noqa: E402
 from mvs.imaging import mesh  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
 from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
-from mvs.imaging.requests import thickness_of_labels  # noqa: E402
+from mvs.imaging.requests import edge_of_labels, thickness_of_labels  # noqa: E402
 
 VOXEL = 0.7  # mm, of ultrasound
 
@@ -299,6 +299,15 @@ def test_registration_by_landmarks_recovers_a_rigid_motion():
     turn *= np.sign(np.linalg.det(turn))
     motion, rms = imaging.motion_of_landmarks(start, start @ turn.T + [0.1, 0, -0.2])
     assert motion.turn == pytest.approx(turn, abs=1e-12) and rms < 1e-12
+
+
+@pytest.mark.parametrize(("voxel", "lost"), [(0.2e-3, 1.4e-3), (0.7e-3, 1.4e-3), (1e-3, 2e-3), (4e-3, 5e-3)])
+def test_fine_labels_may_lack_as_much_of_the_free_edge_as_coarse_ones(voxel, lost):
+    """The errors of networks are lengths, not voxels; above 5 mm a build refuses the value."""
+    found = edge_of_labels(voxel)
+    assert found["edge_lost"].values[0] == pytest.approx(lost)
+    assert f"{1e3 * lost:.2f} mm" in found["edge_lost"].sentence
+    assert found["edge_error"].values[0] == pytest.approx(voxel / 2)
 
 
 def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
