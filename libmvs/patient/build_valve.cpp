@@ -261,20 +261,20 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   const EdgeRange edge = find_edge_range(settings.edge_error, settings.edge_lost, g, findings);
   LengthRange range;
   const ClosedSurface closed{surface.closed_points, surface.closed_triangles};
-  SeenClosed seen;
+  std::vector<double> leaks;
   double done = 0.1;
   if (!closed.points.empty()) {
     begin_stage(settings, "fit");
     const ChordFit fit = fit_chords(closed, edge.geometry == nullptr, progress, g, valve, findings);
     range = range_after(fit);
-    seen = {&closed, as_good_limit(fit.rms), fit.leaks};
+    leaks = fit.leaks;
     done = 0.8;
   }
   built.model = make_model(std::move(valve));
   begin_stage(settings, "leak");
   report_thickness_error(settings.thickness_error, findings);
   built.leak = leak_interval(
-      built.model, range, edge, settings.thickness_error, seen, findings,
+      built.model, range, edge, settings.thickness_error, leaks, findings,
       [&](uint32_t k, uint32_t of) { tell_progress(progress, done + (1 - done) * k / of); });
   return built;
 }

@@ -18,7 +18,9 @@ namespace {
 constexpr double difference = 0.01;
 // m, RMS distance of the annulus from the given surface: more is another frame or patient.
 constexpr double farthest_annulus = 8e-3;
-constexpr double as_good_share = 1.1, as_good_distance = 0.05e-3;  // m, of as_good_limit()
+// Fits are as good as the best one if their distance is at most this much larger: less than two
+// segmentations of one valve differ by.
+constexpr double as_good_share = 1.1, as_good_distance = 0.05e-3;  // m
 constexpr uint64_t start_seed = 22;                                // of the other starts
 
 void check_surface(const ClosedSurface &given, const Model &model) {
@@ -88,7 +90,7 @@ Found search(const FitSearch &fit, const FitParameters &groups, const FitSetting
     here.rms = rms_distance(here.trial.matches);
     const bool is_better = pass == 0 || here.rms < best.rms;
     if (is_better) best = std::move(here);
-    if (!is_better || best.rms <= as_good_limit(followed)) break;
+    if (!is_better || best.rms <= as_good_share * followed + as_good_distance) break;
     start = fit.again(groups, best.group, best.trial.closed);
   }
   best.rounds = rounds;
@@ -125,7 +127,7 @@ void collect(const std::vector<Found> &found, size_t best, const FitParameters &
              const FitSettings &s, size_t chords, ChordFit &fit) {
   const Found &taken = found[best];
   const Model &model = *taken.trial.closed.model;
-  const double limit = as_good_limit(taken.rms);
+  const double limit = as_good_share * taken.rms + as_good_distance;
   const FitParameters singles = singles_of(groups, taken.group, s);
   fit.leaks.push_back(measure_orifice(model, taken.trial.closed.state.x).area);
   std::vector<double> low = taken.trial.factor, high = low;
@@ -161,10 +163,6 @@ void collect(const std::vector<Found> &found, size_t best, const FitParameters &
 }
 
 }  // namespace
-
-double as_good_limit(double rms) {
-  return as_good_share * rms + as_good_distance;
-}
 
 ClosedJacobian jacobian_by_differences(Solver &solver) {
   return [&solver](const ClosedValve &closed, const std::vector<ChordGroup> &groups,

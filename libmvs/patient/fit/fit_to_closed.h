@@ -55,10 +55,6 @@ struct ChordFit {
   bool at_rest = false;                 // the closed valve of the fitted lengths
 };
 
-// m: closed valves are as good as one at a distance from the given surface up to this distance:
-// less than two segmentations of one valve differ by.
-double as_good_limit(double rms);
-
 // Called before each search with its number, from 0; may throw to end the fit.
 using FitProgress = std::function<void(uint32_t start)>;
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/error.h"
 #include "measure/orifice/orifice.h"
@@ -22,8 +21,8 @@ constexpr double same_leak_confidence = 0.8, unknown_leak = 20e-6;
 // m2, by which meshes of one valve differ: a valve with less is sealed.
 constexpr double sealed = 0.5e-6;
 constexpr double least_thickness = 0.3;  // share of the thickness that thinner tissue keeps
-constexpr uint32_t most_draws = 6, most_trials = 10;  // random closures that count; in all
-constexpr double widening = 0.25;                     // of the range, on both sides
+constexpr uint32_t most_draws = 6;
+constexpr double widening = 0.25;  // of the range, on both sides
 constexpr uint64_t seed = 22;
 const double half_range = std::sqrt(3.0);  // of a uniform deviate, in standard deviations
 
@@ -31,7 +30,6 @@ struct Closed {
   double leak;
   bool at_rest;
   uint32_t iterations;
-  double distance = 0;  // m, RMS from the closed leaflets, if they are given
 };
 // What a closure of the interval changes.
 struct ClosureChange {
@@ -40,23 +38,7 @@ struct ClosureChange {
   double thickness = 1;        // factor
 };
 
-// Distances from the closed leaflets; the first closed valve decides how they are wound.
-class SeenDistance {
- public:
-  explicit SeenDistance(const SeenClosed &seen) : seen_(seen) {}
-  double of(const Model &model, const std::vector<Vec3> &x) {
-    if (!seen_.surface) return 0;
-    if (!matcher_) matcher_.emplace(*seen_.surface, model, x);
-    return rms_distance(matcher_->match(model, x));
-  }
-
- private:
-  const SeenClosed &seen_;
-  std::optional<SurfaceMatcher> matcher_;
-};
-
-Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRange &range,
-                  SeenDistance &distance) {
+Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRange &range) {
   const auto &[factor, by, thickness] = change;
   const bool moves = range.geometry && by != 0;
   Valve changed = moves ? with_edge_moved(valve, *range.geometry, by) : valve;
@@ -67,7 +49,7 @@ Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRan
     const ClosedValve closed =
         close_open(solver, make_model(std::move(changed)), systolic_pressure);
     return {measure_orifice(*closed.model, closed.state.x).area, closed.stats.converged,
-            closed.stats.iterations, distance.of(*closed.model, closed.state.x)};
+            closed.stats.iterations};
   } catch (const Error &error) {
     // the valve is built all the same: its closure is the caller's
     if (error.code != MVS_E_DIVERGED) throw;
@@ -102,21 +84,8 @@ std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, doubl
   return ranges;
 }
 
-// What the interval is the range of, beside closures within the ranges.
-std::string closures_of(const LeakInterval &interval, bool is_sealed) {
-  if (is_sealed) return ": sealed with all of them";
-  std::string words = format("; %u closures with random ones are among them", interval.draws);
-  if (interval.left_out > 0) {
-    words += format(
-        "; %u closures are left out, as they lie farther from the closed leaflets than "
-        "fits that are as good",
-        interval.left_out);
-  }
-  return words;
-}
-
 void report(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
-            bool at_rest, bool is_sealed, Findings &findings) {
+            bool at_rest, Findings &findings) {
   const double unsure = std::min(1.0, (interval.most - interval.least) / unknown_leak);
   const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
   const auto &[f0, f1, f2] = interval.factor;
@@ -131,14 +100,18 @@ void report(const LeakInterval &interval, const EdgeRange &edge, double thicknes
               interval.leak[2] * 1e6, at_rest ? "" : ", not all of them at rest"),
        {interval.leak.begin(), interval.leak.end()},
        "m2"});
-  findings.push_back({"leak_interval",
-                      FindingSource::measured,
-                      confidence,
-                      format("%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
-                             ranges_of(interval, edge, thickness_error).c_str(),
-                             closures_of(interval, is_sealed).c_str()),
-                      {interval.least, interval.most},
-                      "m2"});
+  findings.push_back(
+      {"leak_interval",
+       FindingSource::measured,
+       confidence,
+       format(
+           "%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
+           ranges_of(interval, edge, thickness_error).c_str(),
+           interval.draws == 0
+               ? ": sealed with all of them"
+               : format("; %u closures with random ones are among them", interval.draws).c_str()),
+       {interval.least, interval.most},
+       "m2"});
 }
 
 }  // namespace
@@ -148,66 +121,62 @@ LengthRange range_after(const ChordFit &fit) {
   double sum = 0;
   for (const double deviation : fit.deviation) {
     range.group.push_back(std::min(range.all, half_range * deviation));
-    sum += range.group.back() * range.group.back() / static_cast<double>(fit.deviation.size());
+    sum += range.group.back() * range.group.back();
   }
-  range.all = std::sqrt(sum);
+  // of the mean of independent factors; as a common factor, their errors would never cancel
+  range.all = std::sqrt(sum) / static_cast<double>(fit.deviation.size());
   return range;
 }
 
 LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
-                           double thickness_error, const SeenClosed &seen, Findings &findings,
+                           double thickness_error, const std::vector<double> &known,
+                           Findings &findings,
                            const std::function<void(uint32_t, uint32_t)> &tell) {
   const size_t chords = model->valve.chords.size();
   LeakInterval interval;
   interval.factor = {1 - range.all, 1, 1 + range.all};
   bool at_rest = true;
-  std::vector<double> leaks = seen.leaks;
-  SeenDistance distance(seen);
-  double largest = 0;  // of all closures at rest, also those that do not count
+  std::vector<double> leaks = known;
   uint32_t number = 0;
   const uint32_t closures =
-      3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_trials;
+      3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_draws;
   const auto close = [&](const ClosureChange &change) {
     if (tell) tell(number, closures);
     ++number;
-    const Closed closed = close_with(model->valve, change, edge, distance);
-    const bool counts = closed.at_rest && closed.distance <= seen.farthest;
-    if (counts) leaks.push_back(closed.leak);
-    if (closed.at_rest && !counts) ++interval.left_out;
-    if (closed.at_rest) largest = std::max(largest, closed.leak);
+    const Closed closed = close_with(model->valve, change, edge);
+    if (closed.at_rest) leaks.push_back(closed.leak);
     at_rest = at_rest && closed.at_rest;
-    return std::pair(closed, counts);
+    return closed;
   };
   for (size_t k = 0; k < 3; ++k) {
-    const Closed closed = close({std::vector<double>(chords, interval.factor[k])}).first;
+    const Closed closed = close({std::vector<double>(chords, interval.factor[k])});
     interval.leak[k] = closed.leak;
     interval.at_rest[k] = closed.at_rest;
     interval.iterations[k] = closed.iterations;
   }
   for (size_t k = 0; edge.geometry && k < 2; ++k) {
-    interval.edge_leak[k] = close({{}, k == 0 ? edge.out : -edge.in}).first.leak;
+    interval.edge_leak[k] = close({{}, k == 0 ? edge.out : -edge.in}).leak;
   }
   const double spread = thickness_error / mean_thickness(model->valve);
   const auto thickness = [&](double by) { return std::max(least_thickness, 1 + by * spread); };
   for (size_t k = 0; thickness_error > 0 && k < 2; ++k) {
-    interval.tissue_leak[k] = close({{}, 0, thickness(k == 0 ? 1 : -1)}).first.leak;
+    interval.tissue_leak[k] = close({{}, 0, thickness(k == 0 ? 1 : -1)}).leak;
   }
-  for (const double leak : seen.leaks) largest = std::max(largest, leak);
-  const bool is_sealed = at_rest && largest < sealed;
+  const bool is_sealed = at_rest && *std::max_element(leaks.begin(), leaks.end()) < sealed;
   NormalNumbers random(seed);
   const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
-  for (uint32_t k = 0; !is_sealed && k < most_trials && interval.draws < most_draws; ++k) {
+  for (; !is_sealed && interval.draws < most_draws; ++interval.draws) {
     ClosureChange change{drawn_factors(groups, range, chords, random)};
     if (edge.geometry) change.edge = random.uniform() * (edge.out + edge.in) - edge.in;
     if (thickness_error > 0) change.thickness = thickness(2 * random.uniform() - 1);
-    if (close(change).second) ++interval.draws;
+    close(change);
   }
   if (leaks.empty()) leaks.assign(interval.leak.begin(), interval.leak.end());
   const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
   const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
   interval.least = std::max(0.0, *least - more);
   interval.most = *most + more;
-  report(interval, edge, thickness_error, at_rest, is_sealed, findings);
+  report(interval, edge, thickness_error, at_rest, findings);
   return interval;
 }
 

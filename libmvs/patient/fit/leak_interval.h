@@ -9,9 +9,6 @@
 // a quarter wider on both sides: of nine closures alone, one valve in five would lie outside
 // (exchangeable samples). Both ends move out by what meshes of one valve differ by, too, but not
 // below 0. Every closure starts from the open shape, so that none depends on another.
-//
-// If the closed leaflets are given, closures that lie farther from them than a fit that is as good
-// are left out: the valve in the image does not close to such a shape.
 #pragma once
 
 #include <array>
@@ -29,15 +26,8 @@ struct LengthRange {
   std::vector<double> group;  // of each of the groups of ChordGrouping::halves; empty: `all`
   double single = 0.03;       // of a chord beside its group
 };
-// The range that a fit leaves open.
+// The range that a fit leaves open: of each group, and of the mean of all groups.
 LengthRange range_after(const ChordFit &fit);
-
-// The closed leaflets that a fit has seen; the default: none.
-struct SeenClosed {
-  const ClosedSurface *surface = nullptr;
-  double farthest = 0;        // m, RMS distance of closures that count (as_good_limit)
-  std::vector<double> leaks;  // m2, of fits that are as good: the interval contains them
-};
 
 struct LeakInterval {
   std::array<double, 3> factor = {};        // on all rest lengths
@@ -47,14 +37,15 @@ struct LeakInterval {
   std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; 0: edge exact
   std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; 0: thickness exact
   double least = 0, most = 0;               // m2, the interval
-  uint32_t draws = 0;                       // closures with random lengths that count
-  uint32_t left_out = 0;                    // closures too far from the closed leaflets
+  uint32_t draws = 0;                       // closures with random lengths
 };
 
-// `thickness_error`: m, of all leaflets together. `tell` is called before each closure with its
-// number and their number at most; it may throw.
+// `thickness_error`: m, of all leaflets together. `known`: leaks of other closures of the same
+// valve, m2, which the interval contains. `tell` is called before each closure with its number and
+// their number at most; it may throw.
 LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
-                           double thickness_error, const SeenClosed &seen, Findings &findings,
+                           double thickness_error, const std::vector<double> &known,
+                           Findings &findings,
                            const std::function<void(uint32_t, uint32_t)> &tell = {});
 
 }  // namespace mvs::core
