@@ -15,6 +15,7 @@ from mvs.imaging import mesh  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
 from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
 from mvs.imaging.requests import edge_of_labels, thickness_of_labels  # noqa: E402
+from mvs.imaging.valve import check_closed  # noqa: E402
 
 VOXEL = 0.7  # mm, of ultrasound
 
@@ -173,6 +174,17 @@ def test_faults_of_label_maps_are_refused_with_a_sentence():
         imaging.leaflets_in(numbers)
     with pytest.raises(mvs.ArgumentError, match='no segment "x".*"1", "2"'):
         imaging.leaflets_in(numbers, {"x": 1})
+
+
+def test_the_open_image_given_as_the_loaded_one_is_refused():
+    """No lengths of chordae follow from it; half a voxel of another phase is no closure either."""
+    labels, _ = funnel()
+    leaflets = imaging.leaflets_in(imaging.labels_of(image_of(labels)), {"1": 1, "2": 2})
+    same = leaflets.sheet
+    with pytest.raises(mvs.ArgumentError, match="open valve was given as the loaded one"):
+        imaging.build(leaflets, {}, same)
+    moved = mesh.Sheet(same.points + [0, 0, 3e-3], same.triangles)
+    check_closed(moved, same)
 
 
 def test_spacing_in_metres_or_cm_and_other_files_are_refused(tmp_path):
