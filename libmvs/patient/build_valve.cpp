@@ -12,6 +12,7 @@
 #include "patient/chordae/patient_chordae.h"
 #include "patient/findings.h"
 #include "patient/fit/edge_range.h"
+#include "patient/fit/extend_free_edge.h"
 #include "patient/fit/fit_over_levels.h"
 #include "patient/fit/thickness_range.h"
 #include "patient/mesh/remesh_sheet.h"
@@ -230,12 +231,16 @@ void tell_progress(const Progress &progress, double share) {
            "cancelled by the progress callback: the valve is as before");
 }
 
-ChordFit fit_chords(const PatientSurface &surface, const Progress &progress, Valve &valve,
-                    Findings &findings) {
+// If the free edge is not exact, `g` and the valve get the tissue that the closed surface shows.
+ChordFit fit_chords(const ClosedSurface &closed, bool edge_is_exact, const Progress &progress,
+                    PatientGeometry &g, Valve &valve, Findings &findings) {
   const FitSettings settings;
-  return fit_over_levels(
-      valve, {surface.closed_points, surface.closed_triangles}, settings, findings,
-      [&](uint32_t start) { tell_progress(progress, 0.1 + 0.7 * start / settings.starts); });
+  const auto tell = [&](uint32_t search) {
+    tell_progress(progress, 0.1 + 0.7 * search / (settings.starts + 1));
+  };
+  if (!edge_is_exact) extend_free_edge(valve, g, closed, findings, tell);
+  return fit_over_levels(valve, closed, settings, findings,
+                         [&](uint32_t start) { tell(start + 1); });
 }
 
 }  // namespace
@@ -245,7 +250,7 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   BuiltValve built;
   Findings &findings = built.findings;
   tell_progress(progress, 0.0);
-  const PatientGeometry g = find_geometry(surface, settings, findings);
+  PatientGeometry g = find_geometry(surface, settings, findings);
   begin_stage(settings, "chordae");
   Valve valve = tissue_of(g, settings, findings);
   valve.name = surface.name;
@@ -253,19 +258,20 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   add_chordae(valve, g, tips, {settings.chords, settings.chord_factor, settings.coaptation_length},
               findings);
   tell_progress(progress, 0.1);
+  const EdgeRange edge = find_edge_range(settings.edge_error, settings.edge_lost, g, findings);
   LengthRange range;
+  const ClosedSurface closed{surface.closed_points, surface.closed_triangles};
   std::vector<double> leaks;
   double done = 0.1;
-  if (!surface.closed_points.empty()) {
+  if (!closed.points.empty()) {
     begin_stage(settings, "fit");
-    const ChordFit fit = fit_chords(surface, progress, valve, findings);
+    const ChordFit fit = fit_chords(closed, edge.geometry == nullptr, progress, g, valve, findings);
     range = range_after(fit);
     leaks = fit.leaks;
     done = 0.8;
   }
   built.model = make_model(std::move(valve));
   begin_stage(settings, "leak");
-  const EdgeRange edge = find_edge_range(settings.edge_error, settings.edge_lost, g, findings);
   report_thickness_error(settings.thickness_error, findings);
   built.leak = leak_interval(
       built.model, range, edge, settings.thickness_error, leaks, findings,

@@ -196,6 +196,17 @@ TEST_CASE("a_leak_comes_with_those_of_shorter_and_longer_chordae") {
   CHECK(findings[0].confidence < 0.8);  // that of a leak which does not depend on the lengths
 }
 
+TEST_CASE("after_a_fit_all_lengths_together_vary_as_the_mean_of_the_groups") {
+  ChordFit fit;
+  fit.deviation = {0.02, 0.02, 0.04, 0.2};
+  const LengthRange range = range_after(fit);
+  REQUIRE(range.group.size() == 4);
+  CHECK(range.group[0] == doctest::Approx(std::sqrt(3.0) * 0.02));
+  CHECK(range.group[3] == 0.1);  // not wider than without a fit
+  // the variances of 3 * (0.02^2, 0.02^2, 0.04^2) and 0.1^2 add up for a sum of independent factors
+  CHECK(range.all == doctest::Approx(std::sqrt(3 * 0.0024 + 0.01) / 4));
+}
+
 TEST_CASE("a_free_edge_moves_by_its_error_and_chordae_follow") {
   const PatientGeometry &g = parametric_geometry(430);
   const Valve valve = patient_valve(430);

@@ -138,6 +138,21 @@ TEST_CASE("find_rims_takes_the_boundary_near_given_annulus_points") {
   CHECK_THROWS_WITH_AS(rims_of(s, landmarks, other), doctest::Contains("LPS or RAS"), Error);
 }
 
+TEST_CASE("find_rims_does_not_believe_tips_in_the_atrium") {
+  const ParametricSheet p = parametric_sheet(430);
+  RimLandmarks landmarks;
+  landmarks.tips = {Vec3(10e-3, 0, 25e-3), Vec3(-10e-3, 0, 25e-3)};
+  Findings findings;
+  rims_of(surface_of(p.sheet), landmarks, findings);
+  // the free edge is farther from such tips
+  CHECK(find(findings, "annulus")->confidence < 0.5);
+  CHECK(find(findings, "annulus")->sentence.find("by its shape the other one") !=
+        std::string::npos);
+  for (const uint32_t i : p.rims.annulus) landmarks.annulus.push_back(p.sheet.x[i]);
+  CHECK_THROWS_WITH_AS(rims_of(surface_of(p.sheet), landmarks, findings),
+                       doctest::Contains("on the other side"), Error);
+}
+
 TEST_CASE("find_rims_takes_the_boundary_far_from_given_tips") {
   const Surface s = funnel(24, 6);
   RimLandmarks landmarks;

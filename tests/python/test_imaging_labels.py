@@ -14,7 +14,8 @@ from mvs import imaging  # noqa: E402
 from mvs.imaging import mesh  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
 from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
-from mvs.imaging.requests import thickness_of_labels  # noqa: E402
+from mvs.imaging.requests import edge_of_labels, thickness_of_labels  # noqa: E402
+from mvs.imaging.valve import check_closed  # noqa: E402
 
 VOXEL = 0.7  # mm, of ultrasound
 
@@ -175,6 +176,17 @@ def test_faults_of_label_maps_are_refused_with_a_sentence():
         imaging.leaflets_in(numbers, {"x": 1})
 
 
+def test_the_open_image_given_as_the_loaded_one_is_refused():
+    """No lengths of chordae follow from it; half a voxel of another phase is no closure either."""
+    labels, _ = funnel()
+    leaflets = imaging.leaflets_in(imaging.labels_of(image_of(labels)), {"1": 1, "2": 2})
+    same = leaflets.sheet
+    with pytest.raises(mvs.ArgumentError, match="open valve was given as the loaded one"):
+        imaging.build(leaflets, {}, same)
+    moved = mesh.Sheet(same.points + [0, 0, 3e-3], same.triangles)
+    check_closed(moved, same)
+
+
 def test_spacing_in_metres_or_cm_and_other_files_are_refused(tmp_path):
     labels, _ = funnel()
     for scale, words in ((1e-3, "metres"), (0.1, "cm"), (20, "at most 3 mm")):
@@ -299,6 +311,15 @@ def test_registration_by_landmarks_recovers_a_rigid_motion():
     turn *= np.sign(np.linalg.det(turn))
     motion, rms = imaging.motion_of_landmarks(start, start @ turn.T + [0.1, 0, -0.2])
     assert motion.turn == pytest.approx(turn, abs=1e-12) and rms < 1e-12
+
+
+@pytest.mark.parametrize(("voxel", "lost"), [(0.2e-3, 1.4e-3), (0.7e-3, 1.4e-3), (1e-3, 2e-3), (4e-3, 5e-3)])
+def test_fine_labels_may_lack_as_much_of_the_free_edge_as_coarse_ones(voxel, lost):
+    """The errors of networks are lengths, not voxels; above 5 mm a build refuses the value."""
+    found = edge_of_labels(voxel)
+    assert found["edge_lost"].values[0] == pytest.approx(lost)
+    assert f"{1e3 * lost:.2f} mm" in found["edge_lost"].sentence
+    assert found["edge_error"].values[0] == pytest.approx(voxel / 2)
 
 
 def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):

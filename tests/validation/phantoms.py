@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import json
 import os
 import shutil
 import sys
@@ -222,11 +223,20 @@ def table(rows: list[Row], spacing: float) -> str:
         lines.append("| median | " + " | ".join(medians) + " |")
     if not any(np.isfinite(r.low) for r in done):
         return "\n".join(lines)
-    held = sum(r.low - 0.1 <= r.leak <= r.high + 0.1 for r in done)  # leaks are equal to 0.1 mm2
-    lines += ["", f"{len(done)} of {len(rows)} recovered; voxels of {spacing:g} mm; true leak inside of "
-              f"the reported interval in {held} of {len(done)}; median interval "
-              f"{np.median([r.high - r.low for r in done]) if done else np.nan:.1f} mm2"]
+    lines += ["", f"{len(done)} of {len(rows)} recovered; voxels of {spacing:g} mm; {coverage(done)}"]
     return "\n".join(lines)
+
+
+def is_inside(row: Row) -> bool:
+    """Whether the interval contains the true leak; leaks are equal to 0.1 mm2."""
+    return row.low - 0.1 <= row.leak <= row.high + 0.1
+
+
+def coverage(rows: list[Row]) -> str:
+    """How many intervals contain the true leak, and how wide they are, in words."""
+    held = sum(map(is_inside, rows))
+    return (f"true leak inside of the reported interval in {held} of {len(rows)}; median interval "
+            f"{np.median([r.high - r.low for r in rows]) if rows else np.nan:.1f} mm2")
 
 
 def settings_of(arguments: argparse.Namespace, kind: str, seed: int) -> phantom.Settings:
@@ -257,6 +267,7 @@ def main() -> int:
     add("--law", metavar="LAW", help="tissue of the true leaflets [may_newman_yin]")
     add("--truth-only", action="store_true", help="no volumes: the true leak, and how far the law "
         "alone moves the closed shape")
+    add("--save", type=Path, metavar="FILE", help="the rows as JSON, for compare_phantoms.py")
     add("--keep", type=Path, metavar="DIR", help="keep the files that the recovery saw")
     arguments = parser.parse_args()
     count = arguments.cases or (2 if arguments.short else 4)
@@ -268,6 +279,7 @@ def main() -> int:
         spacing = settings.spacing
         with tempfile.TemporaryDirectory() as temporary:
             folder = arguments.keep / f"case{k}" if arguments.keep else Path(temporary)
+            name = f"{arguments.seed}, {name}"
             print(name, file=sys.stderr, flush=True)
             if arguments.truth_only:
                 rows.append(truth_of(name, valve(), settings))
@@ -275,6 +287,8 @@ def main() -> int:
                 rows.append(run_case(name, valve(), settings, folder, not arguments.fitted_only))
             print(f"  {rows[-1]}", file=sys.stderr, flush=True)
     print(table(rows, spacing or 0.0))
+    if arguments.save:
+        arguments.save.write_text(json.dumps([dataclasses.asdict(row) for row in rows], indent=1))
     return 0 if any(not row.refused for row in rows) else 1
 
 

@@ -39,17 +39,17 @@ std::vector<Vec3> fibre_directions(const PatientGeometry &g) {
   return direction;
 }
 
-// m, the move of each vertex along its fibre.
-std::vector<double> edge_moves(const PatientGeometry &g, double by) {
+// m, the move of each vertex along its fibre; `by` at the ends of their fibres.
+std::vector<double> edge_moves(const PatientGeometry &g, const std::vector<double> &by) {
   const SheetCoordinates &c = g.coordinates;
   std::vector<double> move(g.sheet.x.size(), 0);
   for (size_t i = 0; i < move.size(); ++i) {
-    const double wide = std::max(least_band, band_per_move * std::abs(by));
+    const double wide = std::max(least_band, band_per_move * std::abs(by[i]));
     const double band = std::min(wide, most_of_leaflet * c.whole[i]);
     const double from_edge = std::max(0.0, c.whole[i] - c.height[i]);
     if (!(from_edge < band)) continue;
     const double most = largest_stretch * band;
-    move[i] = std::clamp(by, -most, most) * (1 - from_edge / band);
+    move[i] = std::clamp(by[i], -most, most) * (1 - from_edge / band);
   }
   for (const uint32_t i : g.rims.annulus) move[i] = 0;
   return move;
@@ -76,6 +76,10 @@ std::vector<Vec3> moved_without_crossings(const PatientGeometry &g, std::vector<
 }  // namespace
 
 Valve with_edge_moved(const Valve &valve, const PatientGeometry &g, double by) {
+  return with_edge_moved(valve, g, std::vector<double>(g.sheet.x.size(), by));
+}
+
+Valve with_edge_moved(const Valve &valve, const PatientGeometry &g, const std::vector<double> &by) {
   Valve moved = valve;
   const std::vector<Vec3> x = moved_without_crossings(g, edge_moves(g, by));
   std::vector<Vec3> rest = valve.rest.get();

@@ -16,5 +16,7 @@ namespace mvs::core {
 // The nodes of `valve` begin with the vertices of the sheet of `g`. `by`: m, outwards; where a
 // leaflet is low, less. Where triangles would cross, the edge stays.
 Valve with_edge_moved(const Valve &valve, const PatientGeometry &g, double by);
+// `by`: at the end of the fibre of each vertex.
+Valve with_edge_moved(const Valve &valve, const PatientGeometry &g, const std::vector<double> &by);
 
 }  // namespace mvs::core

@@ -121,9 +121,10 @@ LengthRange range_after(const ChordFit &fit) {
   double sum = 0;
   for (const double deviation : fit.deviation) {
     range.group.push_back(std::min(range.all, half_range * deviation));
-    sum += range.group.back() * range.group.back() / static_cast<double>(fit.deviation.size());
+    sum += range.group.back() * range.group.back();
   }
-  range.all = std::sqrt(sum);
+  // of the mean of independent factors; as a common factor, their errors would never cancel
+  range.all = std::sqrt(sum) / static_cast<double>(fit.deviation.size());
   return range;
 }
 

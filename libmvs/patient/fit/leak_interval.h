@@ -26,7 +26,7 @@ struct LengthRange {
   std::vector<double> group;  // of each of the groups of ChordGrouping::halves; empty: `all`
   double single = 0.03;       // of a chord beside its group
 };
-// The range that a fit leaves open.
+// The range that a fit leaves open: of each group, and of the mean of all groups.
 LengthRange range_after(const ChordFit &fit);
 
 struct LeakInterval {

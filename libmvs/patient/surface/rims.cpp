@@ -20,6 +20,9 @@ namespace {
 // m: annulus points farther from the rim in the mean are of another frame or patient. Points by
 // hand on images of 0.7 mm lie within 3 mm; the height of the leaflets is 10 mm and more.
 constexpr double farthest_annulus = 8e-3;
+// m: a free edge so far from the plane of the annulus is on the side of the ventricle. Normal
+// leaflets reach 10 mm deep; at 2.5 mm noise of an image can turn the sign.
+constexpr double sure_depth = 5e-3;
 // m: papillary tips lie 15 to 40 mm below the annulus, also in a dilated ventricle.
 constexpr double farthest_papillary_tip = 70e-3;
 // m: the mean width of the orifice (twice its area over the length of the free edge). Real and
@@ -111,6 +114,16 @@ bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims
   return d0 <= d1;
 }
 
+// How much a rim looks like an annulus: its spanned area, times its roundness (4 pi area /
+// length^2) over the square of its turning, as the free edge has scallops. Annulus over free
+// edge: 2.2 for a parametric valve with a saddle of 9 mm, 3.1 for its default, 28 for a real valve
+// by ultrasound, 37 and more for designed ones. (Deviations from a plane mislead: a saddle is less
+// plane than many a free edge.)
+double annulus_likeness(const LoopShape &shape) {
+  const double area = shape.area.norm();
+  return area * area / (shape.length * shape.length * shape.turning * shape.turning);
+}
+
 bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
                    Finding &finding) {
   std::array<double, 2> apart{};
@@ -128,17 +141,16 @@ bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &ti
   finding.sentence = format(
       "the boundary whose middle is %.0f mm from the papillary tips; the other one is %.0f mm away",
       far * 1e3, near * 1e3);
-  return apart[0] >= apart[1];
-}
-
-// How much a rim looks like an annulus: its spanned area, times its roundness (4 pi area /
-// length^2) over the square of its turning, as the free edge has scallops. Annulus over free
-// edge: 2.2 for a parametric valve with a saddle of 9 mm, 3.1 for its default, 28 for a real valve
-// by ultrasound, 37 and more for designed ones. (Deviations from a plane mislead: a saddle is less
-// plane than many a free edge.)
-double annulus_likeness(const LoopShape &shape) {
-  const double area = shape.area.norm();
-  return area * area / (shape.length * shape.length * shape.turning * shape.turning);
+  const size_t annulus = apart[0] >= apart[1] ? 0 : 1;
+  const double odds =
+      annulus_likeness(rims[1 - annulus].shape) / annulus_likeness(rims[annulus].shape);
+  if (odds > 1) {
+    finding.confidence /= odds;
+    finding.sentence +=
+        "; by its shape the other one is the annulus: give points of the annulus, "
+        "and check the frame of the tips";
+  }
+  return annulus == 0;
 }
 
 bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
@@ -183,13 +195,16 @@ void orient(LeafletSheet &sheet, std::vector<RimLoop> &rims, const std::vector<V
   Finding finding;
   finding.name = "atrium";
   finding.sentence = format("the free edge lies %.1f mm below the annulus", std::abs(depth) * 1e3);
-  // normal leaflets reach 10 mm deep; at 2.5 mm noise of an image can turn the sign
-  finding.confidence = std::clamp(std::abs(depth) / 5e-3, 0.0, 1.0);
+  finding.confidence = std::clamp(std::abs(depth) / sure_depth, 0.0, 1.0);
   if (!tips.empty()) {
     up = 0;
     for (const Vec3 &tip : tips) up += axis.dot(annulus.centre - tip);
     up /= static_cast<double>(tips.size());
     const bool agree = (up > 0) == (depth > 0);
+    MVS_MUST(agree || std::abs(depth) < sure_depth, MVS_E_OP, "papillary_tips",
+             "the papillary tips lie %.1f mm from the annulus, and the free edge %.1f mm on the "
+             "other side: tips are below the leaflets; are both in one frame (LPS or RAS)?",
+             std::abs(up) * 1e3, std::abs(depth) * 1e3);
     finding.sentence = format(
         "away from the papillary tips, %.1f mm from the annulus; the free edge lies %.1f mm on %s "
         "side",

@@ -95,6 +95,7 @@ def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[She
     if leaflets.leaflet.any():
         arguments["triangle_leaflet"] = np.ascontiguousarray(leaflets.leaflet)
     if loaded is not None:
+        check_closed(loaded, sheet)
         arguments["closed_points"] = np.ascontiguousarray(loaded.points)
         arguments["closed_triangles"] = np.ascontiguousarray(loaded.triangles, dtype=np.uint32)
     with mvs.Simulator() as sim:
@@ -109,6 +110,19 @@ def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[She
     if loaded is not None:
         every.append(distance_from_image(closed, loaded))
     return ImageValve(opened, closed, stats.converged, leaflets, loaded, tuple(every), dict(given))
+
+
+LEAST_MOTION = 1e-3
+"""m, median: leaflets of phantoms and real valves move by 3 to 5 mm as they close."""
+
+
+def check_closed(loaded: Sheet, opened: Sheet) -> None:
+    """ArgumentError if the leaflets in the loaded image lie where the open ones do."""
+    away = float(np.median(distances(loaded.points, opened.points, opened.triangles)))
+    if away < LEAST_MOTION:
+        raise mvs.ArgumentError(
+            f"the leaflets in the loaded image lie {away * 1e3:.1f} mm (median) from the open ones: the "
+            "image of the open valve was given as the loaded one. Give that of the closed valve", "loaded")
 
 
 def leaflet_mesh(snapshot: mvs.Snapshot) -> tuple[Points, NDArray[np.int64]]:

@@ -1,0 +1,61 @@
+// One search over groups, the overhang of its closed valve, the edge moved by it.
+#include "patient/fit/extend_free_edge.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "patient/coordinates.h"
+#include "patient/fit/closure.h"
+#include "patient/fit/edge_overhang.h"
+#include "patient/fit/fit_over_levels.h"
+#include "patient/fit/free_edge_shift.h"
+
+namespace mvs::core {
+namespace {
+
+constexpr double least_mean = 0.1e-3;  // m: exact surfaces of one valve differ by as much
+
+// The valve with the lengths of a search from one start, closed from open.
+ClosedValve closed_roughly(const Valve &valve, const ClosedSurface &given,
+                           const FitProgress &progress) {
+  FitSettings settings;
+  settings.starts = 1;
+  settings.one_by_one = false;
+  settings.rounds = 3;
+  Valve fitted = valve;
+  Findings of_search;
+  fit_over_levels(fitted, given, settings, of_search, progress);
+  Solver solver(Backend::fastest);
+  return close_open(solver, make_model(std::move(fitted)), settings.pressure);
+}
+
+}  // namespace
+
+void extend_free_edge(Valve &valve, PatientGeometry &g, const ClosedSurface &given,
+                      Findings &findings, const FitProgress &progress) {
+  const ClosedValve closed = closed_roughly(valve, given, progress);
+  const SurfaceMatcher matcher(given, *closed.model, closed.state.x);
+  const std::vector<double> by =
+      edge_overhang(g, closed, matcher.match(*closed.model, closed.state.x));
+  double sum = 0, most = 0;
+  for (const uint32_t i : g.rims.free_edge) {
+    sum += by[i];
+    most = std::max(most, by[i]);
+  }
+  const double mean = sum / static_cast<double>(g.rims.free_edge.size());
+  if (mean < least_mean) return;
+  valve = with_edge_moved(valve, g, by);
+  std::copy_n(valve.rest.get().begin(), g.sheet.x.size(), g.sheet.x.begin());
+  g.coordinates = sheet_coordinates(g.sheet, g.rims);
+  findings.push_back(
+      {"edge_found",
+       FindingSource::guessed,
+       0.5,
+       format("the closed surface goes on past the free edge of the open one: the edge was moved "
+              "out by %.2f mm in the mean, at most %.2f mm",
+              mean * 1e3, most * 1e3),
+       {mean, most},
+       "m"});
+}
+
+}  // namespace mvs::core
