@@ -2,7 +2,10 @@
 // contact thickness apart, for a closed sequence that goes around the valve.
 #include "measure/orifice/seal.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <queue>
 #include <tuple>
 
@@ -50,10 +53,47 @@ class LinkTable {
   std::vector<Link> links_;
 };
 
+// The neighbours of lattice points with their positions. A point is an end of many links, so that
+// they are computed when it is met first, and kept.
+class Neighbours {
+ public:
+  struct Step {
+    SheetLattice::Step step;
+    Vec3 point;  // where it leads
+  };
+
+  explicit Neighbours(const SheetLattice &lattice)
+      : lattice_(lattice), range_(lattice.size(), {none, none}) {}
+
+  // Calls visit(Step) as SheetLattice::for_each_neighbour does.
+  template <typename Visit>
+  void for_each(uint32_t v, Visit &&visit) {
+    if (range_[v][0] == none) collect(v);
+    for (uint32_t k = range_[v][0]; k < range_[v][1]; ++k) visit(steps_[k]);
+  }
+
+ private:
+  void collect(uint32_t v) {
+    range_[v][0] = static_cast<uint32_t>(steps_.size());
+    lattice_.for_each_neighbour(v, [&](const SheetLattice::Step &step) {
+      steps_.push_back({step, lattice_.point(step.to)});
+    });
+    range_[v][1] = static_cast<uint32_t>(steps_.size());
+  }
+
+  const SheetLattice &lattice_;
+  std::vector<std::array<uint32_t, 2>> range_;  // of each point: its steps, once collected
+  std::vector<Step> steps_;
+};
+
 class Zip {
  public:
   Zip(const SheetLattice &lattice, double longest, size_t most)
-      : lattice_(lattice), longest2_(longest * longest), most_(most), table_(most + 64) {}
+      : lattice_(lattice),
+        neighbours_(lattice),
+        longest2_(longest * longest),
+        most_(most),
+        table_(most + 64) {}
 
   // Starts from the link of a point with itself.
   void start(uint32_t v) { add({v, v, 0, 0}); }
@@ -65,6 +105,7 @@ class Zip {
   void move_end(const Link &link, const Vec3 &other);
 
   const SheetLattice &lattice_;
+  Neighbours neighbours_;
   double longest2_;
   size_t most_;
   LinkTable table_;
@@ -85,9 +126,10 @@ void Zip::add(Link link) {
 // Adds the links after one step of q. The triangle of p and this step is within half a contact
 // thickness of the sheet: each of its points is between p and a point of the step.
 void Zip::move_end(const Link &link, const Vec3 &p) {
-  lattice_.for_each_neighbour(link.q, [&](const SheetLattice::Step &step) {
-    if ((lattice_.point(step.to) - p).squaredNorm() > longest2_) return;
+  neighbours_.for_each(link.q, [&](const Neighbours::Step &next) {
+    if ((next.point - p).squaredNorm() > longest2_) return;
     if (table_.size() >= most_) return;
+    const SheetLattice::Step &step = next.step;
     add({link.p, step.to, link.turns + step.turns, link.angle + step.angle});
   });
 }

@@ -1,14 +1,13 @@
 // Surface of least area with a rim that slides on the sheet: node by node majorise-minimise sweeps,
-// in which the area never increases.
+// in which the area never increases, first with the triangles of the cut, then with finer ones.
 #include "measure/orifice/smallest_surface.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "linalg/small_solve.h"
-#include "measure/tissue/surface.h"
+#include "measure/orifice/rail.h"
 #include "model/sides.h"
 
 namespace mvs::core::orifice {
@@ -18,51 +17,44 @@ namespace {
 // not below the spacing of the samples.
 constexpr double edge_of_size = 0.15;
 constexpr int max_sweeps = 100;
+// Relative decrease of area in the last sweep, of the cut as it is and of the refined one. Without
+// nodes inside, the rim comes near its place in a few cheap sweeps.
+constexpr double enough_coarse = 1e-4, enough = 1e-5;
 constexpr double overshoot = 1.7;  // of the move of a free node: 1.5 to 1.8 need the fewest sweeps
-constexpr double enough = 1e-5;    // relative decrease of area in the last sweep
+// What takes most sweeps is that long parts of the rim move together. After so many sweeps the
+// motion of the last two is continued, at first so many times as far; no sliding node by more than
+// this many spacings of samples, since it could skip a fold.
+constexpr int sweeps_between = 6, sweeps_of_motion = 2;
+constexpr double continued_by = 4, most_continued = 1e3, longest_slide = 0.5;
 // A rim edge whose midpoint is farther from the sheet than this share of its length does not run
 // along the sheet. The value is 0.13 over a crease of 60 degrees, 0.5 across a sealed passage.
 constexpr double off_of_length = 0.15;
-// Radius around a node in which the triangles nearest to it are collected, in spacings of samples.
-constexpr double around_of_grain = 0.25;
 
 enum class Hold : uint8_t { free, slides, stays };
 enum class OnRim : uint8_t { unknown, no, yes };
 
 class Shrinking {
  public:
-  Shrinking(const Sheet &sheet, const TriangleBvh &tree, Mesh mesh, size_t on_samples);
-  Mesh run();
+  Shrinking(const Rail &sheet, Mesh mesh, size_t on_samples);
+  // Ends when a sweep lowers the area by less than this share.
+  Mesh run(double least_decrease);
 
  private:
-  // Triangles near a place of a node: no others matter for points near it.
-  struct Around {
-    Vec3 centre = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
-    std::vector<uint32_t> triangles;
-  };
-
   void hold_rim(size_t on_samples);
   void list_triangles();
   double sweep();
   double area_around(uint32_t v, const Vec3 &p) const;
-  static void collect(const TriangleBvh &tree, double distance, Around &around);
-  TriangleBvh::Hit nearest(uint32_t v, const Vec3 &p);
   Vec3 move_of(uint32_t v);
   Vec3 slide(uint32_t v, const Vec3 &p);
-  bool is_on_rim(uint32_t v, const Vec3 &p);
   bool may_move(uint32_t v) const;
   double try_move(uint32_t v, const Vec3 &move);
+  void continue_motion(const std::vector<Vec3> &from);
 
-  const Sheet &sheet_;
-  std::vector<Tri> rim_edges_;
-  TriangleBvh rim_tree_;
-  const TriangleBvh &tree_;   // of the sheet
-  std::vector<Vec3> normal_;  // of the sheet, per node
+  const Rail &sheet_;
+  RailSearch search_;
   Mesh mesh_;
   std::vector<Hold> hold_;
   std::vector<std::array<uint32_t, 2>> rim_;  // per node: the next ones along the rim, or none
-  std::vector<uint32_t> nearest_;             // per node: the last triangle of the sheet found
-  std::vector<Around> around_, around_rim_;   // per node: of the sheet, and of its rim
   std::vector<OnRim> on_rim_;                 // per node: whether it lies on a rim of the sheet
   // Per node: the number of the move that brought it here, and of the moves before it failed to
   // move.
@@ -72,16 +64,8 @@ class Shrinking {
   std::vector<Edge> opposite_;
 };
 
-Shrinking::Shrinking(const Sheet &sheet, const TriangleBvh &tree, Mesh mesh, size_t on_samples)
-    : sheet_(sheet),
-      rim_edges_(as_triangles(sheet.rim)),
-      rim_tree_(rim_edges_, sheet.mesh.x),
-      tree_(tree),
-      normal_(mvs::core::surface_of(sheet.mesh.triangles, sheet.mesh.x).node_normal),
-      mesh_(std::move(mesh)) {
-  nearest_.assign(mesh_.x.size(), none);
-  around_.resize(mesh_.x.size());
-  around_rim_.resize(mesh_.x.size());
+Shrinking::Shrinking(const Rail &sheet, Mesh mesh, size_t on_samples)
+    : sheet_(sheet), search_(sheet, mesh.x.size()), mesh_(std::move(mesh)) {
   on_rim_.assign(mesh_.x.size(), OnRim::unknown);
   moved_.assign(mesh_.x.size(), 1);
   failed_.assign(mesh_.x.size(), 0);
@@ -102,7 +86,7 @@ void Shrinking::hold_rim(size_t on_samples) {
     const Edge &e = sides[first].edge;
     const Vec3 middle = 0.5 * (mesh_.x[e[0]] + mesh_.x[e[1]]);
     const double off = off_of_length * (mesh_.x[e[0]] - mesh_.x[e[1]]).norm();
-    const bool along = last == first + 1 && tree_.is_within(middle, off);
+    const bool along = last == first + 1 && sheet_.tree.is_within(middle, off);
     for (int k = 0; k < 2; ++k) {
       Hold &hold = hold_[e[k]];
       hold = along && hold != Hold::stays ? Hold::slides : Hold::stays;
@@ -135,36 +119,6 @@ double Shrinking::area_around(uint32_t v, const Vec3 &p) const {
   return 0.5 * twice;
 }
 
-// Lists the triangles of a tree whose boxes are within a distance of the centre.
-void Shrinking::collect(const TriangleBvh &tree, double distance, Around &around) {
-  const double limit = (1 + 1e-9) * distance, limit2 = limit * limit;
-  around.triangles.clear();
-  tree.visit_near(around.centre, limit2, [&](uint32_t t) {
-    if (tree.box_of(t).distance2(around.centre) <= limit2) around.triangles.push_back(t);
-  });
-}
-
-// The point of the sheet nearest to a place of a node. It has moved little since the last time, so
-// that the triangles around serve many times.
-TriangleBvh::Hit Shrinking::nearest(uint32_t v, const Vec3 &p) {
-  Around &around = around_[v];
-  const double radius = around_of_grain * sheet_.grain;
-  if (nearest_[v] == none) nearest_[v] = tree_.closest(p).triangle;
-  if (!((p - around.centre).squaredNorm() <= radius * radius)) {
-    // at a distance d from the centre, the sheet is within d + radius of points around it, whose
-    // closest triangles are within d + 2 radius of the centre
-    const double d = std::sqrt(tree_.closest_on(nearest_[v], p).distance2);
-    around.centre = p;
-    collect(tree_, d + 2 * radius, around);
-  }
-  ClosestSoFar best(tree_, p);
-  best.look_at(nearest_[v]);
-  for (const uint32_t t : around.triangles) best.look_at(t);
-  const TriangleBvh::Hit hit = best.hit();
-  nearest_[v] = hit.triangle;
-  return hit;
-}
-
 // Returns the move that minimises a quadratic upper bound of the area around a node. The area of
 // each triangle is its opposite edge times the distance h from it, and h <= h2 / (2 h0) + h0 / 2
 // for the present h0: the minimum of the sum of these bounds has no larger area than the present
@@ -187,12 +141,7 @@ Vec3 Shrinking::move_of(uint32_t v) {
     stiffness += 1e-6 * stiffness.trace() * Mat3::Identity();
     return solve_positive(stiffness, force);
   }
-  const TriangleBvh::Hit hit = nearest(v, x);
-  const TrianglePoint where = tree_.closest_on(hit.triangle, x);
-  Vec3 normal = Vec3::Zero();
-  for (int k = 0; k < 3; ++k) {
-    normal += where.weight[k] * normal_[sheet_.mesh.triangles[hit.triangle][k]];
-  }
+  const Vec3 normal = sheet_.normal_at(search_.nearest(v, x).triangle, x);
   // perpendicular to the rim, in the sheet: motion along the rim would only crowd its nodes
   const bool on_rim = rim_[v][1] != none;
   const Vec3 tangent =
@@ -206,20 +155,9 @@ Vec3 Shrinking::move_of(uint32_t v) {
 // along the rim, which would round off corners or shorten a slit from its end.
 Vec3 Shrinking::slide(uint32_t v, const Vec3 &p) {
   const Vec3 &x = mesh_.x[v];
-  const Vec3 there = nearest(v, p).point;
-  if (on_rim_[v] == OnRim::unknown) on_rim_[v] = is_on_rim(v, x) ? OnRim::yes : OnRim::no;
-  return on_rim_[v] == OnRim::yes && is_on_rim(v, there) ? x : there;
-}
-
-bool Shrinking::is_on_rim(uint32_t v, const Vec3 &p) {
-  Around &around = around_rim_[v];
-  const double radius = around_of_grain * sheet_.grain, on = 1e-3 * sheet_.grain;
-  if (!((p - around.centre).squaredNorm() <= radius * radius)) {
-    around.centre = p;
-    collect(rim_tree_, radius + on, around);
-  }
-  return std::any_of(around.triangles.begin(), around.triangles.end(),
-                     [&](uint32_t t) { return rim_tree_.closest_on(t, p).distance2 < on * on; });
+  const Vec3 there = search_.nearest(v, p).point;
+  if (on_rim_[v] == OnRim::unknown) on_rim_[v] = search_.is_on_rim(v, x) ? OnRim::yes : OnRim::no;
+  return on_rim_[v] == OnRim::yes && search_.is_on_rim(v, there) ? x : there;
 }
 
 // Applies the move, or a part of it, if that lowers the area; returns the decrease.
@@ -230,6 +168,7 @@ double Shrinking::try_move(uint32_t v, const Vec3 &move) {
     if (part > 1 && hold_[v] != Hold::free) continue;
     Vec3 p = mesh_.x[v] + part * move;
     if (hold_[v] == Hold::slides) p = slide(v, p);
+    if (p == mesh_.x[v]) continue;
     const double after = area_around(v, p);
     if (after >= before) continue;
     mesh_.x[v] = p;
@@ -260,9 +199,44 @@ double Shrinking::sweep() {
   return gain;
 }
 
-Mesh Shrinking::run() {
-  for (int k = 0; k < max_sweeps; ++k) {
-    if (sweep() < enough * area_of(mesh_)) break;
+// Moves all nodes on along their motion since `from`, twice as far each time, as long as the area
+// falls.
+void Shrinking::continue_motion(const std::vector<Vec3> &from) {
+  const std::vector<Vec3> here = mesh_.x;
+  double farthest = 0;
+  for (uint32_t v = 0; v < here.size(); ++v) {
+    if (hold_[v] == Hold::slides) farthest = std::max(farthest, (here[v] - from[v]).norm());
+  }
+  std::vector<Vec3> best = here;
+  double least = area_of(mesh_), times = continued_by;
+  while (times * farthest < longest_slide * sheet_.grain && times < most_continued) {
+    for (uint32_t v = 0; v < here.size(); ++v) {
+      const Vec3 motion = here[v] - from[v];
+      mesh_.x[v] = here[v];
+      if (motion.isZero(0)) continue;
+      const Vec3 p = here[v] + times * motion;
+      mesh_.x[v] = hold_[v] == Hold::slides ? slide(v, p) : p;
+    }
+    const double area = area_of(mesh_);
+    if (area >= least) break;
+    least = area;
+    best = mesh_.x;
+    times *= 2;
+  }
+  mesh_.x = std::move(best);
+  for (uint32_t v = 0; v < here.size(); ++v) {
+    if (mesh_.x[v] == here[v]) continue;
+    on_rim_[v] = OnRim::unknown;
+    moved_[v] = ++moves_;
+  }
+}
+
+Mesh Shrinking::run(double least_decrease) {
+  std::vector<Vec3> from;
+  for (int k = 1; k <= max_sweeps; ++k) {
+    if (sweep() < least_decrease * area_of(mesh_)) break;
+    if (k % sweeps_between == sweeps_between - sweeps_of_motion) from = mesh_.x;
+    if (k % sweeps_between == 0) continue_motion(from);
   }
   return std::move(mesh_);
 }
@@ -274,11 +248,13 @@ Mesh smallest_surface(const Sheet &sheet, const TriangleBvh &tree, const Samples
   Mesh mesh = compact_mesh(samples.point, cut);
   if (cut.empty()) return mesh;
   const size_t on_samples = mesh.x.size();
+  const Rail rail(sheet, tree);
+  mesh = Shrinking(rail, std::move(mesh), on_samples).run(enough_coarse);
   const double longest = std::max(sheet.grain, edge_of_size * std::sqrt(area_of(mesh)));
   bisect(mesh, [&](const BisectEdge &edge) {
     return !edge.on_rim && (edge.b - edge.a).norm() > longest;
   });
-  return Shrinking(sheet, tree, std::move(mesh), on_samples).run();
+  return Shrinking(rail, std::move(mesh), on_samples).run(enough);
 }
 
 }  // namespace mvs::core::orifice
