@@ -743,6 +743,18 @@ export const SensitivityNotes = {
   note_extreme: 32,
   /** the orifice: its rim is taken as fixed in the tissue */
   note_envelope: 64,
+  /**
+   * contact begins, ends or passes from a face to an edge or a corner: see ABOVE, BELOW. Contact
+   * that begins has the mean stiffness of its first `slack`
+   */
+  note_contact: 128,
+  /** a spring or chord passes the kink of a bilinear law: see ABOVE, BELOW */
+  note_kink: 256,
+  /**
+   * of a parameter with one of these notes that was solved directly: the forces confirm ABOVE and
+   * BELOW, each on its side, to 1 %
+   */
+  note_sides: 512,
 } as const;
 export type SensitivityNotes = keyof typeof SensitivityNotes;
 
@@ -752,7 +764,10 @@ export const SensitivityArray = {
   value: 1,
   /** F64 q x p, a row a quantity */
   derivative: 2,
-  /** F64 q x p: derivatives for a growing parameter; equal to DERIVATIVE without weak chordae */
+  /**
+   * F64 q x p: derivatives for a growing parameter; equal to DERIVATIVE where nothing is about to
+   * switch, NaN where more than 64 places are
+   */
   above: 3,
   /** F64 q x p: the same for a falling one */
   below: 4,
@@ -764,6 +779,8 @@ export const SensitivityArray = {
   weak_chords: 7,
   /** F64 (p n) x 3: dx/dp of all nodes for each parameter in turn; empty unless asked for */
   motion: 8,
+  /** U32: vertices whose contact is about to switch, in the order of its search; may repeat */
+  weak_contacts: 9,
 } as const;
 export type SensitivityArray = keyof typeof SensitivityArray;
 
