@@ -81,7 +81,8 @@ typedef struct mvs_quantity {
 enum mvs_sensitivity_flags_e {
   MVS_SENSITIVITY_MOTION = 1 << 0,   /* also dx/dp of all nodes: MVS_SENSITIVITY_ARRAY_MOTION */
   MVS_SENSITIVITY_DIRECT = 1 << 1,   /* one solution for each parameter, with few quantities too */
-  MVS_SENSITIVITY_NO_TEST = 1 << 2,  /* no test of both sides: faster, for fits */
+  MVS_SENSITIVITY_NO_TEST = 1 << 2,  /* no test of both sides, and chordae alone are looked at for
+                                        switches: faster, for fits */
   MVS_SENSITIVITY_NO_MARGIN = 1 << 3 /* no eigenvalue: stiffness_margin is NaN */
 };
 typedef uint32_t mvs_sensitivity_flags;
@@ -97,7 +98,9 @@ typedef struct mvs_sensitivity_options {
                    1e-9 to 1e-3 */
 } mvs_sensitivity_options;
 
-/* Flags of a quantity or a parameter. */
+/* Flags of a quantity or a parameter. CHORD, CONTACT and KINK are given where the step of the test
+ * reaches a switch that matters; adjoint solutions do not know the motion by each parameter, and
+ * give parameters those of every switch that may matter. */
 enum mvs_sensitivity_notes_e {
   MVS_SENSITIVITY_NOTE_SWITCH = 1 << 0, /* the forces of both sides differ: contact, chordae or the
                                            law of a spring switch within `slack`. A parameter is

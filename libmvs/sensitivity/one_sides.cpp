@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "sensitivity/settings.h"
+#include "sensitivity/side_test.h"
 
 namespace mvs::core {
 namespace {
@@ -93,27 +94,44 @@ mvs_sensitivity_notes OneSides::notes_where(const Sides &sides, Matters matters)
   return notes;
 }
 
-mvs_sensitivity_notes OneSides::notes_of_parameter(size_t p, const Sides &sides) const {
-  const size_t m = switches_.size(), quantities = request_.quantities.size();
-  double fastest = 0;
-  if (response_.has_motions()) {
-    fastest = fastest_of(response_.motion(p));
-  } else {
-    for (const double rate : rates_of(p, {})) fastest = std::max(fastest, std::abs(rate));
-  }
-  mvs_sensitivity_notes notes = notes_where(sides, [&](size_t j, double force) {
-    double moved = 0;
-    if (response_.has_motions()) {
-      moved = fastest_of(motion_[j]);
-    } else {
-      for (size_t i = 0; i < m; ++i) moved = std::max(moved, std::abs(flexibility_[i * m + j]));
-    }
-    return moved * force > settings::sensitivity::mean_error * fastest;
+mvs_sensitivity_notes OneSides::notes_of_motion(const Sides &sides, double fastest) const {
+  return notes_where(sides, [&](size_t j, double force) {
+    return fastest_of(motion_[j]) * force > settings::sensitivity::mean_error * fastest;
   });
-  for (size_t q = 0; q < quantities; ++q) {
+}
+
+// Without motions: by the rates of the switches themselves.
+mvs_sensitivity_notes OneSides::notes_of_parameter(size_t p, const Sides &sides) const {
+  const size_t m = switches_.size();
+  mvs_sensitivity_notes notes = 0;
+  if (response_.has_motions()) {
+    notes = notes_of_motion(sides, fastest_of(response_.motion(p)));
+  } else {
+    double fastest = 0;
+    for (const double rate : rates_of(p, {})) fastest = std::max(fastest, std::abs(rate));
+    notes = notes_where(sides, [&](size_t j, double force) {
+      double moved = 0;
+      for (size_t i = 0; i < m; ++i) moved = std::max(moved, std::abs(flexibility_[i * m + j]));
+      return moved * force > settings::sensitivity::mean_error * fastest;
+    });
+  }
+  for (size_t q = 0; q < request_.quantities.size(); ++q) {
     if (!response_.gradient(q).by_differences) notes |= notes_of_quantity(q, p, sides);
   }
   return notes;
+}
+
+mvs_sensitivity_notes OneSides::notes_along(std::span<const ParameterStep> steps,
+                                            const NodeField &motion) const {
+  std::vector<double> rates;
+  for (size_t j = 0; j < switches_.size(); ++j) {
+    double rate = dot_of(response_.gradient(request_.quantities.size() + j).by_position, motion);
+    for (const ParameterStep &step : steps) {
+      rate += step.by * own_rate(request_.model, switches_[j], *step.parameter);
+    }
+    rates.push_back(rate);
+  }
+  return notes_of_motion(sides_along(rates, fastest_along(steps, motion)), fastest_of(motion));
 }
 
 mvs_sensitivity_notes OneSides::notes_of_quantity(size_t q, size_t p, const Sides &sides) const {
@@ -124,11 +142,25 @@ mvs_sensitivity_notes OneSides::notes_of_quantity(size_t q, size_t p, const Side
 }
 
 OneSides::Sides OneSides::sides_of(size_t p) const {
-  std::vector<double> rates = rates_of(p, {});
+  double fastest = 0;
+  if (response_.has_motions()) {
+    const ParameterStep step = {&request_.parameters[p], 1};
+    fastest = fastest_along({&step, 1}, response_.motion(p));
+  }
+  return sides_along(rates_of(p, {}), fastest);
+}
+
+// `fastest`: displacement of the fastest node, 0 if it is not known.
+OneSides::Sides OneSides::sides_along(std::vector<double> rates, double fastest) const {
+  std::vector<Switch> reached = switches_;
+  for (size_t j = 0; j < reached.size(); ++j) {
+    if (std::abs(reached[j].over) * fastest <= slack_ * std::abs(rates[j])) continue;
+    reached[j].up = reached[j].down = reached[j].strength = 0;
+  }
   Sides sides;
-  sides.up = extra_forces(switches_, flexibility_, rates, slack_);
+  sides.up = extra_forces(reached, flexibility_, rates, slack_);
   for (double &rate : rates) rate = -rate;
-  sides.down = extra_forces(switches_, flexibility_, rates, slack_);
+  sides.down = extra_forces(reached, flexibility_, rates, slack_);
   for (double &t : sides.down) t = -t;
   return sides;
 }

@@ -19,11 +19,16 @@ class OneSides {
     std::vector<double> up, down;
     bool is_known() const { return !up.empty() && !down.empty(); }
   };
+  // Without the switches that a step by `slack` of the fastest node, if it is known, does not
+  // reach.
   Sides sides_of(size_t p) const;
   // Notes of the switches whose forces change the motion by parameter p, or its derivative of
   // quantity q, by more than the error that the side test allows.
   mvs_sensitivity_notes notes_of_parameter(size_t p, const Sides &sides) const;
   mvs_sensitivity_notes notes_of_quantity(size_t q, size_t p, const Sides &sides) const;
+  // The same for the motion by several parameters.
+  mvs_sensitivity_notes notes_along(std::span<const ParameterStep> steps,
+                                    const NodeField &motion) const;
 
   // The change of the derivative of quantity q by parameter p that extra forces make.
   double change_of(size_t q, size_t p, const std::vector<double> &forces) const;
@@ -33,6 +38,8 @@ class OneSides {
   std::vector<double> rates_of(size_t p, const std::vector<double> &forces) const;
 
  private:
+  Sides sides_along(std::vector<double> rates, double fastest) const;
+  mvs_sensitivity_notes notes_of_motion(const Sides &sides, double fastest) const;
   // The change of quantity q by a unit force of switch j.
   double change_by(size_t q, size_t j) const;
   template <typename Matters>

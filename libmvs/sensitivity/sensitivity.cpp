@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "base/error.h"
 #include "sensitivity/idle_branches.h"
@@ -43,7 +44,8 @@ class Differentiation {
   const SensitivityOptions &options_;
   EquilibriumTangent tangent_;
   std::vector<Switch> switches_;
-  bool snaps_ = false;  // a fold is about to snap
+  std::unique_ptr<OneSides> one_sides_;  // where something is about to switch
+  bool snaps_ = false;                   // a fold is about to snap
   uint32_t solves_ = 0;
   Sensitivity result_;
 };
@@ -67,7 +69,11 @@ std::vector<QuantityGradient> Differentiation::gradients() {
   }
   result_.parameter_notes.assign(parameters.size(), 0);
   result_.nodes = model.node_count();
-  switches_ = find_switches(model, state.x, options_.slack, tangent_);
+  switches_ = find_chord_switches(model, state.x, options_.slack);
+  if (options_.tests) {
+    find_kinks(model, state.x, options_.slack, tangent_.energy().springs(), switches_);
+    find_contact_switches(model, state.x, options_.slack, tangent_.energy(), switches_);
+  }
   for (const Switch &at : switches_) {
     if (at.kind == SwitchKind::chord) result_.weak_chords.push_back(at.index);
     if (at.kind == SwitchKind::contact) result_.weak_contacts.push_back(at.index);
@@ -104,7 +110,8 @@ void Differentiation::add_one_sides(const LinearResponse &response) {
     result_.below = result_.above;
     return;
   }
-  const OneSides one_sides(request_, response, switches_, tangent_, options_.slack);
+  one_sides_ = std::make_unique<OneSides>(request_, response, switches_, tangent_, options_.slack);
+  const OneSides &one_sides = *one_sides_;
   solves_ += static_cast<uint32_t>(switches_.size());
   for (size_t p = 0; p < request_.parameters.size(); ++p) {
     const OneSides::Sides sides = one_sides.sides_of(p);
@@ -115,7 +122,10 @@ void Differentiation::add_one_sides(const LinearResponse &response) {
       result_.above[at(q, p)] += sides.up.empty() ? unknown : one_sides.change_of(q, p, sides.up);
       result_.below[at(q, p)] +=
           sides.down.empty() ? unknown : one_sides.change_of(q, p, sides.down);
-      result_.quantity_notes[q] |= one_sides.notes_of_quantity(q, p, sides);
+      // with tests: along the gradient
+      if (!options_.tests) {
+        result_.quantity_notes[q] |= one_sides.notes_of_quantity(q, p, sides);
+      }
     }
     if (options_.tests && response.has_motions() && sides.is_known() &&
         confirms(one_sides, p, sides.up, 1) && confirms(one_sides, p, sides.down, -1)) {
@@ -159,8 +169,10 @@ void Differentiation::test_quantities(LinearResponse &response) {
       const double slope = result_.derivative[at(q, p)];
       if (slope != 0) steps.push_back({&parameter, scale * scale * slope});
     }
-    if (steps.empty() || holds(steps, response.motion_of(steps))) continue;
-    result_.quantity_notes[q] |= MVS_SENSITIVITY_NOTE_SWITCH;
+    if (steps.empty()) continue;
+    const NodeField motion = response.motion_of(steps);
+    if (one_sides_) result_.quantity_notes[q] |= one_sides_->notes_along(steps, motion);
+    if (!holds(steps, motion)) result_.quantity_notes[q] |= MVS_SENSITIVITY_NOTE_SWITCH;
   }
 }
 

@@ -10,18 +10,6 @@
 namespace mvs::core {
 namespace {
 
-// The displacement of the fastest node, or the change of a chord's own length, by which it may
-// become taut alone.
-double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion) {
-  double fastest = fastest_of(motion);
-  for (const ParameterStep &step : steps) {
-    if (step.parameter->kind == ParameterKind::chord_rest_length) {
-      fastest = std::max(fastest, std::abs(step.by));
-    }
-  }
-  return fastest;
-}
-
 // The change of the forces on one side.
 NodeField force_at(const Model &model, const State &state, EquilibriumTangent &tangent,
                    std::span<const ParameterStep> direction, const NodeField &motion, double h) {
@@ -36,6 +24,16 @@ NodeField force_at(const Model &model, const State &state, EquilibriumTangent &t
 }
 
 }  // namespace
+
+double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion) {
+  double fastest = fastest_of(motion);
+  for (const ParameterStep &step : steps) {
+    if (step.parameter->kind == ParameterKind::chord_rest_length) {
+      fastest = std::max(fastest, std::abs(step.by));
+    }
+  }
+  return fastest;
+}
 
 bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
                          std::span<const ParameterStep> steps, const NodeField &motion,
@@ -66,6 +64,7 @@ bool holds_on_one_side(const Model &model, const State &state, EquilibriumTangen
   NodeField e = force_at(model, state, tangent, steps, moved.motion, h);
   // with the motion of these switches K dx + g_p = -sum t a, and they begin at their places
   for (size_t i = 0; i < switches.size(); ++i) {
+    if (moved.forces[i] == 0) continue;
     const double force = extra_force(switches[i], h * moved.rates[i]) / h;
     for (const NodeVector &v : switches[i].gradient) {
       if (!model.topology.fixed[v.node]) e[v.node] -= (force - moved.forces[i]) * v.value;

@@ -14,6 +14,10 @@
 
 namespace mvs::core {
 
+// The displacement of the fastest node, or the change of a chord's own length, by which it may
+// become taut alone.
+double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion);
+
 // `motion` is dx for the change `steps` of the parameters. Takes two solutions.
 bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
                          std::span<const ParameterStep> steps, const NodeField &motion,

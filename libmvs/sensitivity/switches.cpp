@@ -39,16 +39,21 @@ void add_chord(const Model &model, uint32_t c, double kink, const std::vector<Ve
 
 }  // namespace
 
-std::vector<Switch> find_switches(const Model &model, const std::vector<Vec3> &x, double slack,
-                                  EquilibriumTangent &tangent) {
-  const Valve &valve = model.valve;
+std::vector<Switch> find_chord_switches(const Model &model, const std::vector<Vec3> &x,
+                                        double slack) {
   std::vector<Switch> list;
-  for (uint32_t c = 0; c < valve.chords.size(); ++c) add_chord(model, c, 0, x, slack, list);
+  for (uint32_t c = 0; c < model.valve.chords.size(); ++c) add_chord(model, c, 0, x, slack, list);
+  return list;
+}
+
+void find_kinks(const Model &model, const std::vector<Vec3> &x, double slack,
+                const SpringTerm &springs, std::vector<Switch> &to) {
+  const Valve &valve = model.valve;
   for (uint32_t c = 0; c < valve.chords.size(); ++c) {
     const Chord &chord = valve.chords[c];
-    if (chord.law == ChordLawId::bilinear) add_chord(model, c, chord.constants[0], x, slack, list);
+    if (chord.law == ChordLawId::bilinear) add_chord(model, c, chord.constants[0], x, slack, to);
   }
-  for (const SpringTerm::Kink &at : tangent.energy().springs().find_kinks(x, slack)) {
+  for (const SpringTerm::Kink &at : springs.find_kinks(x, slack)) {
     Switch s;
     s.kind = SwitchKind::kink;
     s.index = at.leaflet;
@@ -58,10 +63,8 @@ std::vector<Switch> find_switches(const Model &model, const std::vector<Vec3> &x
     (at.over >= 0 ? s.down : s.up) = at.over >= 0 ? -at.jump : at.jump;
     s.rest_length = at.rest_length;
     s.kink = valve.leaflets[at.leaflet].constants[2];
-    list.push_back(s);
+    to.push_back(s);
   }
-  find_contact_switches(model, x, slack, tangent.energy(), list);
-  return list;
 }
 
 NodeField field_of(const Model &model, const Switch &s) {

@@ -29,12 +29,14 @@ struct Switch {
   bool begins() const { return strength != 0; }
 };
 
-// The switches within `slack`, m: first chordae, then springs, then contact. `tangent` has measured
-// contact at x last.
-std::vector<Switch> find_switches(const Model &model, const std::vector<Vec3> &x, double slack,
-                                  EquilibriumTangent &tangent);
-
-// Appends those of contact: between leaflets, and of leaflets with balls and rods.
+// Chordae that become slack or taut within `slack`, m.
+std::vector<Switch> find_chord_switches(const Model &model, const std::vector<Vec3> &x,
+                                        double slack);
+// Appends the kinks of bilinear laws of chordae and springs.
+void find_kinks(const Model &model, const std::vector<Vec3> &x, double slack,
+                const SpringTerm &springs, std::vector<Switch> &to);
+// Appends those of contact, between leaflets, and of leaflets with balls and rods; `energy` is
+// prepared for x.
 void find_contact_switches(const Model &model, const std::vector<Vec3> &x, double slack,
                            TotalEnergy &energy, std::vector<Switch> &to);
 

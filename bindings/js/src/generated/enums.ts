@@ -717,7 +717,7 @@ export const SensitivityFlags = {
   motion: 1,
   /** one solution for each parameter, with few quantities too */
   direct: 2,
-  /** no test of both sides: faster, for fits */
+  /** no test of both sides, and chordae alone are looked at for switches: faster, for fits */
   no_test: 4,
   /** no eigenvalue: stiffness_margin is NaN */
   no_margin: 8,
@@ -731,7 +731,12 @@ export const SensitivityNotes = {
    * A parameter is tested along itself, a quantity along its gradient
    */
   note_switch: 1,
-  /** a chord is about to switch: see the arrays ABOVE, BELOW */
+  /**
+   * a chord is about to switch: see the arrays ABOVE, BELOW. This note and those of CONTACT and
+   * KINK are given where the step of the test reaches the switch and it matters. With adjoint
+   * solutions the motion by one parameter is not known, and those of parameters are given wherever
+   * it may
+   */
   note_chord: 2,
   /** the smallest eigenvalue of the tangent is near zero */
   note_snap: 4,
