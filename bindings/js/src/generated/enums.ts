@@ -724,19 +724,18 @@ export const SensitivityFlags = {
 } as const;
 export type SensitivityFlags = keyof typeof SensitivityFlags;
 
-/** Flags of a quantity or a parameter. */
+/**
+ * Flags of a quantity or a parameter. CHORD, CONTACT and KINK are given where the step of the test
+ * reaches a switch that matters; adjoint solutions do not know the motion by each parameter, and
+ * give parameters those of every switch that may matter.
+ */
 export const SensitivityNotes = {
   /**
    * the forces of both sides differ: contact, chordae or the law of a spring switch within `slack`.
    * A parameter is tested along itself, a quantity along its gradient
    */
   note_switch: 1,
-  /**
-   * a chord is about to switch: see the arrays ABOVE, BELOW. This note and those of CONTACT and
-   * KINK are given where the step of the test reaches the switch and it matters. With adjoint
-   * solutions the motion by one parameter is not known, and those of parameters are given wherever
-   * it may
-   */
+  /** a chord is about to switch: see the arrays ABOVE, BELOW */
   note_chord: 2,
   /** the smallest eigenvalue of the tangent is near zero */
   note_snap: 4,
