@@ -9,8 +9,9 @@
  *
  * A derivative holds in a neighbourhood that may be small: chordae become slack or taut, contact
  * changes from a face to an edge, folds snap. mvs_sensitivity_run tests the forces on both sides at
- * a distance `slack` and flags parameters and quantities whose derivative does not hold there; near
- * chordae that are about to switch it also returns the derivatives of both sides. */
+ * a distance `slack` and flags parameters and quantities whose derivative does not hold there. Near
+ * chordae, springs and contact that are about to switch it also returns the derivatives of both
+ * sides, and says which of them the forces confirm. */
 #ifndef MVS_SENSITIVITY_H
 #define MVS_SENSITIVITY_H
 
@@ -80,7 +81,8 @@ typedef struct mvs_quantity {
 enum mvs_sensitivity_flags_e {
   MVS_SENSITIVITY_MOTION = 1 << 0,   /* also dx/dp of all nodes: MVS_SENSITIVITY_ARRAY_MOTION */
   MVS_SENSITIVITY_DIRECT = 1 << 1,   /* one solution for each parameter, with few quantities too */
-  MVS_SENSITIVITY_NO_TEST = 1 << 2,  /* no test of both sides: faster, for fits */
+  MVS_SENSITIVITY_NO_TEST = 1 << 2,  /* no test of both sides, and chordae alone are looked at for
+                                        switches: faster, for fits */
   MVS_SENSITIVITY_NO_MARGIN = 1 << 3 /* no eigenvalue: stiffness_margin is NaN */
 };
 typedef uint32_t mvs_sensitivity_flags;
@@ -90,11 +92,15 @@ typedef struct mvs_sensitivity_options {
   uint32_t struct_size;
   mvs_sensitivity_flags flags; /* MVS_SENSITIVITY_MOTION, ... */
   double slack; /* m [1e-7]: a derivative is tested where it moves the fastest node by
-                   this much, and chordae this near to their rest length are
-                   about to switch; 1e-9 to 1e-3 */
+                   this much, and chordae this near to their rest length, springs
+                   this near to the kink of their law and contact this near to
+                   its begin or to another closest feature are about to switch;
+                   1e-9 to 1e-3 */
 } mvs_sensitivity_options;
 
-/* Flags of a quantity or a parameter. */
+/* Flags of a quantity or a parameter. CHORD, CONTACT and KINK are given where the step of the test
+ * reaches a switch that matters; adjoint solutions do not know the motion by each parameter, and
+ * give parameters those of every switch that may matter. */
 enum mvs_sensitivity_notes_e {
   MVS_SENSITIVITY_NOTE_SWITCH = 1 << 0, /* the forces of both sides differ: contact, chordae or the
                                            law of a spring switch within `slack`. A parameter is
@@ -106,7 +112,15 @@ enum mvs_sensitivity_notes_e {
                                                 libmvs/measure/DEFINITIONS.md */
   MVS_SENSITIVITY_NOTE_EXTREME = 1 << 5,     /* a largest or smallest value: its derivative changes
                                                 where another place takes over */
-  MVS_SENSITIVITY_NOTE_ENVELOPE = 1 << 6 /* the orifice: its rim is taken as fixed in the tissue */
+  MVS_SENSITIVITY_NOTE_ENVELOPE = 1 << 6, /* the orifice: its rim is taken as fixed in the tissue */
+  MVS_SENSITIVITY_NOTE_CONTACT = 1 << 7, /* contact begins, ends or passes from a face to an edge or
+                                            a corner: see ABOVE, BELOW. Contact that begins has the
+                                            mean stiffness of its first `slack` */
+  MVS_SENSITIVITY_NOTE_KINK = 1 << 8,    /* a spring or chord passes the kink of a bilinear law: see
+                                            ABOVE, BELOW */
+  MVS_SENSITIVITY_NOTE_SIDES = 1 << 9    /* of a parameter with one of these notes that was solved
+                                            directly: the forces confirm ABOVE and BELOW, each on its
+                                            side, to 1 % */
 };
 typedef uint32_t mvs_sensitivity_notes;
 
@@ -131,11 +145,11 @@ typedef struct mvs_sensitivity_summary {
   uint32_t struct_size;
   uint32_t quantities;
   uint32_t parameters;
-  uint32_t smooth;         /* 1: no NOTE_SWITCH, NOTE_CHORD or NOTE_SNAP */
+  uint32_t smooth;         /* 1: no NOTE_SWITCH, NOTE_CHORD, NOTE_CONTACT, NOTE_KINK, NOTE_SNAP */
   uint32_t adjoint_solves; /* solutions with the transpose of K */
   uint32_t direct_solves;  /* solutions with K, those of tests included */
   uint32_t weak_chords;    /* chordae within `slack` of their rest length */
-  uint32_t reserved;
+  uint32_t weak_contacts;  /* switches of contact and kinks of laws within `slack` */
   double residual;         /* N, out-of-balance force of the snapshot */
   double linear_error;     /* largest |K y - b| / |b| of all solutions */
   double stiffness_margin; /* N/m, smallest eigenvalue of the symmetric part of K over the
@@ -151,13 +165,16 @@ enum mvs_sensitivity_array_e {
   MVS_SENSITIVITY_ARRAY_VALUE = 1,      /* F64 q */
   MVS_SENSITIVITY_ARRAY_DERIVATIVE = 2, /* F64 q x p, a row a quantity */
   MVS_SENSITIVITY_ARRAY_ABOVE = 3,      /* F64 q x p: derivatives for a growing parameter; equal to
-                                           DERIVATIVE without weak chordae */
+                                           DERIVATIVE where nothing is about to switch, NaN where
+                                           more than 64 places are */
   MVS_SENSITIVITY_ARRAY_BELOW = 4,      /* F64 q x p: the same for a falling one */
   MVS_SENSITIVITY_ARRAY_QUANTITY_NOTES = 5,  /* U32 q: MVS_SENSITIVITY_NOTE_* */
   MVS_SENSITIVITY_ARRAY_PARAMETER_NOTES = 6, /* U32 p: MVS_SENSITIVITY_NOTE_* */
   MVS_SENSITIVITY_ARRAY_WEAK_CHORDS = 7,     /* U32: indices of chord segments */
-  MVS_SENSITIVITY_ARRAY_MOTION = 8           /* F64 (p n) x 3: dx/dp of all nodes for each parameter
+  MVS_SENSITIVITY_ARRAY_MOTION = 8,          /* F64 (p n) x 3: dx/dp of all nodes for each parameter
                                                 in turn; empty unless asked for */
+  MVS_SENSITIVITY_ARRAY_WEAK_CONTACTS = 9    /* U32: vertices whose contact is about to switch, in
+                                                the order of its search; may repeat */
 };
 typedef uint32_t mvs_sensitivity_array;
 

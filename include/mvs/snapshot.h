@@ -209,7 +209,7 @@ MVS_API mvs_result mvs_snapshot_get_stability(const mvs_snapshot *snapshot,
                                               mvs_stability *stability);
 
 /* Measures of a valve (fields: MVS_STRUCT_MEASURES). Definitions and sources:
- * libmvs/measure/README.md. */
+ * libmvs/measure/DEFINITIONS.md. */
 typedef struct mvs_measures {
   uint32_t struct_size;
   uint32_t intersections;          /* pairs of triangles that cross (exact test) */
@@ -321,7 +321,7 @@ MVS_API mvs_result mvs_snapshot_get_orifice_part(const mvs_snapshot *snapshot, u
 
 /* Returns the working range of chordae of a kind: largest strain and tension in N; infinite for
  * sutures. Chordae rupture beyond this range; a chord outside it deserves inspection. Sources:
- * libmvs/measure/README.md. */
+ * libmvs/measure/DEFINITIONS.md. */
 MVS_API mvs_result mvs_get_chord_limits(mvs_chord_kind kind, double *strain, double *tension);
 
 /* Measures a snapshot. The first call computes the measures, later calls return the same ones. */

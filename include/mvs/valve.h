@@ -102,7 +102,8 @@ MVS_API mvs_result mvs_get_chord_law(uint32_t index, mvs_law *law);
 typedef struct mvs_leaflet_desc {
   const char *name;    /* "A", "P", or free text; required, unique */
   mvs_id id;           /* [assigned by the library] */
-  mvs_leaflet_law law; /* MVS_LEAFLET_LAW_* [spring] */
+  mvs_leaflet_law law; /* MVS_LEAFLET_LAW_* [spring, the founding model; bilinear is
+                          recommended] */
   uint32_t reserved;
   double thickness;    /* m [1e-3] */
   double constants[8]; /* of the law */

@@ -76,8 +76,9 @@ std::vector<Quantity> read_quantities(const mvs_snapshot &snapshot, const mvs_qu
 }
 
 mvs_sensitivity_summary summary_of(const mvs_sensitivity &result) {
-  constexpr mvs_sensitivity_notes rough =
-      MVS_SENSITIVITY_NOTE_SWITCH | MVS_SENSITIVITY_NOTE_CHORD | MVS_SENSITIVITY_NOTE_SNAP;
+  constexpr mvs_sensitivity_notes rough = MVS_SENSITIVITY_NOTE_SWITCH | MVS_SENSITIVITY_NOTE_CHORD |
+                                          MVS_SENSITIVITY_NOTE_CONTACT | MVS_SENSITIVITY_NOTE_KINK |
+                                          MVS_SENSITIVITY_NOTE_SNAP;
   const auto is_smooth = [](const std::vector<mvs_sensitivity_notes> &notes) {
     return std::none_of(notes.begin(), notes.end(),
                         [](mvs_sensitivity_notes n) { return (n & rough) != 0; });
@@ -90,6 +91,7 @@ mvs_sensitivity_summary summary_of(const mvs_sensitivity &result) {
   summary.adjoint_solves = found.adjoint_solves;
   summary.direct_solves = found.direct_solves;
   summary.weak_chords = static_cast<uint32_t>(found.weak_chords.size());
+  summary.weak_contacts = static_cast<uint32_t>(found.weak_contacts.size()) + found.kinks;
   summary.residual = found.residual;
   summary.linear_error = found.linear_error;
   summary.stiffness_margin = found.stiffness_margin;
@@ -122,6 +124,8 @@ mvs_view array_of(const mvs_sensitivity &result, mvs_sensitivity_array which) {
       return view_of(found.parameter_notes);
     case MVS_SENSITIVITY_ARRAY_WEAK_CHORDS:
       return view_of(found.weak_chords);
+    case MVS_SENSITIVITY_ARRAY_WEAK_CONTACTS:
+      return view_of(found.weak_contacts);
     case MVS_SENSITIVITY_ARRAY_MOTION:
       return {found.motion.data(), found.motion.size(), 3, MVS_TYPE_F64, sizeof(Vec3)};
     default:

@@ -1,6 +1,8 @@
 // Builds the springs of the edges and evaluates them.
 #include "energy/spring.h"
 
+#include <cmath>
+
 namespace mvs::core {
 
 SpringTerm::SpringTerm(const Model &model) {
@@ -84,6 +86,19 @@ void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System
 
 void SpringTerm::add_pairs(std::vector<Edge> &pairs) const {
   for (const Spring &s : springs_) pairs.push_back({s.i, s.j});
+}
+
+std::vector<SpringTerm::Kink> SpringTerm::find_kinks(const std::vector<Vec3> &x,
+                                                     double slack) const {
+  std::vector<Kink> found;
+  for (const Spring &s : springs_) {
+    const Bilinear &law = laws_[s.law];
+    const double over = (x[s.j] - x[s.i]).norm() - s.length * (1 + law.kink);
+    if (!(std::abs(over) <= slack)) continue;
+    const double jump = s.section * s.per_length * (law.high - law.low);
+    found.push_back({{s.i, s.j}, s.law, s.length, over, jump});
+  }
+  return found;
 }
 
 template void SpringTerm::add_gradient(const std::vector<Vec3> &, WholeGradient &) const;

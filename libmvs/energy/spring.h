@@ -36,6 +36,16 @@ class SpringTerm {
   void energies(const std::vector<Vec3> &x, size_t first, size_t last, double *to) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
+  // Springs whose lengths are within `slack`, m, of the kink of their law.
+  struct Kink {
+    Edge nodes;
+    uint32_t leaflet;
+    double rest_length;
+    double over;  // m, beyond the kink
+    double jump;  // N/m, of the stiffness
+  };
+  std::vector<Kink> find_kinks(const std::vector<Vec3> &x, double slack) const;
+
  private:
   // One law on one edge: an edge between two leaflets has two.
   struct Spring {

@@ -84,6 +84,7 @@ class TotalEnergy {
   const std::vector<Edge> &pairs() const { return pairs_; }
   const BroadPhase &broad_phase() const { return broad_phase_; }
   const ContactTerm &contact() const { return contact_; }
+  const SpringTerm &springs() const { return spring_; }
   InstrumentTerm &instrument() { return instrument_; }
 
  private:

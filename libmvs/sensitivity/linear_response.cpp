@@ -3,6 +3,7 @@
 #include "sensitivity/linear_response.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mvs::core {
 
@@ -10,6 +11,12 @@ double dot_of(const NodeField &a, const NodeField &b) {
   double sum = 0;
   for (size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
   return sum;
+}
+
+double fastest_of(const NodeField &field) {
+  double square = 0;
+  for (const Vec3 &v : field) square = std::max(square, v.squaredNorm());
+  return std::sqrt(square);
 }
 
 namespace {

@@ -52,5 +52,7 @@ class LinearResponse {
 };
 
 double dot_of(const NodeField &a, const NodeField &b);
+// The largest of its vectors.
+double fastest_of(const NodeField &field);
 
 }  // namespace mvs::core

@@ -1,24 +1,38 @@
-// Solutions for unit tensions of the weak chordae with the kept factor, then a small problem for
-// each parameter and side.
+// Solutions for unit forces along the switches with the kept factor, then a small problem for each
+// parameter and side.
 #include "sensitivity/one_sides.h"
 
-namespace mvs::core {
+#include <algorithm>
+#include <cmath>
 
-NodeField elongation_gradient(const Model &model, const WeakChord &weak) {
-  NodeField g(model.node_count(), Vec3::Zero());
-  g[model.valve.chords[weak.chord].a] -= weak.along;
-  g[model.valve.chords[weak.chord].b] += weak.along;
-  return g;
+#include "sensitivity/settings.h"
+#include "sensitivity/side_test.h"
+
+namespace mvs::core {
+namespace {
+
+mvs_sensitivity_notes note_of(SwitchKind kind) {
+  switch (kind) {
+    case SwitchKind::chord:
+      return MVS_SENSITIVITY_NOTE_CHORD;
+    case SwitchKind::kink:
+      return MVS_SENSITIVITY_NOTE_KINK;
+    case SwitchKind::contact:
+      break;
+  }
+  return MVS_SENSITIVITY_NOTE_CONTACT;
 }
 
+}  // namespace
+
 OneSides::OneSides(const SensitivityRequest &request, const LinearResponse &response,
-                   const std::vector<WeakChord> &weak, EquilibriumTangent &tangent)
-    : request_(request), response_(response), weak_(weak) {
-  for (const WeakChord &chord : weak) {
-    motion_.push_back(elongation_gradient(request.model, chord));
+                   const std::vector<Switch> &switches, EquilibriumTangent &tangent, double slack)
+    : request_(request), response_(response), switches_(switches), slack_(slack) {
+  for (const Switch &s : switches) {
+    motion_.push_back(field_of(request.model, s));
     tangent.solve(motion_.back(), false);
   }
-  const size_t m = weak.size(), first = request.quantities.size();
+  const size_t m = switches.size(), first = request.quantities.size();
   flexibility_.assign(m * m, 0);
   for (size_t i = 0; i < m; ++i) {
     for (size_t j = 0; j < m; ++j) {
@@ -27,63 +41,127 @@ OneSides::OneSides(const SensitivityRequest &request, const LinearResponse &resp
   }
 }
 
-// Rates of the elongations beyond the rest lengths.
-std::vector<double> OneSides::rates_of(size_t p) const {
-  const Parameter &parameter = request_.parameters[p];
+std::vector<double> OneSides::rates_of(size_t p, const std::vector<double> &forces) const {
+  const size_t m = switches_.size();
   std::vector<double> rates;
-  for (size_t i = 0; i < weak_.size(); ++i) {
-    const double rate = response_.row(request_.quantities.size() + i, p);
-    const bool own =
-        parameter.kind == ParameterKind::chord_rest_length && parameter.index == weak_[i].chord;
-    rates.push_back(own ? rate - 1 : rate);
+  for (size_t i = 0; i < m; ++i) {
+    double rate = response_.row(request_.quantities.size() + i, p) +
+                  own_rate(request_.model, switches_[i], request_.parameters[p]);
+    for (size_t j = 0; j < forces.size(); ++j) rate -= flexibility_[i * m + j] * forces[j];
+    rates.push_back(rate);
   }
   return rates;
 }
 
-double OneSides::change_of(size_t q, size_t p, const std::vector<double> &t) const {
+NodeField OneSides::motion_of(size_t p, const std::vector<double> &forces) const {
+  NodeField motion = response_.motion(p);
+  for (size_t j = 0; j < forces.size(); ++j) {
+    for (size_t i = 0; i < motion.size(); ++i) motion[i] -= forces[j] * motion_[j][i];
+  }
+  return motion;
+}
+
+double OneSides::change_of(size_t q, size_t p, const std::vector<double> &forces) const {
   const QuantityGradient &g = response_.gradient(q);
   if (g.by_differences) {
-    NodeField motion = response_.motion(p);
-    for (size_t j = 0; j < t.size(); ++j) {
-      for (size_t i = 0; i < motion.size(); ++i) motion[i] -= t[j] * motion_[j][i];
-    }
     return measure_difference(request_.model, request_.state, request_.quantities[q],
-                              request_.parameters[p], motion) -
+                              request_.parameters[p], motion_of(p, forces)) -
            response_.row(q, p);
   }
   double sum = 0;
-  for (size_t j = 0; j < t.size(); ++j) {
-    double by_tension = -dot_of(g.by_position, motion_[j]);
-    for (const ChordShare &share : g.tension) {
-      if (share.chord == weak_[j].chord) by_tension += share.factor;
-    }
-    sum += by_tension * t[j];
-  }
+  for (size_t j = 0; j < forces.size(); ++j) sum += change_by(q, j) * forces[j];
   return sum;
 }
 
-std::vector<double> OneSides::changes(size_t p, const std::vector<double> &tensions) const {
-  std::vector<double> list;
-  for (size_t q = 0; q < request_.quantities.size(); ++q) {
-    list.push_back(change_of(q, p, tensions));
+double OneSides::change_by(size_t q, size_t j) const {
+  const QuantityGradient &g = response_.gradient(q);
+  double change = -dot_of(g.by_position, motion_[j]);
+  for (const ChordShare &share : g.tension) {
+    if (switches_[j].is_chord && share.chord == switches_[j].index) change += share.factor;
   }
-  return list;
+  return change;
+}
+
+// Calls matters(switch, force) with the larger of both sides. Where no state is known all matter.
+template <typename Matters>
+mvs_sensitivity_notes OneSides::notes_where(const Sides &sides, Matters matters) const {
+  mvs_sensitivity_notes notes = 0;
+  for (size_t j = 0; j < switches_.size(); ++j) {
+    const bool counts =
+        !sides.is_known() || matters(j, std::max(std::abs(sides.up[j]), std::abs(sides.down[j])));
+    if (counts) notes |= note_of(switches_[j].kind);
+  }
+  return notes;
+}
+
+mvs_sensitivity_notes OneSides::notes_of_motion(const Sides &sides, double fastest) const {
+  return notes_where(sides, [&](size_t j, double force) {
+    return fastest_of(motion_[j]) * force > settings::sensitivity::mean_error * fastest;
+  });
+}
+
+// Without motions: by the rates of the switches themselves.
+mvs_sensitivity_notes OneSides::notes_of_parameter(size_t p, const Sides &sides) const {
+  const size_t m = switches_.size();
+  mvs_sensitivity_notes notes = 0;
+  if (response_.has_motions()) {
+    notes = notes_of_motion(sides, fastest_of(response_.motion(p)));
+  } else {
+    double fastest = 0;
+    for (const double rate : rates_of(p, {})) fastest = std::max(fastest, std::abs(rate));
+    notes = notes_where(sides, [&](size_t j, double force) {
+      double moved = 0;
+      for (size_t i = 0; i < m; ++i) moved = std::max(moved, std::abs(flexibility_[i * m + j]));
+      return moved * force > settings::sensitivity::mean_error * fastest;
+    });
+  }
+  for (size_t q = 0; q < request_.quantities.size(); ++q) {
+    if (!response_.gradient(q).by_differences) notes |= notes_of_quantity(q, p, sides);
+  }
+  return notes;
+}
+
+mvs_sensitivity_notes OneSides::notes_along(std::span<const ParameterStep> steps,
+                                            const NodeField &motion) const {
+  std::vector<double> rates;
+  for (size_t j = 0; j < switches_.size(); ++j) {
+    double rate = dot_of(response_.gradient(request_.quantities.size() + j).by_position, motion);
+    for (const ParameterStep &step : steps) {
+      rate += step.by * own_rate(request_.model, switches_[j], *step.parameter);
+    }
+    rates.push_back(rate);
+  }
+  return notes_of_motion(sides_along(rates, fastest_along(steps, motion)), fastest_of(motion));
+}
+
+mvs_sensitivity_notes OneSides::notes_of_quantity(size_t q, size_t p, const Sides &sides) const {
+  if (response_.gradient(q).by_differences) return notes_of_parameter(p, sides);
+  const double least = settings::sensitivity::mean_error * std::abs(response_.row(q, p));
+  return notes_where(
+      sides, [&](size_t j, double force) { return std::abs(change_by(q, j)) * force > least; });
 }
 
 OneSides::Sides OneSides::sides_of(size_t p) const {
-  const std::vector<double> rates = rates_of(p);
-  std::vector<double> falling = rates;
-  for (double &rate : falling) rate = -rate;
-  const std::vector<double> up = extra_tensions(weak_, flexibility_, rates);
-  std::vector<double> down = extra_tensions(weak_, flexibility_, falling);
-  for (double &t : down) t = -t;
+  double fastest = 0;
+  if (response_.has_motions()) {
+    const ParameterStep step = {&request_.parameters[p], 1};
+    fastest = fastest_along({&step, 1}, response_.motion(p));
+  }
+  return sides_along(rates_of(p, {}), fastest);
+}
+
+// `fastest`: displacement of the fastest node, 0 if it is not known.
+OneSides::Sides OneSides::sides_along(std::vector<double> rates, double fastest) const {
+  std::vector<Switch> reached = switches_;
+  for (size_t j = 0; j < reached.size(); ++j) {
+    if (std::abs(reached[j].over) * fastest <= slack_ * std::abs(rates[j])) continue;
+    reached[j].up = reached[j].down = reached[j].strength = 0;
+  }
   Sides sides;
-  sides.switches = up.empty() || down.empty();
-  for (const double t : up) sides.switches = sides.switches || t != 0;
-  for (const double t : down) sides.switches = sides.switches || t != 0;
-  if (!sides.switches) return sides;
-  if (!up.empty()) sides.above = changes(p, up);
-  if (!down.empty()) sides.below = changes(p, down);
+  sides.up = extra_forces(reached, flexibility_, rates, slack_);
+  for (double &rate : rates) rate = -rate;
+  sides.down = extra_forces(reached, flexibility_, rates, slack_);
+  for (double &t : sides.down) t = -t;
   return sides;
 }
 

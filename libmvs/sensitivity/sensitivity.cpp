@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "base/error.h"
 #include "sensitivity/idle_branches.h"
@@ -17,6 +18,8 @@ namespace mvs::core {
 namespace {
 
 namespace set = settings::sensitivity;
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 class Differentiation {
  public:
@@ -33,13 +36,16 @@ class Differentiation {
   void test_parameters(const LinearResponse &response);
   void test_quantities(LinearResponse &response);
   bool holds(std::span<const ParameterStep> steps, const NodeField &motion);
+  bool confirms(const OneSides &one_sides, size_t p, const std::vector<double> &forces,
+                double side);
   size_t at(size_t q, size_t p) const { return q * request_.parameters.size() + p; }
 
   const SensitivityRequest &request_;
   const SensitivityOptions &options_;
   EquilibriumTangent tangent_;
-  std::vector<WeakChord> weak_;
-  bool snaps_ = false;  // a fold is about to snap
+  std::vector<Switch> switches_;
+  std::unique_ptr<OneSides> one_sides_;  // where something is about to switch
+  bool snaps_ = false;                   // a fold is about to snap
   uint32_t solves_ = 0;
   Sensitivity result_;
 };
@@ -47,13 +53,12 @@ class Differentiation {
 void Differentiation::find_margin() {
   const double rate = must_be_stable(request_.model, request_.state, tangent_);
   result_.residual = tangent_.residual();
-  result_.stiffness_margin = options_.with_margin ? tangent_.smallest_stiffness()
-                                                  : std::numeric_limits<double>::quiet_NaN();
+  result_.stiffness_margin = options_.with_margin ? tangent_.smallest_stiffness() : unknown;
   snaps_ = tangent_.is_definite() ? result_.stiffness_margin < set::near_snap
                                   : rate > -set::near_snap_rate;
 }
 
-// Gradients of the quantities, then of the elongations of weak chordae.
+// Gradients of the quantities, then of the switches.
 std::vector<QuantityGradient> Differentiation::gradients() {
   const auto &[model, state, quantities, parameters] = request_;
   std::vector<QuantityGradient> list;
@@ -64,11 +69,18 @@ std::vector<QuantityGradient> Differentiation::gradients() {
   }
   result_.parameter_notes.assign(parameters.size(), 0);
   result_.nodes = model.node_count();
-  weak_ = find_weak_chords(model, state.x, options_.slack);
-  for (const WeakChord &weak : weak_) {
-    result_.weak_chords.push_back(weak.chord);
-    list.emplace_back().by_position = elongation_gradient(model, weak);
+  switches_ = find_chord_switches(model, state.x, options_.slack);
+  if (options_.tests) {
+    find_kinks(model, state.x, options_.slack, tangent_.energy().springs(), switches_);
+    find_contact_switches(model, state.x, options_.slack, tangent_.energy(), switches_);
   }
+  for (const Switch &at : switches_) {
+    if (at.kind == SwitchKind::chord) result_.weak_chords.push_back(at.index);
+    if (at.kind == SwitchKind::contact) result_.weak_contacts.push_back(at.index);
+    result_.kinks += at.kind == SwitchKind::kink;
+  }
+  if (switches_.size() > set::most_switches) return list;
+  for (const Switch &at : switches_) list.emplace_back().by_position = field_of(model, at);
   return list;
 }
 
@@ -89,20 +101,47 @@ void Differentiation::add_one_sides(const LinearResponse &response) {
   const std::vector<double> &rows = response.rows();
   result_.derivative.assign(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(size));
   result_.above = result_.below = result_.derivative;
-  if (weak_.empty()) return;
-  if (weak_.size() > max_weak_chords) return note_everywhere(MVS_SENSITIVITY_NOTE_CHORD);
-  const OneSides one_sides(request_, response, weak_, tangent_);
-  solves_ += static_cast<uint32_t>(weak_.size());
+  if (switches_.empty()) return;
+  if (switches_.size() > set::most_switches) {
+    if (!result_.weak_chords.empty()) note_everywhere(MVS_SENSITIVITY_NOTE_CHORD);
+    if (!result_.weak_contacts.empty()) note_everywhere(MVS_SENSITIVITY_NOTE_CONTACT);
+    if (result_.kinks > 0) note_everywhere(MVS_SENSITIVITY_NOTE_KINK);
+    result_.above.assign(size, unknown);
+    result_.below = result_.above;
+    return;
+  }
+  one_sides_ = std::make_unique<OneSides>(request_, response, switches_, tangent_, options_.slack);
+  const OneSides &one_sides = *one_sides_;
+  solves_ += static_cast<uint32_t>(switches_.size());
   for (size_t p = 0; p < request_.parameters.size(); ++p) {
     const OneSides::Sides sides = one_sides.sides_of(p);
-    if (!sides.switches) continue;
-    result_.parameter_notes[p] |= MVS_SENSITIVITY_NOTE_CHORD;
+    const mvs_sensitivity_notes notes = one_sides.notes_of_parameter(p, sides);
+    if (notes == 0) continue;
+    result_.parameter_notes[p] |= notes;
     for (size_t q = 0; q < count; ++q) {
-      if (!sides.above.empty()) result_.above[at(q, p)] += sides.above[q];
-      if (!sides.below.empty()) result_.below[at(q, p)] += sides.below[q];
-      result_.quantity_notes[q] |= MVS_SENSITIVITY_NOTE_CHORD;
+      result_.above[at(q, p)] += sides.up.empty() ? unknown : one_sides.change_of(q, p, sides.up);
+      result_.below[at(q, p)] +=
+          sides.down.empty() ? unknown : one_sides.change_of(q, p, sides.down);
+      // with tests: along the gradient
+      if (!options_.tests) {
+        result_.quantity_notes[q] |= one_sides.notes_of_quantity(q, p, sides);
+      }
+    }
+    if (options_.tests && response.has_motions() && sides.is_known() &&
+        confirms(one_sides, p, sides.up, 1) && confirms(one_sides, p, sides.down, -1)) {
+      result_.parameter_notes[p] |= MVS_SENSITIVITY_NOTE_SIDES;
     }
   }
+}
+
+// Whether the forces on one side follow the motion there.
+bool Differentiation::confirms(const OneSides &one_sides, size_t p,
+                               const std::vector<double> &forces, double side) {
+  ++solves_;
+  const ParameterStep step = {&request_.parameters[p], 1};
+  const SideMotion moved = {one_sides.motion_of(p, forces), one_sides.rates_of(p, forces), forces};
+  return holds_on_one_side(request_.model, request_.state, tangent_, {&step, 1}, moved, switches_,
+                           side * options_.slack);
 }
 
 bool Differentiation::holds(std::span<const ParameterStep> steps, const NodeField &motion) {
@@ -130,8 +169,10 @@ void Differentiation::test_quantities(LinearResponse &response) {
       const double slope = result_.derivative[at(q, p)];
       if (slope != 0) steps.push_back({&parameter, scale * scale * slope});
     }
-    if (steps.empty() || holds(steps, response.motion_of(steps))) continue;
-    result_.quantity_notes[q] |= MVS_SENSITIVITY_NOTE_SWITCH;
+    if (steps.empty()) continue;
+    const NodeField motion = response.motion_of(steps);
+    if (one_sides_) result_.quantity_notes[q] |= one_sides_->notes_along(steps, motion);
+    if (!holds(steps, motion)) result_.quantity_notes[q] |= MVS_SENSITIVITY_NOTE_SWITCH;
   }
 }
 

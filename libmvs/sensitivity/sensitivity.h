@@ -1,6 +1,6 @@
 // Derivatives of quantities of an equilibrium with respect to parameters: adjoint or direct
 // differentiation with the exact tangent, a test of both sides, and one-sided derivatives where
-// chordae are about to become slack or taut.
+// chordae, springs or contact are about to switch.
 #pragma once
 
 #include "sensitivity/quantities.h"
@@ -18,7 +18,9 @@ struct Sensitivity {
   std::vector<double> derivative, above, below;  // a row a quantity
   std::vector<mvs_sensitivity_notes> quantity_notes, parameter_notes;
   std::vector<uint32_t> weak_chords;
-  NodeField motion;  // dx/dp of each parameter in turn
+  std::vector<uint32_t> weak_contacts;  // their vertices
+  uint32_t kinks = 0;                   // of springs and chordae
+  NodeField motion;                     // dx/dp of each parameter in turn
   uint32_t adjoint_solves = 0, direct_solves = 0;
   double residual = 0, linear_error = 0, stiffness_margin = 0;
 };

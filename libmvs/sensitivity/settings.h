@@ -32,6 +32,13 @@ inline constexpr double measure_step = 1e-8, raster_step = 1e-4;
 // sides, which only a switch makes, and half of their difference, which curvature makes as well.
 inline constexpr double mean_error = 3e-5, side_error = 1e-2;
 
+// Switches up to which one-sided derivatives are computed: each takes a solution. Changes of their
+// states: of all that contradict at first, one by one later. And Newton's method for contact that
+// begins, relative to the fastest switch.
+inline constexpr size_t most_switches = 64;
+inline constexpr int most_state_changes = 300, block_changes = 8, newton_iterations = 60;
+inline constexpr double newton_tolerance = 1e-12;
+
 // Share of the rest tolerance by which the out-of-balance force may exceed it: by rounding.
 inline constexpr double rest_share = 1.01;
 

@@ -3,19 +3,15 @@
 
 #include <algorithm>
 
+#include "sensitivity/linear_response.h"
 #include "sensitivity/settings.h"
+#include "sensitivity/switch_problem.h"
 
 namespace mvs::core {
 namespace {
 
-double fastest_of(const NodeField &field) {
-  double square = 0;
-  for (const Vec3 &v : field) square = std::max(square, v.squaredNorm());
-  return std::sqrt(square);
-}
-
-// The error of the motion on one side.
-NodeField error_at(const Model &model, const State &state, EquilibriumTangent &tangent,
+// The change of the forces on one side.
+NodeField force_at(const Model &model, const State &state, EquilibriumTangent &tangent,
                    std::span<const ParameterStep> direction, const NodeField &motion, double h) {
   std::vector<Vec3> x = state.x;
   for (size_t i = 0; i < x.size(); ++i) x[i] += h * motion[i];
@@ -24,27 +20,32 @@ NodeField error_at(const Model &model, const State &state, EquilibriumTangent &t
   NodeField e = tangent.gradient_at(x);
   add_change(model, steps, x, e);
   for (size_t i = 0; i < e.size(); ++i) e[i] = (e[i] - tangent.gradient()[i]) / h;
-  tangent.solve(e, false);
   return e;
 }
 
 }  // namespace
 
-bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
-                         std::span<const ParameterStep> steps, const NodeField &motion,
-                         double slack) {
-  namespace set = settings::sensitivity;
+double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion) {
   double fastest = fastest_of(motion);
   for (const ParameterStep &step : steps) {
-    // a chord may become taut by its own length alone
     if (step.parameter->kind == ParameterKind::chord_rest_length) {
       fastest = std::max(fastest, std::abs(step.by));
     }
   }
+  return fastest;
+}
+
+bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
+                         std::span<const ParameterStep> steps, const NodeField &motion,
+                         double slack) {
+  namespace set = settings::sensitivity;
+  const double fastest = fastest_along(steps, motion);
   if (fastest == 0) return true;
   const double h = slack / fastest;
-  const NodeField above = error_at(model, state, tangent, steps, motion, h);
-  const NodeField below = error_at(model, state, tangent, steps, motion, -h);
+  NodeField above = force_at(model, state, tangent, steps, motion, h);
+  NodeField below = force_at(model, state, tangent, steps, motion, -h);
+  tangent.solve(above, false);
+  tangent.solve(below, false);
   NodeField mean(above.size()), half(above.size());
   for (size_t i = 0; i < mean.size(); ++i) {
     mean[i] = 0.5 * (above[i] + below[i]);
@@ -52,6 +53,25 @@ bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTang
   }
   return fastest_of(mean) <= set::mean_error * fastest_of(motion) &&
          fastest_of(half) <= set::side_error * fastest_of(motion);
+}
+
+bool holds_on_one_side(const Model &model, const State &state, EquilibriumTangent &tangent,
+                       std::span<const ParameterStep> steps, const SideMotion &moved,
+                       const std::vector<Switch> &switches, double slack) {
+  const double fastest = fastest_along(steps, moved.motion);
+  if (fastest == 0) return true;
+  const double h = slack / fastest;
+  NodeField e = force_at(model, state, tangent, steps, moved.motion, h);
+  // with the motion of these switches K dx + g_p = -sum t a, and they begin at their places
+  for (size_t i = 0; i < switches.size(); ++i) {
+    if (moved.forces[i] == 0) continue;
+    const double force = extra_force(switches[i], h * moved.rates[i]) / h;
+    for (const NodeVector &v : switches[i].gradient) {
+      if (!model.topology.fixed[v.node]) e[v.node] -= (force - moved.forces[i]) * v.value;
+    }
+  }
+  tangent.solve(e, false);
+  return fastest_of(e) <= settings::sensitivity::side_error * fastest_of(moved.motion);
 }
 
 }  // namespace mvs::core

@@ -10,14 +10,29 @@
 
 #include <span>
 
-#include "sensitivity/parameters.h"
-#include "sensitivity/tangent.h"
+#include "sensitivity/switches.h"
 
 namespace mvs::core {
+
+// The displacement of the fastest node, or the change of a chord's own length, by which it may
+// become taut alone.
+double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion);
 
 // `motion` is dx for the change `steps` of the parameters. Takes two solutions.
 bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
                          std::span<const ParameterStep> steps, const NodeField &motion,
                          double slack);
+
+// A motion on one side of switches, with their rates and extra forces.
+struct SideMotion {
+  NodeField motion;
+  std::vector<double> rates, forces;
+};
+
+// The same test on one side alone: `slack` has its sign. What is left after the forces that the
+// switches have at that distance was overlooked. Takes one solution.
+bool holds_on_one_side(const Model &model, const State &state, EquilibriumTangent &tangent,
+                       std::span<const ParameterStep> steps, const SideMotion &moved,
+                       const std::vector<Switch> &switches, double slack);
 
 }  // namespace mvs::core

@@ -43,6 +43,8 @@ class EquilibriumTangent {
   double residual() const { return residual_; }          // N, at the equilibrium
   double linear_error() const { return linear_error_; }  // largest |K y - b| / |b| so far
   const NodeField &gradient() const { return gradient_; }
+  // Prepared for the equilibrium.
+  TotalEnergy &energy() { return total_energy_; }
 
  private:
   void factorise();

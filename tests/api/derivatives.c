@@ -113,8 +113,9 @@ static void adjoint_and_direct_agree_and_say_what_they_did(void) {
   mvs_sensitivity_summary of_d = {.struct_size = sizeof of_d};
   MUST(mvs_sensitivity_get_summary(a, &of_a));
   MUST(mvs_sensitivity_get_summary(d, &of_d));
-  CHECK(of_a.adjoint_solves == 1 + of_a.weak_chords && of_d.adjoint_solves == 0);
-  CHECK(of_d.direct_solves == count + of_d.weak_chords);
+  const uint32_t switches = of_a.weak_chords + of_a.weak_contacts;
+  CHECK(of_a.adjoint_solves == 1 + switches && of_d.adjoint_solves == 0);
+  CHECK(of_d.direct_solves == count + switches);
   CHECK(of_a.quantities == 1 && of_a.parameters == count);
   CHECK(of_a.stiffness_margin > 0 && of_a.linear_error < 1e-9 && of_a.residual < 1e-10);
   const double *x = numbers(a, MVS_SENSITIVITY_ARRAY_DERIVATIVE);
@@ -132,6 +133,42 @@ static void adjoint_and_direct_agree_and_say_what_they_did(void) {
   mvs_sensitivity_release(a);
   mvs_sensitivity_release(d);
   free(to);
+  mvs_snapshot_release(closed);
+  mvs_destroy(sim);
+}
+
+/* Whether contact is about to switch at this distance, for a wider annulus, with a value on each
+ * side. */
+static int contact_switches_within(const mvs_snapshot *closed, double slack) {
+  const mvs_quantity of[] = {{.kind = MVS_QUANTITY_MEASURE, .measure = "coaptation_area"}};
+  const mvs_parameter to[] = {{.kind = MVS_PARAMETER_ANNULUS_SCALE}};
+  const mvs_sensitivity_options options = {.struct_size = sizeof options, .slack = slack};
+  mvs_sensitivity *found = NULL;
+  mvs_sensitivity_summary summary = {.struct_size = sizeof summary};
+  mvs_view vertices = {0}, notes = {0};
+  MUST(mvs_sensitivity_run(closed, of, SIZES(of), to, SIZES(to), &options, &found));
+  MUST(mvs_sensitivity_get_summary(found, &summary));
+  MUST(mvs_sensitivity_get_array(found, MVS_SENSITIVITY_ARRAY_WEAK_CONTACTS, &vertices));
+  MUST(mvs_sensitivity_get_array(found, MVS_SENSITIVITY_ARRAY_PARAMETER_NOTES, &notes));
+  CHECK(vertices.count <= summary.weak_contacts);
+  const double above = numbers(found, MVS_SENSITIVITY_ARRAY_ABOVE)[0];
+  const double below = numbers(found, MVS_SENSITIVITY_ARRAY_BELOW)[0];
+  const mvs_sensitivity_notes note = ((const uint32_t *)notes.data)[0];
+  const int switches = (note & MVS_SENSITIVITY_NOTE_CONTACT) != 0;
+  if (switches) CHECK(vertices.count > 0 && summary.smooth == 0);
+  if (summary.weak_chords + summary.weak_contacts > 64) CHECK(isnan(above) && isnan(below));
+  mvs_sensitivity_release(found);
+  return switches && isfinite(above) && isfinite(below) && above != below;
+}
+
+static void contact_about_to_switch_has_two_sides(void) {
+  mvs_sim *sim = closed_valve();
+  const mvs_snapshot *closed = snapshot_of(sim);
+  int switches = 0;
+  double slack = 2.5e-7;
+  for (int k = 0; k < 6; ++k, slack *= 2) switches += contact_switches_within(closed, slack);
+  CHECK(switches > 0);
+  CHECK(!contact_switches_within(closed, 1e-3)); /* nearly all: no values */
   mvs_snapshot_release(closed);
   mvs_destroy(sim);
 }
@@ -197,6 +234,7 @@ static void bad_input_is_refused(void) {
 int main(void) {
   a_rest_length_moves_what_it_says();
   adjoint_and_direct_agree_and_say_what_they_did();
+  contact_about_to_switch_has_two_sides();
   bad_input_is_refused();
   return finish("derivatives");
 }

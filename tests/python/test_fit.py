@@ -122,7 +122,7 @@ def test_lengths_that_act_solve_the_complementarity_problem():
     slope[1] = slope[0]  # two chordae in series have one tension
     slope[:, 1] = slope[:, 0]
     linear = Linear(np.zeros(6), np.diag(np.arange(1.0, 7)), random.normal(size=6), np.arange(6),
-                    np.abs(random.normal(size=6)), slope)
+                    np.abs(random.normal(size=6)), slope, np.zeros(6), np.eye(6))
     linear.tension[1] = linear.tension[0]
     slack = np.zeros(6, bool)
     for _ in range(20):
@@ -137,6 +137,22 @@ def test_lengths_that_act_solve_the_complementarity_problem():
         sides = [linear.energy(z + by * direction, slack)[0] for by in (h, -h)]
         assert (sides[0] - sides[1]) / (2 * h) == pytest.approx(gradient @ direction, rel=1e-4)
     assert slack.any()
+
+
+def test_errors_of_the_linearisation_are_noise_of_their_covariance():
+    from mvs.fitting.posterior import Linear
+
+    random = np.random.default_rng(4)
+    jacobian, residual, errors = (random.normal(size=s) for s in ((40, 5), 40, (8, 40)))
+    bare = Linear(np.zeros(5), jacobian.T @ jacobian, jacobian.T @ residual, np.zeros(0, np.int64),
+                  np.zeros(0), np.zeros((0, 5)), residual, jacobian)
+    found = bare.with_errors(errors)
+    weight = np.linalg.inv(np.eye(40) + np.cov(errors, rowvar=False))
+    assert found.normal == pytest.approx(jacobian.T @ weight @ jacobian, rel=1e-9)  # rounding
+    right = jacobian.T @ weight @ (residual + errors.mean(axis=0))
+    assert found.right == pytest.approx(right, rel=1e-9)
+    z = random.normal(size=5)
+    assert found.residual_at(z) == pytest.approx(residual + jacobian @ z)
 
 
 def test_intervals_hold_lengths_drawn_from_the_prior(start):

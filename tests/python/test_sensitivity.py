@@ -50,6 +50,15 @@ def test_labels_and_values_match_differences(sim, closed):
     assert found["coaptation"][best] == pytest.approx(slope, rel=1e-3)
 
 
+def test_sides_of_contact_that_is_about_to_switch(closed):
+    tried = [closed.sensitivity("coaptation", "annulus_scale", slack=s) for s in np.geomspace(2.5e-7, 1e-5, 6)]
+    found = next(f for f in tried if "contact" in f.to_notes[0] and np.isfinite(f.above).all())
+    assert not found.smooth and "contact" in found.of_notes[0]
+    assert len(found.weak_contacts) > 0 and found.weak_contacts.max() < len(closed.node_position)
+    assert found.above.shape == (1, 1) and found.above[0, 0] != found.below[0, 0]
+    assert found.table()[0]["d coaptation_area"] == found.derivative[0, 0]
+
+
 def test_motion_and_modes(closed):
     heads = closed.sensitivity(of="annulus_cc", to=["heads", "annulus_scale"], motion=True)
     nodes = len(closed.node_position)

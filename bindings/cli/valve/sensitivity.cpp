@@ -103,7 +103,10 @@ std::vector<std::string> note_words(mvs_sensitivity_notes notes) {
       {MVS_SENSITIVITY_NOTE_DIFFERENCES, "by differences"},
       {MVS_SENSITIVITY_NOTE_RASTER, "on a raster"},
       {MVS_SENSITIVITY_NOTE_EXTREME, "extreme value"},
-      {MVS_SENSITIVITY_NOTE_ENVELOPE, "rim fixed in the tissue"}};
+      {MVS_SENSITIVITY_NOTE_ENVELOPE, "rim fixed in the tissue"},
+      {MVS_SENSITIVITY_NOTE_CONTACT, "contact about to switch"},
+      {MVS_SENSITIVITY_NOTE_KINK, "kink of a law"},
+      {MVS_SENSITIVITY_NOTE_SIDES, "both sides confirmed"}};
   std::vector<std::string> found;
   for (const auto &[bit, word] : words) {
     if ((notes & bit) != 0) found.emplace_back(word);

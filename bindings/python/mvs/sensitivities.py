@@ -35,7 +35,8 @@ PARAMETER = {
 SHOWN = {"m": (1e3, "mm"), "m2": (1e6, "mm2"), "m3": (1e6, "ml"), "N": (1.0, "N"), "Pa": (1e-3, "kPa")}
 """Scale and unit that pictures show."""
 NOTES = {
-    1: "switch", 2: "chord", 4: "snap", 8: "differences", 16: "raster", 32: "extreme", 64: "envelope"
+    1: "switch", 2: "chord", 4: "snap", 8: "differences", 16: "raster", 32: "extreme", 64: "envelope",
+    128: "contact", 256: "kink", 512: "sides",
 }
 """Words of MVS_SENSITIVITY_NOTE_*."""
 OF_WORDS = ("measures", "tension", "strain", "length", "force")
@@ -52,11 +53,13 @@ class Sensitivity:
     of, to: labels of the rows and columns; of_units, to_units: their units
     value: (q,) of each quantity
     derivative: (q, p); above, below: (q, p) for a growing and a falling parameter, which differ from
-        it only where a chord is about to become slack or taut
+        it only where a chord, a spring or contact is about to switch
     of_notes, to_notes: words about each row and column: "switch" (both sides differ within `slack`),
-        "chord", "snap", "differences", "raster", "extreme", "envelope" (mvs/sensitivity.h)
+        "chord", "contact", "kink" (see above and below), "sides" (the forces confirm both), "snap",
+        "differences", "raster", "extreme", "envelope" (mvs/sensitivity.h)
     motion: (p, n, 3) dx/dp of all nodes, or None
-    smooth: no "switch", "chord" or "snap"
+    weak_contacts: vertices whose contact is about to switch
+    smooth: no "switch", "chord", "contact", "kink" or "snap"
     """
 
     of: tuple[str, ...]
@@ -70,6 +73,7 @@ class Sensitivity:
     of_notes: tuple[tuple[str, ...], ...]
     to_notes: tuple[tuple[str, ...], ...]
     motion: Optional[Array]
+    weak_contacts: NDArray[np.uint32]
     smooth: bool
     adjoint_solves: int
     direct_solves: int

@@ -133,7 +133,7 @@ void bind_plans(py::module_ &module, py::class_<Simulator> &type) {
   module.def(
       "chord_limits", &limits_of, "kind"_a,
       "The working range of chordae of a mvs.ChordKind (mvs.ChordLimits: strain, and tension in "
-      "N), below rupture; infinite for sutures. Sources: libmvs/measure/README.md.");
+      "N), below rupture; infinite for sutures. Sources: libmvs/measure/DEFINITIONS.md.");
 }
 
 }  // namespace mvs_python

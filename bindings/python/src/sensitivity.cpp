@@ -75,6 +75,7 @@ py::dict arrays_of(const std::shared_ptr<mvs_sensitivity> &found) {
       {"of_notes", MVS_SENSITIVITY_ARRAY_QUANTITY_NOTES},
       {"to_notes", MVS_SENSITIVITY_ARRAY_PARAMETER_NOTES},
       {"weak_chords", MVS_SENSITIVITY_ARRAY_WEAK_CHORDS},
+      {"weak_contacts", MVS_SENSITIVITY_ARRAY_WEAK_CONTACTS},
       {"motion", MVS_SENSITIVITY_ARRAY_MOTION}};
   const py::capsule owner(new std::shared_ptr<mvs_sensitivity>(found), [](void *held) {
     delete static_cast<std::shared_ptr<mvs_sensitivity> *>(held);

@@ -720,14 +720,18 @@ export const SensitivityFlags = {
   motion: 1,
   /** one solution for each parameter, with few quantities too */
   direct: 2,
-  /** no test of both sides: faster, for fits */
+  /** no test of both sides, and chordae alone are looked at for switches: faster, for fits */
   no_test: 4,
   /** no eigenvalue: stiffness_margin is NaN */
   no_margin: 8,
 } as const;
 export type SensitivityFlags = keyof typeof SensitivityFlags;
 
-/** Flags of a quantity or a parameter. */
+/**
+ * Flags of a quantity or a parameter. CHORD, CONTACT and KINK are given where the step of the test
+ * reaches a switch that matters; adjoint solutions do not know the motion by each parameter, and
+ * give parameters those of every switch that may matter.
+ */
 export const SensitivityNotes = {
   /**
    * the forces of both sides differ: contact, chordae or the law of a spring switch within `slack`.
@@ -746,6 +750,18 @@ export const SensitivityNotes = {
   note_extreme: 32,
   /** the orifice: its rim is taken as fixed in the tissue */
   note_envelope: 64,
+  /**
+   * contact begins, ends or passes from a face to an edge or a corner: see ABOVE, BELOW. Contact
+   * that begins has the mean stiffness of its first `slack`
+   */
+  note_contact: 128,
+  /** a spring or chord passes the kink of a bilinear law: see ABOVE, BELOW */
+  note_kink: 256,
+  /**
+   * of a parameter with one of these notes that was solved directly: the forces confirm ABOVE and
+   * BELOW, each on its side, to 1 %
+   */
+  note_sides: 512,
 } as const;
 export type SensitivityNotes = keyof typeof SensitivityNotes;
 
@@ -755,7 +771,10 @@ export const SensitivityArray = {
   value: 1,
   /** F64 q x p, a row a quantity */
   derivative: 2,
-  /** F64 q x p: derivatives for a growing parameter; equal to DERIVATIVE without weak chordae */
+  /**
+   * F64 q x p: derivatives for a growing parameter; equal to DERIVATIVE where nothing is about to
+   * switch, NaN where more than 64 places are
+   */
   above: 3,
   /** F64 q x p: the same for a falling one */
   below: 4,
@@ -767,6 +786,8 @@ export const SensitivityArray = {
   weak_chords: 7,
   /** F64 (p n) x 3: dx/dp of all nodes for each parameter in turn; empty unless asked for */
   motion: 8,
+  /** U32: vertices whose contact is about to switch, in the order of its search; may repeat */
+  weak_contacts: 9,
 } as const;
 export type SensitivityArray = keyof typeof SensitivityArray;
 

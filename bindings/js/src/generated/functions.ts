@@ -1266,7 +1266,7 @@ export class Functions extends Calls {
   /**
    * Returns the working range of chordae of a kind: largest strain and tension in N; infinite for
    * sutures. Chordae rupture beyond this range; a chord outside it deserves inspection. Sources:
-   * libmvs/measure/README.md.
+   * libmvs/measure/DEFINITIONS.md.
    */
   mvs_get_chord_limits(kind: ChordKind | number): { strain: number; tension: number } {
     return this.invoke(signatures.mvs_get_chord_limits!, [kind]) as never;

@@ -109,7 +109,7 @@ export interface LeafletDesc {
   name?: string | null;
   /** [assigned by the library] */
   id?: bigint | number;
-  /** MVS_LEAFLET_LAW_* [spring] */
+  /** MVS_LEAFLET_LAW_* [spring, the founding model; bilinear is recommended] */
   law?: LeafletLaw | number;
   /** m [1e-3] */
   thickness?: number;
@@ -422,7 +422,7 @@ export interface Stability {
 
 /**
  * Measures of a valve (fields: MVS_STRUCT_MEASURES). Definitions and sources:
- * libmvs/measure/README.md.
+ * libmvs/measure/DEFINITIONS.md.
  */
 export interface Measures {
   /** pairs of triangles that cross (exact test) */
@@ -1178,7 +1178,8 @@ export interface SensitivityOptions {
   flags?: number;
   /**
    * m [1e-7]: a derivative is tested where it moves the fastest node by this much, and chordae this
-   * near to their rest length are about to switch; 1e-9 to 1e-3
+   * near to their rest length, springs this near to the kink of their law and contact this near to
+   * its begin or to another closest feature are about to switch; 1e-9 to 1e-3
    */
   slack?: number;
 }
@@ -1187,7 +1188,7 @@ export interface SensitivityOptions {
 export interface SensitivitySummary {
   quantities: number;
   parameters: number;
-  /** 1: no NOTE_SWITCH, NOTE_CHORD or NOTE_SNAP */
+  /** 1: no NOTE_SWITCH, NOTE_CHORD, NOTE_CONTACT, NOTE_KINK, NOTE_SNAP */
   smooth: number;
   /** solutions with the transpose of K */
   adjoint_solves: number;
@@ -1195,6 +1196,8 @@ export interface SensitivitySummary {
   direct_solves: number;
   /** chordae within `slack` of their rest length */
   weak_chords: number;
+  /** switches of contact and kinks of laws within `slack` */
+  weak_contacts: number;
   /** N, out-of-balance force of the snapshot */
   residual: number;
   /** largest |K y - b| / |b| of all solutions */
@@ -2154,6 +2157,7 @@ export const layouts: Record<string, Layout> = {
       { name: "adjoint_solves", kind: "u32", at: 16 },
       { name: "direct_solves", kind: "u32", at: 20 },
       { name: "weak_chords", kind: "u32", at: 24 },
+      { name: "weak_contacts", kind: "u32", at: 28 },
       { name: "residual", kind: "f64", at: 32 },
       { name: "linear_error", kind: "f64", at: 40 },
       { name: "stiffness_margin", kind: "f64", at: 48 },

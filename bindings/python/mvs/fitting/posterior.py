@@ -10,6 +10,11 @@ with w the lengths that act. A chord of length z acts with w = z while it is tau
 w = z - y, at which its tension vanishes: y >= 0, t >= 0, y t = 0, a linear complementarity problem.
 Draws of z are by Hamiltonian Monte Carlo (Neal, MCMC using Hamiltonian dynamics, 2011) with the normal
 prior, its bounds, and the residuals of w(z).
+
+Far from the fit the equilibrium is not linear. So valves are closed at first draws, and the difference e of
+their residuals from the linear ones is taken as an error of the model, normal with the mean and covariance
+of these draws and independent of z (the approximation error of Kaipio & Somersalo, J. Comput. Appl. Math.
+198, 2007): the residuals gain its mean, the noise its covariance. More rounds of this changed nothing.
 """
 
 from __future__ import annotations
@@ -40,12 +45,17 @@ BLOCKS = 8
 STEP = 0.25
 """Leapfrog step, in standard deviations of a posterior whose chordae are all taut; STEPS of them."""
 STEPS = 15
+CLOSED = 30
+"""Valves that are closed for the errors of the linearisation."""
+AT_REST = 1e-5
+"""N, as in a fit."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Linear:
-    """The equilibrium with all chordae taut: z at it, normal matrix J^T J, J^T r, tensions, their slope T
-    by all z, and the places of chord lengths among z."""
+    """The equilibrium with all chordae taut: z at it, normal matrix J^T R^-1 J and J^T R^-1 r, the places of
+    chord lengths among z, tensions, their slope T by all z, residuals r and Jacobian J in standard deviations
+    of the data, which have the covariance R."""
 
     z: Array
     normal: Array
@@ -53,6 +63,8 @@ class Linear:
     chords: NDArray[np.int64]
     tension: Array
     slope: Array
+    residual: Array
+    jacobian: Array
 
     def slack_of(self, z: Array, guess: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
         """Slack y >= 0 of each chord, with w = z - y, and which are slack, from a guess of these: block
@@ -71,6 +83,21 @@ class Linear:
                 break
             slack = slack ^ (wrong if flip < BLOCKS else np.arange(len(wrong)) == np.argmax(wrong))
         return y, slack
+
+    def residual_at(self, z: Array) -> Array:
+        """The linear residuals."""
+        d = z - self.z
+        d[self.chords] -= self.slack_of(z, self.tension < 1e-6)[0]
+        return self.residual + self.jacobian @ d
+
+    def with_errors(self, errors: Array) -> Linear:
+        """With errors (n, data) of the residuals at draws. R = 1 + E^T E by the Woodbury identity."""
+        mean = errors.mean(axis=0)
+        spread = (errors - mean) / np.sqrt(len(errors) - 1)
+        small = np.eye(len(errors)) + spread @ spread.T
+        weighted = self.jacobian - spread.T @ np.linalg.solve(small, spread @ self.jacobian)
+        return dataclasses.replace(self, normal=self.jacobian.T @ weighted,
+                                   right=weighted.T @ (self.residual + mean))
 
     def energy(self, z: Array, slack: NDArray[np.bool_]) -> tuple[float, Array, NDArray[np.bool_]]:
         """Minus the logarithm of the posterior, its gradient, and the slack chordae."""
@@ -116,25 +143,49 @@ def linearised(fit: Fit) -> Linear:
     if len(of):
         tension = np.asarray(found["value"], float).copy()
         slope = np.asarray(found["derivative"], float).reshape(len(of), -1) * free.deviation
-    return Linear(z, jacobian.T @ jacobian, jacobian.T @ (residual / fit.noise), chords, tension, slope)
+    scaled = residual / fit.noise
+    return Linear(z, jacobian.T @ jacobian, jacobian.T @ scaled, chords, tension, slope, scaled, jacobian)
 
 
 def _normal(fit: Fit) -> Linear:
     """Without chordae that may be slack: the normal posterior of the fit."""
-    right = fit.jacobian.T @ (fit.residuals_after / fit.noise)
-    nothing = np.zeros(0)
-    return Linear(fit.z, fit.jacobian.T @ fit.jacobian, right, np.zeros(0, np.int64), nothing,
-                  np.zeros((0, len(fit.z))))
+    scaled = fit.residuals_after / fit.noise
+    return Linear(fit.z, fit.jacobian.T @ fit.jacobian, fit.jacobian.T @ scaled, np.zeros(0, np.int64),
+                  np.zeros(0), np.zeros((0, len(fit.z))), scaled, fit.jacobian)
 
 
-def draw(fit: Fit, count: int, seed: int, thin: int = 6) -> Array:
-    """Parameters z (count, p) from the posterior, each `thin` trajectories after the last. At a fit that is
-    about to snap, where the linearisation fails, from the normal posterior within the bounds."""
-    random = np.random.default_rng(seed)
+def linear_posterior(fit: Fit, thin: int = 6) -> Linear:
+    """The linearisation at a fit with its errors at CLOSED valves. At a fit that is about to snap, where the
+    linearisation fails, that of the normal posterior."""
     try:
         linear = linearised(fit)
     except (DivergedError, StateError):
         linear = _normal(fit)
+    errors = _errors(fit, linear, _chain(fit, linear, CLOSED, np.random.default_rng(0), thin))
+    return linear.with_errors(errors) if len(errors) >= 2 else linear
+
+
+def draw(fit: Fit, count: int, seed: int, thin: int = 6) -> Array:
+    """Parameters z (count, p) from the posterior within the bounds, each `thin` trajectories after the last."""
+    return _chain(fit, fit.posterior, count, np.random.default_rng(seed), thin)
+
+
+def _errors(fit: Fit, linear: Linear, drawn: Array) -> Array:
+    """Residuals of closed valves less the linear ones, a row a draw that comes to rest."""
+    from .fit import Problem
+
+    problem = Problem(fit.closed, fit.free, fit.target, fit.noise, fit.with_prior, AT_REST)
+    rows = []
+    for z in drawn:
+        problem.last = fit.closed
+        closed = problem.close(z)
+        if closed is not None:
+            rows.append(problem.data(closed) - linear.residual_at(z))
+    return np.array(rows)
+
+
+def _chain(fit: Fit, linear: Linear, count: int, random: np.random.Generator, thin: int) -> Array:
+    """Draws from the posterior of a linearisation by Hamiltonian Monte Carlo."""
     reach = fit.free.reach
     # the mass is the posterior precision of a valve whose chordae are all taut
     inverse = np.linalg.inv(np.linalg.cholesky(linear.normal + np.eye(len(fit.z))))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import os
 from collections.abc import Iterator
-from typing import Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,9 @@ from ..tables import Table
 from ..values import Measures, unit_of
 from .parameters import Free
 from .targets import Target
+
+if TYPE_CHECKING:
+    from .posterior import Linear
 
 Array = NDArray[np.float64]
 
@@ -112,6 +116,14 @@ class Fit:
         """Posterior covariance of the parameters in their units."""
         d = self.free.deviation
         return d[:, None] * self.covariance_z * d[None, :]
+
+    @functools.cached_property
+    def posterior(self) -> Linear:
+        """The linearised posterior that `sample` draws from, with the error of its linearisation, for which 30
+        valves are closed once."""
+        from .posterior import linear_posterior
+
+        return linear_posterior(self)
 
     @property
     def condition(self) -> float:

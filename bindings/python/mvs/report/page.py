@@ -50,7 +50,7 @@ $comparison
 $pictures
 <h2>Figures</h2>
 <p>All valves are closed under the stated pressure. Leaflets coapt where they face each other
-within the contact thickness; definitions: libmvs/measure/README.md. The figures of the
+within the contact thickness; definitions: libmvs/measure/DEFINITIONS.md. The figures of the
 literature are widely quoted ranges for orientation, not limits of this model.</p>
 $table
 <h2>Where it leaks</h2>
