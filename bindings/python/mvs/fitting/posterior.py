@@ -177,7 +177,6 @@ def _errors(fit: Fit, linear: Linear, drawn: Array) -> Array:
     problem = Problem(fit.closed, fit.free, fit.target, fit.noise, fit.with_prior, AT_REST)
     rows = []
     for z in drawn:
-        problem.last = fit.closed
         closed = problem.close(z)
         if closed is not None:
             rows.append(problem.data(closed) - linear.residual_at(z))
