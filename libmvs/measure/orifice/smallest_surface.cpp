@@ -21,9 +21,9 @@ constexpr int max_sweeps = 100;
 // nodes inside, the rim comes near its place in a few cheap sweeps.
 constexpr double enough_coarse = 1e-4, enough = 1e-5;
 constexpr double overshoot = 1.7;  // of the move of a free node: 1.5 to 1.8 need the fewest sweeps
-// What takes most sweeps is that long parts of the rim move together. After so many sweeps the
-// motion of the last two is continued, at first so many times as far; no sliding node by more than
-// this many spacings of samples, since it could skip a fold.
+// Long parts of the rim move together, slowly: they take most of the sweeps. After so many sweeps
+// the motion of the last two is continued, at first so many times as far; no sliding node by more
+// than this many spacings of samples, since it could skip a fold.
 constexpr int sweeps_between = 6, sweeps_of_motion = 2;
 constexpr double continued_by = 4, most_continued = 1e3, longest_slide = 0.5;
 // A rim edge whose midpoint is farther from the sheet than this share of its length does not run
