@@ -10,11 +10,11 @@
 namespace mvs::core {
 namespace {
 
-constexpr double window = 3e-3;          // m of the annulus, on both sides of a foot
-constexpr double least_cosine = 0.5;     // between a match and the plane of the leaflet there
+constexpr double foot_window = 3e-3;     // m of the annulus, on both sides of a foot
+constexpr double least_outwards = 0.5;   // between a match and the plane of the leaflet there
 constexpr double at_vertex = 1e-6;       // weight of a corner that counts
 constexpr double farthest_match = 6e-3;  // m: beyond, another part of the surface was met
-constexpr double most = 5e-3;            // m, as of `edge_lost`: more is no error of an edge
+constexpr double most_overhang = 5e-3;   // m, as of `edge_lost`: more is no error of an edge
 
 // Of each free-edge node: what lies beyond it, the length of the edge, both m, and outwards.
 struct EdgeNodes {
@@ -71,20 +71,21 @@ std::vector<double> edge_overhang(const PatientGeometry &g, const ClosedValve &c
     if (!is_of_given || m.distance > farthest_match) continue;
     const uint32_t i = edge_node_of(m, nodes);
     // the match points from the given surface to the valve
-    if (i == none || -m.direction.dot(nodes.out[i]) < least_cosine) continue;
+    if (i == none || -m.direction.dot(nodes.out[i]) < least_outwards) continue;
     nodes.area[i] += m.area;
   }
   std::vector<double> overhang;
   for (const double foot : g.coordinates.foot) {
     double area = 0, length = 0;
     for (const uint32_t i : g.rims.free_edge) {
-      const double far = around(foot, g.coordinates.foot[i], g.coordinates.annulus_length) / window;
+      const double far =
+          around(foot, g.coordinates.foot[i], g.coordinates.annulus_length) / foot_window;
       if (far * far >= 1) continue;
       const double weight = (1 - far * far) * (1 - far * far);
       area += weight * nodes.area[i];
       length += weight * nodes.length[i];
     }
-    overhang.push_back(length > 0 ? std::min(most, area / length) : 0);
+    overhang.push_back(length > 0 ? std::min(most_overhang, area / length) : 0);
   }
   return overhang;
 }
