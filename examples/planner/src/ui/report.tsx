@@ -4,7 +4,17 @@ import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
 import { download } from '../store/keep';
 import * as state from '../store/state';
-import { figure, figureNames, grade, reportTexts, say, sectionTexts, valveTexts, where } from '../text/texts';
+import {
+  figure,
+  figureNames,
+  grade,
+  reportTexts,
+  say,
+  sectionTexts,
+  t,
+  valveTexts,
+  where,
+} from '../text/texts';
 import type { Cost, Figures } from '../protocol';
 import { openingOf } from '../store/opening';
 import { fail, request } from '../store/requests';
@@ -155,12 +165,17 @@ export function ReportDialog() {
     html.value = reportHtml(pictures, '');
     sectionPlot().then((plot) => (html.value = reportHtml(pictures, plot)), fail);
   }, []);
-  const save = () =>
+  const saved = useSignal('');
+  const save = () => {
+    const name = reportTexts.fileName(state.title.value);
     download(
       `<!doctype html><html lang="en"><meta charset="utf-8"><title>${reportTexts.fileTitle}</title><style>${style}</style><body>${html.value}</body></html>`,
-      reportTexts.fileName(state.title.value),
+      name,
       'text/html',
     );
+    // the notice of the page is behind the dialog
+    saved.value = t.saved(name);
+  };
   // the markup is made above; texts of the user are escaped there
   const body = { __html: html.value };
   return (
@@ -173,6 +188,7 @@ export function ReportDialog() {
           <Button icon={<Printer size={16} />} onClick={() => window.print()}>
             {reportTexts.print}
           </Button>
+          {saved.value && <span class="hint">{saved.value}</span>}
         </div>
         <div class="report" data-testid="report" dangerouslySetInnerHTML={body} />
       </Modal>
