@@ -359,7 +359,7 @@ TEST_CASE("candidates_of_a_fine_mesh_do_not_depend_on_earlier_positions") {
   check_on_the_way(plates, false);
 }
 
-// Of a search alone, of one shared by threads, and of the Verlet list. The turned sheet has a
+// Lists of a search alone, of one shared by threads, and of the Verlet list. The turned sheet has a
 // hierarchy and blocks of its own. No coordinate is a round number, so that no distance is on a
 // limit, where rounding would decide.
 TEST_CASE("candidates_are_the_same_in_every_frame_of_reference") {
