@@ -5,6 +5,7 @@
 
 #include "collision/contact_params.h"
 #include "collision/pair_distance.h"
+#include "collision/swept_hulls.h"
 
 namespace mvs::core {
 
@@ -41,26 +42,24 @@ void CandidateFilter::add_triangles(const NodeMotion &motion, const std::vector<
 }
 
 // A pair that is apart at rest is a contact candidate. A pair in the range of its barrier is a
-// barrier candidate, whatever its distance at rest. Boxes around the ends of two motions are no
-// farther apart than the motions are in the middle plus their approach.
+// barrier candidate, whatever its distance at rest.
 void CandidateFilter::add_triangle(const NodeMotion &motion, const Edge &pair, double middle,
                                    double approach, CandidateLists &lists) const {
   const auto [vertex, triangle] = pair;
   const double distance = middle - approach;
   if (!(distance <= thickness_)) return;
   const bool is_contact = (*rest_distance_filter_)(vertex, triangle);
-  if (!is_contact && distance > longest_barrier_) return;
+  const bool maybe_barrier = distance <= longest_barrier_;
+  if (!is_contact && !maybe_barrier) return;
   const Tri &t = model_->valve.triangles[triangle];
-  const double margin = (is_contact ? thickness_ : longest_barrier_) + 2 * motion.slack;
-  const bool surely_near = middle + approach - 2 * motion.slack < margin * (1 - 1e-9);
-  if (!surely_near &&
-      apart(motion.swept_box(std::array<uint32_t, 1>{vertex}), motion.swept_box(t), margin)) {
-    return;
-  }
+  const double range =
+      maybe_barrier ? barrier_range(thickness_, distance_of(model_->valve.rest, vertex, t)) : 0;
+  const bool is_barrier = maybe_barrier && distance <= range;
+  if (!is_contact && !is_barrier) return;
+  const double margin = (is_contact ? thickness_ : range) + 2 * motion.slack;
+  if (middle > margin && keep_apart(motion, vertex, t, margin)) return;
   if (is_contact) lists.contact.push_back({vertex, triangle, 0});
-  if (distance > longest_barrier_) return;
-  const double range = barrier_range(thickness_, distance_of(model_->valve.rest, vertex, t));
-  if (distance <= range) lists.barrier.push_back({vertex, triangle, range});
+  if (is_barrier) lists.barrier.push_back({vertex, triangle, range});
 }
 
 void CandidateFilter::add_edges(const NodeMotion &motion, const std::vector<Edge> &found,
@@ -77,20 +76,19 @@ void CandidateFilter::add_edges(const NodeMotion &motion, const std::vector<Edge
       const double approach = motion.is_independent()
                                   ? motion.max_approach(edges[pair[k][0]], edges[pair[k][1]])
                                   : 2 * motion.slack + std::sqrt(half_.distance2[k]);
-      add_edge_pair(motion, pair[k], std::sqrt(middle_.distance2[k]) - approach, lists);
+      add_edge_pair(motion, pair[k], std::sqrt(middle_.distance2[k]), approach, lists);
     }
   });
 }
 
-void CandidateFilter::add_edge_pair(const NodeMotion &motion, const Edge &pair, double distance,
-                                    CandidateLists &lists) const {
-  if (!(distance <= longest_barrier_)) return;
+void CandidateFilter::add_edge_pair(const NodeMotion &motion, const Edge &pair, double middle,
+                                    double approach, CandidateLists &lists) const {
+  if (!(middle - approach <= longest_barrier_)) return;
   const Edge &e = model_->topology.edges[pair[0]], &f = model_->topology.edges[pair[1]];
   const double range = barrier_range(thickness_, distance_of(model_->valve.rest, e, f));
-  if (distance > range ||
-      apart(motion.swept_box(e), motion.swept_box(f), longest_barrier_ + 2 * motion.slack)) {
-    return;
-  }
+  if (middle - approach > range) return;
+  const double margin = range + 2 * motion.slack;
+  if (middle > margin && keep_apart(motion, e, f, margin)) return;
   lists.barrier_edges.push_back({pair[0], pair[1], range});
 }
 

@@ -17,7 +17,8 @@ class CandidateFilter {
   CandidateFilter(const Model &model, const RestDistanceFilter &rest_distance_filter);
 
   // Appends to the lists the candidates among pairs that boxes have found. A pair is one if its
-  // distance in the middle of the motion, less the bound on its approach, is in range.
+  // distance in the middle of the motion, less the bound on its approach, is in range, and its
+  // parts do not keep apart (swept_hulls.h). Both are the same in every frame of reference.
   void add(const NodeMotion &motion, const FoundPairs &found, CandidateLists &lists);
 
  private:
@@ -26,7 +27,7 @@ class CandidateFilter {
   void add_edges(const NodeMotion &motion, const std::vector<Edge> &found, CandidateLists &lists);
   void add_triangle(const NodeMotion &motion, const Edge &pair, double middle, double approach,
                     CandidateLists &lists) const;
-  void add_edge_pair(const NodeMotion &motion, const Edge &pair, double distance,
+  void add_edge_pair(const NodeMotion &motion, const Edge &pair, double middle, double approach,
                      CandidateLists &lists) const;
 
   const Model *model_;

@@ -24,11 +24,6 @@ struct NodeMotion {
   // the same share of it. If it holds for two places, it holds for the segments between them.
   bool contains(const std::vector<Vec3> &x) const;
 
-  template <typename Nodes>
-  SweptAabb swept_box(const Nodes &nodes) const {
-    return SweptAabb::of(nodes, from, to, mode);
-  }
-
   // Returns a bound on how much nearer than in the middle of the motion points of the convex hulls
   // of two sets of nodes come. If all nodes move together, only their relative motion counts: the
   // difference of two convex combinations is a convex combination of differences.

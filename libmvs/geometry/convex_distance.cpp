@@ -165,6 +165,28 @@ ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b,
   return are_apart ? result_of(s, nearest) : ConvexDistance();
 }
 
+// A tetrahedron around the origin needs no test of its own: its faces get no closer, or near
+// enough.
+bool are_apart(std::span<const Vec3> a, std::span<const Vec3> b, double margin, const Vec3 &guess) {
+  const double margin2 = margin * margin;
+  Simplex s;
+  Nearest nearest;  // so far only a direction
+  nearest.at = guess;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const uint32_t i = lowest(a, nearest.at), j = lowest(b, -nearest.at);
+    const Vec3 corner = a[i] - b[j];
+    const double along = nearest.at.dot(corner);
+    if (along > 0 && along * along > margin2 * nearest.at.squaredNorm()) return true;
+    if (has(s, i, j)) return false;
+    s.corner[s.count++] = {corner, i, j};
+    const Nearest closer = nearest_of(s);
+    if (!(closer.distance2 < nearest.distance2) || closer.distance2 <= margin2) return false;
+    reduce(s, closer);
+    nearest = closer;
+  }
+  return false;
+}
+
 double plane_gap(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3 &n) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Vec3 &p : a) low = std::min(low, n.dot(p));

@@ -26,6 +26,12 @@ struct ConvexDistance {
 // Stops as soon as a plane shows that the hulls are farther apart than `cutoff`.
 ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b, double cutoff);
 
+// Returns whether a plane shows that the hulls are farther apart than `margin`, above 0 m. It is
+// the loop of convex_distance(), ended as soon as a plane or a pair of points decides; where
+// rounding decides, the hulls are not apart. `guess`: a direction from b to a in which the gap may
+// be widest; a good one saves turns and changes nothing else.
+bool are_apart(std::span<const Vec3> a, std::span<const Vec3> b, double margin, const Vec3 &guess);
+
 // Returns the width of the gap between the planes normal to the unit vector n that touch a and b:
 // min n a - max n b, exact up to the rounding of one product. Above 0 the hulls are apart, whatever
 // found n.

@@ -1,6 +1,6 @@
 // Swept boxes in single precision (SweptAabbF), alone and eight at a time (SweptAabb8):
 // conservative overlap tests, which never report "apart" for two boxes that are within the margin.
-// Pairs that they leave are decided in double precision by apart() of swept_aabb.h.
+// Tests hold them against apart() of swept_aabb.h, in double precision.
 #pragma once
 
 #include <cmath>

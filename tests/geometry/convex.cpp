@@ -151,6 +151,24 @@ TEST_CASE("a_search_stops_at_its_cutoff_and_nowhere_nearer") {
   }
 }
 
+TEST_CASE("hulls_are_apart_by_less_than_their_distance_and_by_no_more") {
+  Numbers random(5);
+  int met = 0;
+  for (int pair = 0; pair < 2000; ++pair) {
+    const size_t corners = 1 + pair % 8;
+    const std::vector<Vec3> a = random.cloud(corners, Vec3::Zero(), 2e-3);
+    const std::vector<Vec3> b = random.cloud(1 + pair % 3, random.vector(2e-3), 1e-3);
+    const double whole = convex_distance(a, b, everywhere).distance;
+    met += whole == 0;
+    // above the rounding of positions, and below any of these distances
+    for (const Vec3 &guess : {Vec3(Vec3::Zero()), random.vector(1)}) {
+      CHECK_FALSE(are_apart(a, b, whole * (1 + 1e-9) + 1e-12, guess));
+      if (whole > 0) CHECK(are_apart(a, b, whole * (1 - 1e-9), guess));
+    }
+  }
+  CHECK(met > 20);
+}
+
 TEST_CASE("points_and_segments_are_hulls_too") {
   const std::vector<Vec3> point = {Vec3(0, 0, 5e-3)};
   const std::vector<Vec3> segment = {Vec3(-1e-3, 0, 2e-3), Vec3(1e-3, 0, 2e-3)};
