@@ -111,10 +111,10 @@ inline constexpr double max_removed_lambda = 1, polish_lambda_share = 0.1;
 // after a failed polish step, iterations.
 inline constexpr double polish_progress = 0.5;
 inline constexpr int max_polish_pause = 64;
-// Backtracking on the norm of the force: trials, factor, sufficient decrease (Armijo). Shorter shares
-// than a half are left to the trust region: where the whole step crosses kinks of stiff springs,
-// shares of 1/8 lowered the norm by a twentieth, ten times in a row. With 2 trials for 5, springs
-// of 27,000 vertices take 26 iterations for 33; on up to 6,800 vertices they are as many.
+// Backtracking on the norm of the force: trials, factor, sufficient decrease (Armijo). Shares below
+// a half are left to the trust region: where the whole step crosses kinks of stiff springs, shares
+// of 1/8 lowered the norm by a twentieth, ten times in a row. With 2 trials for 5, springs of
+// 27,000 vertices take 26 iterations for 33; on up to 6,800 vertices they are as many.
 inline constexpr int polish_trials = 2;
 inline constexpr double polish_backtracking = 0.5, polish_decrease = 0.1;
 
