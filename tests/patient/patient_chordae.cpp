@@ -46,7 +46,8 @@ void check_competent(const Valve &valve) {
   const ClosedPatient closed = close_patient(valve);
   CHECK(closed.stats.converged);
   CHECK(find_intersections(closed.state.x, closed.model->valve.triangles).empty());
-  CHECK(measure_orifice(*closed.model, closed.state.x).area < 5e-6);
+  // half of the 20 mm2 below which regurgitation is mild (ASE 2017); the real annulus leaks 5 mm2
+  CHECK(measure_orifice(*closed.model, closed.state.x).area < 10e-6);
   CHECK(measure_tenting_billow(*closed.model, closed.state.x).billow_height < 3 * mm);
 }
 
