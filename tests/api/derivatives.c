@@ -166,7 +166,10 @@ static void contact_about_to_switch_has_two_sides(void) {
   const mvs_snapshot *closed = snapshot_of(sim);
   int switches = 0;
   double slack = 2.5e-7;
-  for (int k = 0; k < 6; ++k, slack *= 2) switches += contact_switches_within(closed, slack);
+  for (int k = 0; k < 6; ++k) {
+    switches += contact_switches_within(closed, slack);
+    slack *= 2;
+  }
   CHECK(switches > 0);
   CHECK(!contact_switches_within(closed, 1e-3)); /* nearly all: no values */
   mvs_snapshot_release(closed);

@@ -239,6 +239,7 @@ TEST_CASE("pieces_that_are_not_one_connected_piece_are_refused") {
   const ModelState p = fine_valve();
   const auto drawn = [&](const std::vector<std::array<double, 2>> &places) {
     std::vector<Vec3> points;
+    points.reserve(places.size());
     for (const auto &[along, height] : places) points.push_back(place_on(p, "P2", along, height));
     return points;
   };

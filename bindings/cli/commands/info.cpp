@@ -45,7 +45,6 @@ struct Info {
   std::vector<size_t> leaflet_faces, scallop_faces;
   std::vector<size_t> head_chords;
   std::map<uint32_t, ChordGroup> chords;
-  Json tissue;
   Size size;
   mvs_load_case load_case;
   mvs_measures measures;
@@ -72,7 +71,6 @@ Info gather(const mvs::Snapshot &valve) {
       tally(valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_SCALLOP), info.scallops.size());
   info.head_chords = chords_of_heads(valve);
   info.chords = chord_groups(valve);
-  info.tissue = tissue_rows(valve);
   info.size = size_of(valve);
   info.load_case = valve.load();
   info.measures = valve.measure();
@@ -109,7 +107,7 @@ Json valve_json(const std::string &file, const mvs::Snapshot &valve, const Info 
           {"chords", info.size.chords},
           {"annulus_nodes", info.size.annulus},
           {"leaflets", part_rows(info.leaflets, info.leaflet_faces, "faces")},
-          {"tissue", info.tissue},
+          {"tissue", tissue_rows(valve)},
           {"scallops", part_rows(info.scallops, info.scallop_faces, "faces")},
           {"heads", part_rows(info.heads, info.head_chords, "chords")},
           {"chord_kinds", chord_rows(info.chords)},
@@ -149,7 +147,7 @@ std::string valve_text(const std::string &file, const mvs::Snapshot &valve, cons
          text("  Sheet            %zu vertices, %zu triangles, %.0f mm2\n", info.size.vertices,
               info.size.faces, m.leaflet_area * 1e6) +
          "  Leaflets         " + parts_list(info.leaflets, info.leaflet_faces, "triangles") +
-         tissue_text(info.tissue) + "  Scallops         " +
+         tissue_text(tissue_rows(valve)) + "  Scallops         " +
          parts_list(info.scallops, info.scallop_faces, "triangles") +
          text("  Annulus          %zu nodes, AP %.1f mm, CC %.1f mm\n", info.size.annulus,
               m.annulus_ap * 1e3, m.annulus_cc * 1e3) +

@@ -52,7 +52,7 @@ TriangleBvh::Hit RailSearch::nearest(uint32_t v, const Vec3 &p) {
   ClosestSoFar best(rail_.tree, p);
   best.look_at(nearest_[v]);
   for (const uint32_t t : around.triangles) best.look_at(t);
-  const TriangleBvh::Hit hit = best.hit();
+  TriangleBvh::Hit hit = best.hit();
   nearest_[v] = hit.triangle;
   return hit;
 }
