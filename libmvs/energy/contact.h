@@ -33,6 +33,17 @@ namespace mvs::core {
 // to a bound, between vertices and triangles only, without a short-range barrier.
 enum class ContactLaw { barrier, penalty };
 
+// m2 of rest area that belongs to an edge of the topology: a third of its triangles.
+double edge_area(const Model &model, uint32_t edge);
+
+// Strengths (barrier.h) of the pairs of a vertex, and of two edges with these areas.
+inline double vertex_strength(const Model &model, uint32_t vertex) {
+  return 0.5 * model.valve.contact_stiffness * model.vertex_area[vertex];
+}
+inline double edge_strength(const Model &model, double first_area, double second_area) {
+  return 0.25 * model.valve.contact_stiffness * (first_area + second_area);
+}
+
 class ContactTerm {
  public:
   explicit ContactTerm(const Model &model, ContactLaw law = ContactLaw::barrier);
@@ -90,7 +101,7 @@ class ContactTerm {
                            Collected &to) const;
 
   const Model *model_;
-  double thickness_, stiffness_;
+  double thickness_;
   ContactLaw law_;
   Barrier (*curve_)(double);
   std::vector<double> edge_area_;
