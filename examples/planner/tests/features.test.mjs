@@ -1,12 +1,10 @@
 // What a surgeon does beyond the first steps: drawing a resection, sliding a clip, a measured
 // ring, the gradient of a flow, devices, a file that follows the plan, the way back to a plan that was left.
 import assert from 'node:assert/strict';
-import { mkdtempSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { after, before, beforeEach, describe, it } from 'node:test';
-import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
+import { beforeEach, describe, it } from 'node:test';
+import { closed, figures, sharePlanner, temporaryFile } from './browser.mjs';
 import {
+  answered,
   apply,
   begin,
   cameraRests,
@@ -16,34 +14,30 @@ import {
   openLeaflets,
   openPanel,
   save,
+  undo,
 } from './person.mjs';
 
 describe('planner features', () => {
-  let context, page, errors;
-  before(async () => {
-    ({ context } = await openBrowser());
+  let page;
+  sharePlanner((opened) => ({ page } = opened), {
     // a stand-in for the dialog, which no test can press
-    await context.addInitScript(() => {
-      window.written = [];
-      window.showSaveFilePicker = async ({ suggestedName }) => ({
-        name: suggestedName,
-        createWritable: async () => ({
-          write: async (bytes) => window.written.push(bytes),
-          close: async () => {},
-        }),
-      });
-    });
-    ({ page, errors } = await openPlanner(context));
+    prepare: (context) =>
+      context.addInitScript(() => {
+        window.written = [];
+        window.showSaveFilePicker = async ({ suggestedName }) => ({
+          name: suggestedName,
+          createWritable: async () => ({
+            write: async (bytes) => window.written.push(bytes),
+            close: async () => {},
+          }),
+        });
+      }),
   });
   beforeEach(async () => {
     await page.keyboard.press('Escape');
     await page.evaluate(() => (window.planner.state.notice.value = null));
     await page.keyboard.press('1');
     await cameraRests(page);
-  });
-  after(async () => {
-    await context.close();
-    assert.deepEqual(errors, []);
   });
 
   it('resects_along_a_drawn_outline', async () => {
@@ -62,9 +56,7 @@ describe('planner features', () => {
     await closed(page);
     await apply(page);
     assert.match((await figures(page)).history.at(-1).title, /P2 along an outline/);
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await undo(page);
   });
 
   /** Degrees of the clip of the form. */
@@ -89,9 +81,7 @@ describe('planner features', () => {
     await apply(page);
     await openPanel(page, 'Valve');
     assert.match(await page.getByTestId('devices').innerText(), /clip\s+\d+ stitches/);
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await undo(page);
   });
 
   it('turns_a_clip_by_its_handle_and_by_keys', async () => {
@@ -129,9 +119,7 @@ describe('planner features', () => {
     assert.ok((await page.evaluate(() => window.planner.state.draft.value.fields.position)) < 0);
     await apply(page);
     assert.match((await figures(page)).history.at(-1).title, new RegExp(`turned by ${dragged - 5} degrees`));
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await undo(page);
   });
 
   it('names_the_section_plane_and_marks_the_cut', async () => {
@@ -177,13 +165,11 @@ describe('planner features', () => {
       const angle = (2 * Math.PI * k) / 40;
       return `${0.018 * Math.cos(angle)}, ${0.0135 * Math.sin(angle)}, 0`;
     });
-    const path = join(mkdtempSync(join(tmpdir(), 'ring-')), 'ring.csv');
-    writeFileSync(path, `x, y, z\n${lines.join('\n')}\n`);
+    const path = temporaryFile('ring.csv', `x, y, z\n${lines.join('\n')}\n`);
     await begin(page, 'ring');
     await page.getByText('More', { exact: true }).click();
     await page.setInputFiles('#f-curve', path);
-    await page.waitForTimeout(100);
-    await closed(page);
+    await answered(page, 100);
     await apply(page);
     await openPanel(page, 'Valve');
     const [, wide, deep] = /ring\s+([\d.]+)\smm wide, ([\d.]+)\smm front/.exec(
@@ -199,8 +185,7 @@ describe('planner features', () => {
     await page.locator('#flow').fill('200');
     await page.keyboard.press('Tab');
     await page.getByRole('button', { name: 'Measure the open area' }).click();
-    await page.waitForTimeout(50);
-    await closed(page);
+    await answered(page);
     const { openArea, gradient } = await page.evaluate(() => window.planner.state.cost.value.value);
     // Bernoulli with the library's density and discharge coefficient (mvs/cost.h)
     const bernoulli = (0.5 * 1060 * (200e-6 / (0.85 * openArea * 1e-6)) ** 2) / 133.322;
@@ -223,11 +208,8 @@ describe('planner features', () => {
     for (let k = 0; k < 100 && (await page.evaluate(() => window.written.length)) < 2; ++k)
       await page.waitForTimeout(50);
     const bytes = await page.evaluate(() => [...window.written.at(-1)]);
-    const path = join(mkdtempSync(join(tmpdir(), 'kept-')), 'kept.mvsplan');
-    writeFileSync(path, Buffer.from(bytes));
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    const path = temporaryFile('kept.mvsplan', Buffer.from(bytes));
+    await undo(page);
     await open(page, path);
     assert.equal((await figures(page)).hash, hash);
   });
@@ -308,8 +290,7 @@ describe('planner features', () => {
     const large = await opens();
     await page.locator('#f-size').fill('26');
     await page.keyboard.press('Tab');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await answered(page);
     const small = await opens();
     assert.ok(small.area < 0.9 * large.area && small.goal === large.goal, JSON.stringify({ large, small }));
     await page.keyboard.press('Escape');
@@ -360,11 +341,8 @@ describe('planner features', () => {
 
   it('takes_clicked_papillary_tips_at_import', async () => {
     await page.getByRole('button', { name: 'Healthy valve' }).click();
-    await page.waitForTimeout(200);
-    await closed(page);
-    const path = join(mkdtempSync(join(tmpdir(), 'surface-')), 'leaflets.obj');
-    writeFileSync(path, await openLeaflets(page));
-    await open(page, path);
+    await answered(page, 200);
+    await open(page, temporaryFile('leaflets.obj', await openLeaflets(page)));
     await page.getByRole('button', { name: 'Papillary tips' }).click();
     // below the annulus, in the view from the side
     await page.keyboard.press('3');
