@@ -21,6 +21,9 @@ const flags = [
   '--disable-sync',
 ];
 
+/** ms that a test waits for what the page does: other work on the machine may take most of it. */
+const patience = 180_000;
+
 /** A browser with a profile of its own, so that storage outlives the page. `software`: no WebGL. */
 export async function openBrowser({
   width = 1280,
@@ -38,6 +41,7 @@ export async function openBrowser({
     hasTouch: touch,
     acceptDownloads: true,
   });
+  context.setDefaultTimeout(patience);
   return { context, profile: folder };
 }
 
@@ -57,7 +61,7 @@ export async function openPlanner(context, { hash = '' } = {}) {
 }
 
 /** Waits until nothing is calculated and the valve is shown. The page's policy forbids waitForFunction (eval). */
-export async function closed(page, limit = 60_000) {
+export async function closed(page, limit = patience) {
   const end = Date.now() + limit;
   for (;;) {
     const idle = await page.evaluate(() => {

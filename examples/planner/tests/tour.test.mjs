@@ -140,23 +140,23 @@ describe('tour', () => {
         await page
           .getByTestId('score')
           .getByText(number > 3 ? 'Example' : 'Study surgeon')
-          .waitFor({ timeout: 30_000 });
-        await page.getByText('All goals reached. 1 of 4 valves sealed.').waitFor({ timeout: 30_000 });
+          .waitFor();
+        await page.getByText('All goals reached. 1 of 4 valves sealed.').waitFor();
         const button = page.getByRole('button', { name: `Valve ${number}` });
         assert.equal(await button.locator('svg').count(), 1, 'a tick');
         if (number === 1) {
           // the repaired plan is not lost by going on
           await page.getByRole('button', { name: 'On to valve 2' }).click();
-          await page.getByRole('button', { name: 'Return to it' }).waitFor({ timeout: 30_000 });
+          await page.getByRole('button', { name: 'Return to it' }).waitFor();
           assert.match(await page.getByTestId('notice').innerText(), /“Valve 1: .*” is finished/);
           assert.equal(await page.getByTestId('present').innerText(), 'Valve 2 of the tour');
           assert.equal(await button.locator('svg').count(), 1, 'the tick stays');
           const next = page.getByRole('button', { name: 'Valve 2' });
           assert.equal(await next.locator('svg').count(), 0, 'the goals are not judged on the valve before');
           await button.click();
-          await page.getByText('Your repair of this valve').waitFor({ timeout: 30_000 });
+          await page.getByText('Your repair of this valve').waitFor();
           await page.getByRole('button', { name: 'Return to it' }).click();
-          await page.getByText('gives exactly the saved valve').waitFor({ timeout: 30_000 });
+          await page.getByText('gives exactly the saved valve').waitFor();
           assert.equal((await figures(page)).measures.orifice, 0);
         }
         if (number === 3) {
