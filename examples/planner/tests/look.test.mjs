@@ -128,6 +128,12 @@ describe('planner to look at', () => {
     // one page with four pictures; an empty one has 1 kB
     assert.ok(pdf.length > 50_000, `${pdf.length} bytes`);
     assert.equal(pdf.toString('latin1').match(/\/Type \/Page\b/g).length, 1);
+    // on the screen as well, in a narrow window too
+    const size = page.viewportSize();
+    await page.setViewportSize({ width: 1024, height: 700 });
+    const shown = await page.getByTestId('report').boundingBox();
+    await page.setViewportSize(size);
+    assert.ok(shown?.width > 500, `the report is ${shown?.width} pixels wide`);
     await page.keyboard.press('Escape');
   });
 
