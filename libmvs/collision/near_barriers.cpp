@@ -73,28 +73,31 @@ void NearBarriers::measure(const Model &model, const BroadPhase &broad_phase,
 }
 
 // A pair of the step limiter needs no limit if both sides together move at most usable_share of its
-// distance beyond the least one, which is less than its range.
+// distance beyond the least one, which is less than its range. The largest motion and the largest
+// step of a part may be those of different nodes.
 void NearBarriers::find_motion(const Model &model, const std::vector<Vec3> &x,
                                const std::vector<Vec3> *dx) {
-  of_node_.resize(x.size());
+  for (auto *of : {&of_node_, &moved_, &ahead_}) of->resize(x.size());
   farthest_ = step_ = 0;
   for (size_t i = 0; i < x.size(); ++i) {
-    const auto moved = static_cast<float>((x[i] - at_[i]).norm());
-    const auto ahead = dx ? static_cast<float>((*dx)[i].norm() / usable_share) : 0.0f;
-    farthest_ = std::max(farthest_, moved);
-    step_ = std::max(step_, ahead);
-    of_node_[i] = moved + ahead;
+    moved_[i] = static_cast<float>((x[i] - at_[i]).norm());
+    ahead_[i] = dx ? static_cast<float>((*dx)[i].norm() / usable_share) : 0.0f;
+    farthest_ = std::max(farthest_, moved_[i]);
+    step_ = std::max(step_, ahead_[i]);
+    of_node_[i] = moved_[i] + ahead_[i];
   }
   const auto &triangles = model.valve.triangles.get();
   of_triangle_.resize(triangles.size());
   for (size_t t = 0; t < triangles.size(); ++t) {
     const auto [i, j, k] = triangles[t];
-    of_triangle_[t] = std::max({of_node_[i], of_node_[j], of_node_[k]});
+    of_triangle_[t] =
+        std::max({moved_[i], moved_[j], moved_[k]}) + std::max({ahead_[i], ahead_[j], ahead_[k]});
   }
   const auto &edges = model.topology.edges.get();
   of_edge_.resize(edges.size());
   for (size_t e = 0; e < edges.size(); ++e) {
-    of_edge_[e] = std::max(of_node_[edges[e][0]], of_node_[edges[e][1]]);
+    const auto [i, j] = edges[e];
+    of_edge_[e] = std::max(moved_[i], moved_[j]) + std::max(ahead_[i], ahead_[j]);
   }
 }
 

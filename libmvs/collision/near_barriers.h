@@ -38,10 +38,11 @@ class NearBarriers {
   uint64_t serial_ = 0;                         // of the lists that were measured; 0: none
   std::vector<Vec3> at_;                        // m, where
   std::vector<float> triangle_gap_, edge_gap_;  // m, of each candidate there
-  // m, largest motion of the nodes of each part, with that of the step ahead
-  std::vector<float> of_node_, of_triangle_, of_edge_;
-  float farthest_ = 0;  // m, of any node from at_, without the step
-  float step_ = 0;      // m, the longest that is to be allowed for
+  // m, of each node: motion since then, and length of the step ahead over usable_share
+  std::vector<float> moved_, ahead_;
+  std::vector<float> of_node_, of_triangle_, of_edge_;  // m, the largest of both, added, by part
+  float farthest_ = 0;                                  // m, of any node from at_, without the step
+  float step_ = 0;                                      // m, the longest that is to be allowed for
   std::vector<VertexTriangle> near_triangles_;
   std::vector<EdgeEdge> near_edges_;
   const std::vector<VertexTriangle> *triangles_ = &near_triangles_;
