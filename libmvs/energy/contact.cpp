@@ -54,9 +54,9 @@ void ContactTerm::make_room(Collected &to) const {
 
 void ContactTerm::collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase,
                           Workers *workers) {
-  const size_t candidates = broad_phase.contact_candidates().size() +
-                            broad_phase.barrier_candidates().size() +
-                            broad_phase.barrier_edge_candidates().size();
+  if (law_ == ContactLaw::barrier) near_.select(*model_, broad_phase, x);
+  const size_t candidates =
+      broad_phase.contact_candidates().size() + near_.triangles().size() + near_.edges().size();
   if (pay_for(workers, candidate_us * static_cast<double>(candidates))) {
     collect_together(x, broad_phase, *workers);
     return;
@@ -113,11 +113,10 @@ void ContactTerm::collect_part(const std::vector<Vec3> &x, const BroadPhase &bro
     for (size_t k = begin_of_part(slice, slices, list.size()); k < end; ++k) use(list[k]);
   };
   if (part < 2 * slices) {
-    for_slice(broad_phase.barrier_candidates(),
+    for_slice(near_.triangles(),
               [&](const VertexTriangle &pair) { add_vertex_triangle(x, pair, to); });
   } else {
-    for_slice(broad_phase.barrier_edge_candidates(),
-              [&](const EdgeEdge &pair) { add_barrier(x, pair, to); });
+    for_slice(near_.edges(), [&](const EdgeEdge &pair) { add_barrier(x, pair, to); });
   }
 }
 

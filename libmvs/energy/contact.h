@@ -24,6 +24,7 @@
 #include "base/workers.h"
 #include "collision/broad_phase.h"
 #include "collision/contact_params.h"
+#include "collision/near_barriers.h"
 #include "energy/barrier.h"
 #include "model/model.h"
 
@@ -108,6 +109,7 @@ class ContactTerm {
   std::vector<int> edge_share_, corner_share_;  // c_p: -1 and +1 inside the sheet, 0 on its rims
   Collected collected_;
   std::vector<Collected> parts_;  // of several threads
+  NearBarriers near_;
   std::vector<ContactPair> contact_pairs_;
 };
 
