@@ -16,8 +16,8 @@ from .segment import EVERYWHERE, Tissue
 Points = NDArray[np.float64]
 SAME_MUSCLE = 8e-3
 """m: heads nearer to each other are on one papillary muscle: the two muscles lie 15 mm or more apart"""
-BLOCK = 5e-3
-"""m: tissue so far from the middle of the heads is compared: the tip of a muscle"""
+BLOCK = 4e-3
+"""m: tissue so far from the middle of the heads is compared: the tip of a muscle, which also turns"""
 SEARCH, STEPS = 6e-3, (1.5e-3, 0.75e-3, 0.4e-3, 0.2e-3, 0.1e-3)
 """m: largest motion that is looked for; distances of the positions that are tried, one after the other"""
 SAMPLES = 4000
