@@ -1,5 +1,5 @@
-// Factorised panels in 16 bits, for solutions as a preconditioner: half the memory to read, in the
-// order in which it is read, which is what a solution with a large factor waits for.
+// Factorised panels in 16 bits, for solutions as a preconditioner. A solution with a large factor
+// waits for memory: here it reads half as much, in the order of storage.
 //
 // Each column is stored as integers times a scale, its largest number below the diagonal block over
 // 32767: an error of at most 1.5e-5 of that number. Diagonal blocks of solve_columns columns become

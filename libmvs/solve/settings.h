@@ -267,10 +267,9 @@ namespace linear {
 // numbers.
 inline constexpr uint32_t factor_parts = 3;
 // The same for sheets of at least so many triangles, whose factorisation takes as long as `worth`
-// iterations or more: 330 ms against 15 ms with 20,000 vertices, where nested dissection fills a
-// factor less than minimum degree over patches (1.79 against 2.35 million blocks, half the
-// products, 23 ms against 80; with 6,800 vertices 0.44 against 0.54 million; with 1,700 0.071
-// against 0.082, but it allocates memory).
+// iterations or more. Nested dissection fills a factor of 20,000 vertices less than minimum degree
+// over patches (1.79 against 2.35 million blocks, half the products, 23 ms against 80; with 6,800
+// vertices 0.44 against 0.54 million; with 1,700 0.071 against 0.082, but it allocates memory).
 inline constexpr size_t large_sheet = 8000;
 inline constexpr uint32_t large_factor_parts = 6;
 // Residual in the norm of the preconditioner, relative. The rest is small beside the error of
