@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 
+#include "base/bit_cast.h"
 #include "base/simd.h"
 #include "linalg/panel_block.h"
 
@@ -202,9 +202,9 @@ MVS_INLINE int32_t rounded(float v) {
 MVS_INLINE float scale_of(const float *column, size_t first, size_t height) {
   int32_t largest = 0;  // the bits of absolute values ascend with them
   for (size_t i = first; i < height; ++i) {
-    largest = std::max(largest, std::bit_cast<int32_t>(column[i]) & INT32_MAX);
+    largest = std::max(largest, bit_cast<int32_t>(column[i]) & INT32_MAX);
   }
-  return std::bit_cast<float>(largest) / most;
+  return bit_cast<float>(largest) / most;
 }
 
 // Sets the inverse of a diagonal block, by columns and by rows.
