@@ -215,10 +215,11 @@ inline constexpr Extent exponential = {1200, 425, 2};
 inline constexpr uint32_t max_coarse_iterations = 200;
 // Rest forces at which the bilinear surrogate of exponential tissue is left. Nine valves of 1,300
 // to 1,900 vertices (script of the session: annulus, thickness, slack, coaptation depth, founding
-// shape) under May-Newman and Yin's law and Fung's: 3,290 iterations without a surrogate, 2,641
-// with one that was left at 0.01 N, which is about 1 rest force; 0.78 of the CPU time. 14 of the
-// 18 closures were faster, two took 1.35 and 1.45 times as long; 13 of 18 ended at a lower energy,
-// two at one that is 13 and 21 % higher. A neo-Hookean surrogate took 3,075 iterations.
+// shape) under May-Newman and Yin's law and Fung's: 2,453 iterations on the mesh itself for 3,290,
+// 0.80 of the CPU time (loaded machine), 13 of 18 at a lower energy, two at one 13 and 21 % higher.
+// The valve with deep coaptation under May-Newman and Yin's law took 1.6 times as long. A
+// neo-Hookean surrogate took more. Prot's law, five valves: 0.5 of the time, but four of them ended
+// at energies that are 12 to 51 % higher.
 inline constexpr double surrogate_residual = 1;
 // Share of the reported progress that the coarse meshes take: about their share of the time.
 inline constexpr double coarse_progress = 0.25;
