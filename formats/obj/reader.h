@@ -1,7 +1,7 @@
-// Reader of extended OBJ: OBJ statements in read.cpp, #mvs lines in records.cpp. Every index,
-// number and name is checked where it is read: the result may be an invalid valve (make_model
-// checks that), but has no index out of range. Memory is not allocated by counts that the file
-// claims.
+// Reader of extended OBJ: OBJ statements in read.cpp, #mvs lines in records.cpp and
+// part_records.cpp. Every index, number and name is checked where it is read: the result may be an
+// invalid valve (make_model checks that), but has no index out of range. Memory is not allocated by
+// counts that the file claims.
 #pragma once
 
 #include <functional>
@@ -91,6 +91,12 @@ void ObjReader::check_room(const CowVector<Item> &items, const Line &line) {
   constexpr size_t most = size_t{1} << 22;
   if (items.size() < most) return;
   line.fail("the limit is %zu vertices, triangles, segments or parts of one kind", most);
+}
+
+// A line, or an attribute of one, that may be given once.
+inline void once(bool &given, const char *word, const Line &line) {
+  if (given) line.fail("%s is given twice", word);
+  given = true;
 }
 
 // x y z in mm.

@@ -194,7 +194,8 @@ MVS_API mvs_result mvs_snapshot_get_rest(const mvs_snapshot *snapshot, mvs_rest 
  * at the free edge. In overdamped motion, D dx/dt = -K x with a damping D of 500 1/s times the
  * mass, a small disturbance grows or falls with the eigenvalues of -D^-1 K: the equilibrium is
  * stable where all their real parts are negative. That is so wherever Ks is positive definite.
- * Branch points of chordae that are all slack are left out. */
+ * Branch points with less stiffness than 1e-3 N/m, whose chordae are slack or carry next to
+ * nothing, are left out. */
 typedef struct mvs_stability {
   uint32_t struct_size;
   uint32_t stable;         /* 1: growth_rate is at most 1e-3 1/s, or Ks is positive definite */

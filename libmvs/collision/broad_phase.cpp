@@ -2,6 +2,8 @@
 // exact distance filter.
 #include "collision/broad_phase.h"
 
+#include <atomic>
+
 #include "collision/contact_params.h"
 
 namespace mvs::core {
@@ -9,6 +11,11 @@ namespace {
 
 // Found pairs are filtered in batches of about this size.
 constexpr size_t filter_batch = SharedSearch::filter_batch;
+
+uint64_t next_serial() {
+  static std::atomic<uint64_t> last{0};
+  return ++last;
+}
 
 }  // namespace
 
@@ -45,6 +52,7 @@ void BroadPhase::build(const std::vector<Vec3> &x, const std::vector<Vec3> &to, 
   const bool is_first = motion.from != x || motion.to == motion.from;
   if (!is_first && current_.is_first) first_ = current_;
   current_.is_first = is_first;
+  current_.serial = next_serial();
   mask_.compare(motion, x, to, slack == motion.slack && mode == motion.mode);
   motion.set(x, to, slack, mode);
   mask_.remove_changed(current_.lists);

@@ -56,6 +56,9 @@ class BroadPhase {
   bool valid_for(const std::vector<Vec3> &x) const { return current_.motion.contains(x); }
   bool is_independent() const { return current_.motion.is_independent(); }
 
+  // Not zero, and another one for other lists of any broad phase.
+  uint64_t serial() const { return current_.serial; }
+
   bool empty() const { return current_.lists.empty(); }
   // Sorted by vertex, then triangle; edges by first, then second.
   const std::vector<VertexTriangle> &contact_candidates() const { return current_.lists.contact; }
@@ -70,6 +73,7 @@ class BroadPhase {
     NodeMotion motion;
     CandidateLists lists;
     bool is_first = false;
+    uint64_t serial = 0;
   };
 
   void select_from_verlet_list();

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/swept_aabb.h"
+#include "geometry/swept_aabb_batch.h"
 
 namespace mvs::core {
 

@@ -113,14 +113,15 @@ void StepLimiter::add_pairs(const Model &model, const std::vector<Vec3> &x,
                             const BroadPhase &broad_phase, const std::vector<Vec3> &dx) {
   pairs_.clear();
   pairs_.reserve(model.node_count());  // rarely more, so that a live step seldom allocates
-  for (const VertexTriangle &c : broad_phase.barrier_candidates()) {
+  near_.select(model, broad_phase, x, &dx);
+  for (const VertexTriangle &c : near_.triangles()) {
     const Tri &t = model.valve.triangles[c.triangle];
     const auto p = closest_on_triangle(x[c.vertex], x[t[0]], x[t[1]], x[t[2]]);
     const Vec3 q = p.weight[0] * x[t[0]] + p.weight[1] * x[t[1]] + p.weight[2] * x[t[2]];
     const std::array<uint32_t, 4> node = {c.vertex, t[0], t[1], t[2]};
     add_pair({node, node, 1, x[c.vertex] - q, 0}, least_distance(c.range), dx);
   }
-  for (const EdgeEdge &c : broad_phase.barrier_edge_candidates()) {
+  for (const EdgeEdge &c : near_.edges()) {
     const Edge &e = model.topology.edges[c.first], &f = model.topology.edges[c.second];
     const auto p = closest_of_segments(x[e[0]], x[e[1]], x[f[0]], x[f[1]]);
     const Vec3 r = x[e[0]] + p.s * (x[e[1]] - x[e[0]]) - x[f[0]] - p.t * (x[f[1]] - x[f[0]]);

@@ -16,6 +16,7 @@
 
 #include "collision/broad_phase.h"
 #include "collision/instrument_bodies.h"
+#include "collision/near_barriers.h"
 
 namespace mvs::core {
 
@@ -48,6 +49,7 @@ class StepLimiter {
   void add_pair(const BodyPair &pair, const std::vector<Vec3> &dx);
   bool limit_pair(const Pair &pair, const std::vector<Vec3> &dx, bool by_halves);
 
+  NearBarriers near_;
   std::vector<Vec3> to_;
   std::vector<Pair> pairs_;
   std::vector<double> max_safe_step_;  // of each node, a share of its step

@@ -6,8 +6,8 @@
 // move independently: each part stays in the hull of its corners at both ends. If these hulls keep
 // more than a margin off the origin, or off each other, the parts never come as near as that.
 //
-// A gap between swept boxes (geometry/swept_aabb.h) is a plane between the same hulls, normal to an
-// axis. So parts that do not keep apart here have boxes near each other in every frame, and a
+// A gap between swept boxes (geometry/swept_aabb_batch.h) is a plane between the same hulls, normal
+// to an axis. So parts that do not keep apart here have boxes near each other in every frame, and a
 // search by boxes finds them all.
 #pragma once
 

@@ -15,19 +15,24 @@ void finish(const std::vector<Vec3> &x, ContactPair s, std::vector<ContactPair> 
 
 }  // namespace
 
+double edge_area(const Model &model, uint32_t edge) {
+  double area = 0;
+  for (const uint32_t t : model.topology.edge_triangles[edge]) {
+    area += t == none ? 0 : model.rest_area[t] / 3;
+  }
+  return area;
+}
+
 ContactTerm::ContactTerm(const Model &model, ContactLaw law)
     : model_(&model),
       thickness_(model.valve.contact_thickness),
-      stiffness_(model.valve.contact_stiffness),
       law_(law),
       curve_(law == ContactLaw::barrier ? barrier : penalty) {
   // more pairs than a closed valve has, so that a live step seldom allocates
   contact_pairs_.reserve(model.node_count());
   make_room(collected_);
-  for (const Edge &triangles : model.topology.edge_triangles) {
-    double area = 0;
-    for (const uint32_t t : triangles) area += t == none ? 0 : model.rest_area[t] / 3;
-    edge_area_.push_back(area);
+  for (uint32_t e = 0; e < model.topology.edges.size(); ++e) {
+    edge_area_.push_back(edge_area(model, e));
   }
   edge_share_.assign(model.topology.edges.size(), -1);
   corner_share_.assign(model.node_count(), 1);
@@ -49,9 +54,9 @@ void ContactTerm::make_room(Collected &to) const {
 
 void ContactTerm::collect(const std::vector<Vec3> &x, const BroadPhase &broad_phase,
                           Workers *workers) {
-  const size_t candidates = broad_phase.contact_candidates().size() +
-                            broad_phase.barrier_candidates().size() +
-                            broad_phase.barrier_edge_candidates().size();
+  if (law_ == ContactLaw::barrier) near_.select(*model_, broad_phase, x);
+  const size_t candidates =
+      broad_phase.contact_candidates().size() + near_.triangles().size() + near_.edges().size();
   if (pay_for(workers, candidate_us * static_cast<double>(candidates))) {
     collect_together(x, broad_phase, *workers);
     return;
@@ -108,11 +113,10 @@ void ContactTerm::collect_part(const std::vector<Vec3> &x, const BroadPhase &bro
     for (size_t k = begin_of_part(slice, slices, list.size()); k < end; ++k) use(list[k]);
   };
   if (part < 2 * slices) {
-    for_slice(broad_phase.barrier_candidates(),
+    for_slice(near_.triangles(),
               [&](const VertexTriangle &pair) { add_vertex_triangle(x, pair, to); });
   } else {
-    for_slice(broad_phase.barrier_edge_candidates(),
-              [&](const EdgeEdge &pair) { add_barrier(x, pair, to); });
+    for_slice(near_.edges(), [&](const EdgeEdge &pair) { add_barrier(x, pair, to); });
   }
 }
 
@@ -159,13 +163,13 @@ void ContactTerm::tally(const std::vector<Vec3> &x, uint32_t v, uint32_t triangl
   } else {
     ContactPair s = point_face(v, t, p.weight);
     s.range = thickness_;
-    s.strength = 0.5 * stiffness_ * model_->vertex_area[v];
+    s.strength = vertex_strength(*model_, v);
     finish(x, s, to.pairs);
   }
 }
 
 void ContactTerm::add_tallied(const std::vector<Vec3> &x, uint32_t v, Collected &to) const {
-  const double strength = 0.5 * stiffness_ * model_->vertex_area[v];
+  const double strength = vertex_strength(*model_, v);
   for (const uint32_t index : to.edges.touched) {
     const Edge &e = model_->topology.edges[index];
     const double s = closest_on_segment(x[v], x[e[0]], x[e[1]]).s;
@@ -196,7 +200,7 @@ void ContactTerm::add_vertex_triangle(const std::vector<Vec3> &x, const VertexTr
   const TrianglePoint p = closest_on_triangle(x[pair.vertex], x[t[0]], x[t[1]], x[t[2]]);
   ContactPair s = vertex_triangle(pair.vertex, t, p);
   s.range = pair.range;
-  s.strength = 0.5 * stiffness_ * model_->vertex_area[pair.vertex];
+  s.strength = vertex_strength(*model_, pair.vertex);
   s.is_barrier = true;
   finish(x, s, to.pairs);
 }
@@ -208,7 +212,7 @@ void ContactTerm::add_barrier(const std::vector<Vec3> &x, const EdgeEdge &pair,
   if (p.distance2 >= pair.range * pair.range) return;
   ContactPair s = edge_edge(e, f, p);
   s.range = pair.range;
-  s.strength = 0.25 * stiffness_ * (edge_area_[pair.first] + edge_area_[pair.second]);
+  s.strength = edge_strength(*model_, edge_area_[pair.first], edge_area_[pair.second]);
   finish(x, s, to.pairs);
 }
 

@@ -24,6 +24,7 @@
 #include "base/workers.h"
 #include "collision/broad_phase.h"
 #include "collision/contact_params.h"
+#include "collision/near_barriers.h"
 #include "energy/barrier.h"
 #include "model/model.h"
 
@@ -32,6 +33,17 @@ namespace mvs::core {
 // The barrier of this file, or the contact of the founding paper: a force that grows with depth up
 // to a bound, between vertices and triangles only, without a short-range barrier.
 enum class ContactLaw { barrier, penalty };
+
+// m2 of rest area that belongs to an edge of the topology: a third of its triangles.
+double edge_area(const Model &model, uint32_t edge);
+
+// Strengths (barrier.h) of the pairs of a vertex, and of two edges with these areas.
+inline double vertex_strength(const Model &model, uint32_t vertex) {
+  return 0.5 * model.valve.contact_stiffness * model.vertex_area[vertex];
+}
+inline double edge_strength(const Model &model, double first_area, double second_area) {
+  return 0.25 * model.valve.contact_stiffness * (first_area + second_area);
+}
 
 class ContactTerm {
  public:
@@ -90,13 +102,14 @@ class ContactTerm {
                            Collected &to) const;
 
   const Model *model_;
-  double thickness_, stiffness_;
+  double thickness_;
   ContactLaw law_;
   Barrier (*curve_)(double);
   std::vector<double> edge_area_;
   std::vector<int> edge_share_, corner_share_;  // c_p: -1 and +1 inside the sheet, 0 on its rims
   Collected collected_;
   std::vector<Collected> parts_;  // of several threads
+  NearBarriers near_;
   std::vector<ContactPair> contact_pairs_;
 };
 

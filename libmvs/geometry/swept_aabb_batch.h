@@ -1,15 +1,18 @@
 // Swept boxes in single precision (SweptAabbF), alone and eight at a time (SweptAabb8):
 // conservative overlap tests, which never report "apart" for two boxes that are within the margin.
-// Tests hold them against apart() of swept_aabb.h, in double precision.
+// tests/collision/batches.cpp holds them against boxes in double precision.
 #pragma once
 
 #include <cmath>
 #include <cstring>
 
 #include "base/simd.h"
-#include "geometry/swept_aabb.h"
+#include "base/types.h"
 
 namespace mvs::core {
+
+// Whether all nodes take the same share of their motion at a time, or each node any share.
+enum class StepMotion { together, independent };
 
 // Three axes; the fourth number is 0 in all boxes, so that they overlap along it.
 using CornerF = std::array<float, 4>;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/denormals.h"
+#include "linalg/compact_panel.h"
 #include "linalg/direct_solver.h"
 #include "linalg/panel.h"
 #include "linalg/subtrees.h"
@@ -36,10 +37,12 @@ void copy_block(const T *from, T *to) {
   for (size_t c = 0; c < 3; ++c) to[c] = from[c];
 }
 
-// Panels of double, or of float as a preconditioner.
+// Panels of double, or of float as a preconditioner; those of float may be solved with in 16 bits
+// (compact_panel.h), by one thread.
 template <typename T>
 class BlockFactor final : public DirectSolver {
  public:
+  explicit BlockFactor(bool is_compact = false) : is_compact_(is_compact) {}
   void analyse(const BlockMatrix &matrix) override;
   bool factorise(const BlockMatrix &matrix) override;
   bool factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) override;
@@ -49,6 +52,8 @@ class BlockFactor final : public DirectSolver {
   using Row = Eigen::Matrix<T, 3, 1>;
   T *panel(const Supernode &s) { return value_.data() + s.panel; }
   void weigh();
+  void compress();
+  void solve_compactly();
   size_t begin_of(uint32_t part, uint32_t parts) const;
   bool factorise_supernode(const BlockMatrix &matrix, size_t k, Places &places);
   bool factorise_together(const BlockMatrix &matrix);
@@ -70,7 +75,11 @@ class BlockFactor final : public DirectSolver {
   void solve_outer_rows(uint32_t begin, uint32_t end);
 
   Supernodes pattern_;
-  std::vector<T> value_;      // all panels
+  std::vector<T> value_;  // all panels
+  bool is_compact_;
+  std::vector<int32_t> tiles_;    // the same in 16 bits, with a scale for each column
+  std::vector<size_t> tiles_of_;  // supernode -> its first word
+  std::vector<float> scale_, inverse_;
   std::vector<T> x_;          // right-hand side, then solution
   std::vector<T> local_;      // right-hand side in the rows of one panel
   std::vector<double> work_;  // products up to the end of each supernode

@@ -5,6 +5,7 @@
 #include "linalg/cholesky.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "linalg/block_factor.h"
 
@@ -112,14 +113,63 @@ bool BlockFactor<T>::factorise_part(const BlockMatrix &matrix, uint32_t part, ui
   for (size_t k = begin_of(part, parts); k < begin_of(part + 1, parts); ++k) {
     if (!factorise_supernode(matrix, k, places_)) return false;
   }
+  if (is_compact_ && part + 1 == parts) compress();
   return true;
 }
 
 template <typename T>
 bool BlockFactor<T>::factorise(const BlockMatrix &matrix) {
   const double products = work_.empty() ? 0 : work_.back();
+  if (is_compact_) return factorise_part(matrix, 0, 1);
   return pay_for(workers(), products * block_product_us) ? factorise_together(matrix)
                                                          : factorise_part(matrix, 0, 1);
+}
+
+template <typename T>
+void BlockFactor<T>::compress() {
+  if constexpr (std::is_same_v<T, float>) {
+    tiles_of_.clear();
+    size_t words = 0;
+    for (const Supernode &s : pattern_.node) {
+      tiles_of_.push_back(words);
+      words += compact_size(3 * s.width(), s.height());
+    }
+    make_room(tiles_, words);
+    tiles_.resize(words);
+    scale_.resize(x_.size());
+    inverse_.resize(inverse_numbers * x_.size());
+    for (size_t k = 0; k < pattern_.node.size(); ++k) {
+      const Supernode &s = pattern_.node[k];
+      compress_panel(panel(s),
+                     {inverse_.data() + 3 * inverse_numbers * s.first, tiles_.data() + tiles_of_[k],
+                      scale_.data() + 3 * s.first, 3 * s.width(), s.height()});
+    }
+  }
+}
+
+template <typename T>
+void BlockFactor<T>::solve_compactly() {
+  if constexpr (std::is_same_v<T, float>) {
+    const auto compact = [&](size_t k) {
+      const Supernode &s = pattern_.node[k];
+      return CompactPanel{inverse_.data() + 3 * inverse_numbers * s.first,
+                          tiles_.data() + tiles_of_[k], scale_.data() + 3 * s.first, 3 * s.width(),
+                          s.height()};
+    };
+    for (size_t k = 0; k < pattern_.node.size(); ++k) {
+      const Supernode &s = pattern_.node[k];
+      load(s, s.row_end, local_.data());
+      solve_forward(compact(k), local_.data());
+      store_columns(s, local_.data());
+      store_rows(s, s.row_end, local_.data());
+    }
+    for (size_t k = pattern_.node.size(); k-- > 0;) {
+      const Supernode &s = pattern_.node[k];
+      load(s, s.row_end, local_.data());
+      solve_backward(compact(k), local_.data());
+      store_columns(s, local_.data());
+    }
+  }
 }
 
 // Its columns, and its rows up to `row_end`.
@@ -167,7 +217,9 @@ template <typename T>
 void BlockFactor<T>::solve(std::vector<Vec3> &b) {
   const Rounding<T> rounding;
   for (size_t j = 0; j < b.size(); ++j) Eigen::Map<Row>(x_.data() + 3 * j) = b[j].cast<T>();
-  if (pay_for(workers(), panel_number_us * static_cast<double>(pattern_.numbers))) {
+  if (is_compact_) {
+    solve_compactly();
+  } else if (pay_for(workers(), panel_number_us * static_cast<double>(pattern_.numbers))) {
     solve_together();
   } else {
     for (const Supernode &s : pattern_.node) solve_forward_at(s, s.row_end, local_.data());
@@ -204,6 +256,10 @@ std::unique_ptr<DirectSolver> make_block_factor() {
 
 std::unique_ptr<DirectSolver> make_float_factor() {
   return std::make_unique<BlockFactor<float>>();
+}
+
+std::unique_ptr<DirectSolver> make_compact_factor() {
+  return std::make_unique<BlockFactor<float>>(true);
 }
 
 }  // namespace mvs::core

@@ -13,4 +13,7 @@ std::unique_ptr<DirectSolver> make_block_factor();
 // factorisation fails if rounding alone makes a matrix indefinite, from a condition of about 1e7.
 std::unique_ptr<DirectSolver> make_float_factor();
 
+// The same, solving with its numbers in 16 bits: for factors larger than the caches, on one thread.
+std::unique_ptr<DirectSolver> make_compact_factor();
+
 }  // namespace mvs::core

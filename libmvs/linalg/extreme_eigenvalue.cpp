@@ -106,20 +106,26 @@ class RitzSpace {
   }
 
   size_t size() const { return v_.size(); }
-  const std::vector<BlockVector> &v() const { return v_; }
   LeftmostEigen ritz() const { return leftmost_eigen(small_); }
 
-  // Both parts of K v - kappa B v for a Ritz pair. Returns its norm in the inverse weights.
+  BlockVector vector(const LeftmostEigen &pair) const { return combination(v_, pair.vector_real); }
+
+  // Both parts of K v - kappa B v for a Ritz pair; the second is empty if the pair is real. Returns
+  // its norm in the inverse weights.
   double residual(const LeftmostEigen &pair, std::array<BlockVector, 2> &parts) const {
-    const std::array<BlockVector, 2> v{combination(v_, pair.vector_real),
-                                       combination(v_, pair.vector_imaginary)};
-    parts = {combination(product_, pair.vector_real), combination(product_, pair.vector_imaginary)};
+    parts[0] = combination(product_, pair.vector_real);
+    subtract_weighted(pair.real, vector(pair), parts[0]);
+    parts[1].clear();
+    if (pair.imaginary != 0) {
+      const BlockVector imaginary = combination(v_, pair.vector_imaginary);
+      parts[1] = combination(product_, pair.vector_imaginary);
+      subtract_weighted(pair.real, imaginary, parts[1]);
+      subtract_weighted(pair.imaginary, vector(pair), parts[1]);
+      subtract_weighted(-pair.imaginary, imaginary, parts[0]);
+    }
     double square = 0;
-    for (size_t i = 0; i < v[0].size(); ++i) {
-      const double w = (*weight_)[i];
-      parts[0][i] -= w * (pair.real * v[0][i] - pair.imaginary * v[1][i]);
-      parts[1][i] -= w * (pair.real * v[1][i] + pair.imaginary * v[0][i]);
-      square += (parts[0][i].squaredNorm() + parts[1][i].squaredNorm()) / w;
+    for (const BlockVector &part : parts) {
+      for (size_t i = 0; i < part.size(); ++i) square += part[i].squaredNorm() / (*weight_)[i];
     }
     return std::sqrt(square);
   }
@@ -127,6 +133,10 @@ class RitzSpace {
  private:
   // A vector with a smaller share outside the space is rounding.
   static constexpr double least_share = 1e-10;
+
+  void subtract_weighted(double times, const BlockVector &v, BlockVector &from) const {
+    for (size_t i = 0; i < v.size(); ++i) from[i] -= (times * (*weight_)[i]) * v[i];
+  }
 
   const LinearMap *multiply_;
   const std::vector<double> *weight_;
@@ -150,17 +160,19 @@ Eigenpair leftmost_eigenvalue(const LinearMap &multiply, const LinearMap &solve,
     found.error = space.residual(pair, residual) / std::max(size, goal.scale);
     found.real = pair.real;
     found.imaginary = pair.imaginary;
-    found.vector = combination(space.v(), pair.vector_real);
-    if (found.error <= goal.error || found.iterations == goal.most) return found;
-    ++found.iterations;
     bool grows = false;
-    for (const BlockVector &part : residual) {
-      if (is_zero(part)) continue;  // the imaginary part of a real pair
-      BlockVector correction;
-      solve(part, correction);
-      grows = space.add_vector(std::move(correction)) || grows;
+    if (found.error > goal.error && found.iterations < goal.most) {
+      ++found.iterations;
+      for (const BlockVector &part : residual) {
+        if (part.empty() || is_zero(part)) continue;
+        BlockVector correction;
+        solve(part, correction);
+        grows = space.add_vector(std::move(correction)) || grows;
+      }
     }
-    if (!grows) return found;
+    if (grows) continue;
+    found.vector = space.vector(pair);
+    return found;
   }
 }
 

@@ -6,38 +6,10 @@
 
 #include "base/simd.h"
 #include "linalg/panel.h"
+#include "linalg/panel_block.h"
 
 namespace mvs::core {
 namespace {
-
-constexpr size_t solve_columns = 12;  // a multiple of 3: columns come three at a time
-
-// Solves for three numbers by the square of their columns a, b, c, from row j on.
-MVS_INLINE void forward_square(const double *a, const double *b, const double *c, size_t j,
-                               double *x) {
-  x[j] *= a[j];
-  x[j + 1] = (x[j + 1] - a[j + 1] * x[j]) * b[j + 1];
-  x[j + 2] = (x[j + 2] - a[j + 2] * x[j] - b[j + 2] * x[j + 1]) * c[j + 2];
-}
-
-// The square of floats is an inverse.
-MVS_INLINE void forward_square(const float *a, const float *b, const float *c, size_t j, float *x) {
-  const float x0 = x[j], x1 = x[j + 1], x2 = x[j + 2];
-  x[j] = a[j] * x0;
-  x[j + 1] = a[j + 1] * x0 + b[j + 1] * x1;
-  x[j + 2] = (a[j + 2] * x0 + b[j + 2] * x1) + c[j + 2] * x2;
-}
-
-// Solves for columns first .. last on their own.
-template <typename T>
-MVS_INLINE void forward_block(const T *panel, size_t height, size_t first, size_t last, T *x) {
-  for (size_t j = first; j < last; j += 3) {
-    const T *a = panel + j * height, *b = a + height, *c = b + height;
-    forward_square(a, b, c, j, x);
-    const T x0 = x[j], x1 = x[j + 1], x2 = x[j + 2];
-    for (size_t i = j + 3; i < last; ++i) x[i] = x[i] - a[i] * x0 - b[i] * x1 - c[i] * x2;
-  }
-}
 
 // x[i] -= sum_k a[i, k] by[k] for the rows of `count` registers.
 template <typename V, size_t count, typename T = typename V::Number>
@@ -85,46 +57,6 @@ MVS_INLINE void forward_rows(const T *row, size_t width, size_t height, size_t r
   for (size_t first = 0; first < width; first += solve_columns) {
     const size_t columns = std::min(solve_columns, width - first);
     take_from_rows<V>(row + first * height, height, columns, 0, rows, y + first, x);
-  }
-}
-
-// Subtracts the products of three columns with the rows below, from the last row on.
-template <typename T>
-MVS_INLINE void take_rows(const T *a, size_t height, size_t first, size_t last, const T *x,
-                          std::array<T, 3> &sum) {
-  const T *b = a + height, *c = b + height;
-  for (size_t i = last; i-- > first;) {
-    sum[0] -= a[i] * x[i];
-    sum[1] -= b[i] * x[i];
-    sum[2] -= c[i] * x[i];
-  }
-}
-
-// Solves for three numbers, of which `sum` is left, by the square of their columns from row j on.
-MVS_INLINE void backward_square(const double *a, const double *b, const double *c, size_t j,
-                                const std::array<double, 3> &sum, double *x) {
-  x[j + 2] = sum[2] * c[j + 2];
-  x[j + 1] = (sum[1] - b[j + 2] * x[j + 2]) * b[j + 1];
-  x[j] = (sum[0] - a[j + 2] * x[j + 2] - a[j + 1] * x[j + 1]) * a[j];
-}
-
-MVS_INLINE void backward_square(const float *a, const float *b, const float *c, size_t j,
-                                const std::array<float, 3> &sum, float *x) {
-  x[j + 2] = sum[2] * c[j + 2];
-  x[j + 1] = sum[2] * b[j + 2] + sum[1] * b[j + 1];
-  x[j] = (sum[2] * a[j + 2] + sum[1] * a[j + 1]) + sum[0] * a[j];
-}
-
-// Solves for columns first .. last, without the products with rows from `last` on: three at a time,
-// so that their sums are independent.
-template <typename T>
-MVS_INLINE void backward_block(const T *panel, size_t height, size_t first, size_t last,
-                               size_t rows, T *x) {
-  for (size_t j = last; j > first; j -= 3) {
-    const T *a = panel + (j - 3) * height, *b = a + height, *c = b + height;
-    std::array<T, 3> sum = {x[j - 3], x[j - 2], x[j - 1]};
-    take_rows(a, height, j, rows, x, sum);
-    backward_square(a, b, c, j - 3, sum, x);
   }
 }
 

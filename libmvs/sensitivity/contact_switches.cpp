@@ -169,8 +169,7 @@ void ContactSwitches::add_vertex(const VertexTriangle *first, const VertexTriang
   const Valve &valve = model_.valve;
   const Topology &topology = model_.topology;
   const uint32_t v = first->vertex;
-  const Law law = {0.5 * valve.contact_stiffness * model_.vertex_area[v], valve.contact_thickness,
-                   0};
+  const Law law = {vertex_strength(model_, v), valve.contact_thickness, 0};
   const Law subtracted = {-law.strength, law.range, 0};
   std::vector<uint32_t> edges, corners;
   const auto is_new = [](std::vector<uint32_t> &list, uint32_t item) {
@@ -250,22 +249,15 @@ void find_contact_switches(const Model &model, const std::vector<Vec3> &x, doubl
   }
   const Valve &valve = model.valve;
   for (const VertexTriangle &pair : near.barrier_candidates()) {
-    switches.add_triangle(
-        pair.vertex, valve.triangles[pair.triangle],
-        {0.5 * valve.contact_stiffness * model.vertex_area[pair.vertex], pair.range, 0});
+    switches.add_triangle(pair.vertex, valve.triangles[pair.triangle],
+                          {vertex_strength(model, pair.vertex), pair.range, 0});
   }
   const Topology &topology = model.topology;
-  const auto area_of = [&](uint32_t e) {
-    double area = 0;
-    for (const uint32_t t : topology.edge_triangles[e]) {
-      area += t == none ? 0 : model.rest_area[t] / 3;
-    }
-    return area;
-  };
   for (const EdgeEdge &pair : near.barrier_edge_candidates()) {
     const Edge &e = topology.edges[pair.first], &f = topology.edges[pair.second];
-    const Law law = {0.25 * valve.contact_stiffness * (area_of(pair.first) + area_of(pair.second)),
-                     pair.range, 0};
+    const Law law = {
+        edge_strength(model, edge_area(model, pair.first), edge_area(model, pair.second)),
+        pair.range, 0};
     switches.add_edges(e, f, law);
   }
   add_instruments(model, energy.instrument().bodies().all(), switches);

@@ -22,17 +22,34 @@ std::vector<double> damping_of(const Model &model, const HessianAssembler &syste
   return damping;
 }
 
-// BlockVector without stiffness: branch points whose chordae are all slack. They have no place to
-// return to, and say nothing about the others.
-std::vector<uint8_t> loose_rows(const BlockMatrix &matrix) {
-  std::vector<uint8_t> is_loose(matrix.size(), 1);
-  for (uint32_t c = 0; c < matrix.size(); ++c) {
-    for (uint32_t k = matrix.start[c]; k < matrix.start[c + 1]; ++k) {
-      if (matrix.value[k].isZero(0)) continue;
-      is_loose[c] = is_loose[matrix.row[k]] = 0;
-    }
+// Whether all eigenvalues of a symmetric block are above a bound (Sylvester's criterion).
+bool is_above(Mat3 block, double bound) {
+  block.diagonal().array() -= bound;
+  const double minor = block(0, 0) * block(1, 1) - block(1, 0) * block(1, 0);
+  return block(0, 0) > 0 && minor > 0 && block.determinant() > 0;
+}
+
+// Rows of branch points whose chordae are slack, or nearly so. They have no place to return to, and
+// say nothing about the others.
+std::vector<uint8_t> loose_rows(const Model &model, const HessianAssembler &system) {
+  const BlockMatrix &matrix = system.matrix;
+  std::vector<uint8_t> is_loose(matrix.size(), 0);
+  for (uint32_t r = 0; r < matrix.size(); ++r) {
+    const uint32_t node = system.node_of[r];
+    const bool is_branch_point = node < model.vertex_area.size() && model.vertex_area[node] == 0;
+    is_loose[r] = is_branch_point && !is_above(matrix.value[matrix.start[r]], set::loose_stiffness);
   }
   return is_loose;
+}
+
+// Holds loose rows where they are.
+void hold(const std::vector<uint8_t> &is_loose, BlockMatrix &matrix) {
+  for (uint32_t c = 0; c < matrix.size(); ++c) {
+    if (is_loose[c]) matrix.value[matrix.start[c]] = Mat3::Identity();
+    for (uint32_t k = matrix.start[c] + 1; k < matrix.start[c + 1]; ++k) {
+      if (is_loose[c] || is_loose[matrix.row[k]]) matrix.value[k].setZero();
+    }
+  }
 }
 
 // The same vector on every machine, with a share of every mode: numbers of a linear congruential
@@ -63,13 +80,14 @@ std::vector<Vec3> mode_of(const BlockVector &rows, const HessianAssembler &syste
 
 StabilityCheck::StabilityCheck() : factor_(make_block_factor()) {}
 
-// Factorises Ks plus a diagonal; false if that is not positive definite.
-bool StabilityCheck::factorise(const HessianAssembler &system, const std::vector<double> &added,
-                               SolveStats &stats) {
+// Factorises Ks plus a diagonal, with loose rows held; false if that is not positive definite.
+bool StabilityCheck::factorise(const HessianAssembler &system, const std::vector<uint8_t> &is_loose,
+                               const std::vector<double> &added, SolveStats &stats) {
   const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
   const bool same_pattern =
       is_analysed_ && matrix_.start == system.matrix.start && matrix_.row == system.matrix.row;
   matrix_ = system.matrix;
+  hold(is_loose, matrix_);
   for (uint32_t r = 0; r < matrix_.size(); ++r) {
     matrix_.value[matrix_.start[r]].diagonal().array() += added[r];
   }
@@ -87,13 +105,15 @@ Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_ene
   const std::vector<double> damping = damping_of(model, system);
   std::vector<double> added = damping;
   for (double &number : added) number *= set::max_rate;
-  const bool is_definite = factorise(system, added, stats);
+  const std::vector<uint8_t> is_loose = loose_rows(model, system);
+  const bool is_definite = factorise(system, is_loose, added, stats);
   double shift = is_definite ? 0 : last_shift_ / (set::shift_growth * set::shift_growth);
   while (!is_definite) {
     shift = std::max(set::shift_growth * shift, set::min_shift);
     MVS_MUST(shift < set::max_shift, MVS_E_DIVERGED, "settle",
              "the stiffness matrix is not finite; check the materials");
-    if (factorise(system, std::vector<double>(added.size(), shift), stats)) break;
+    const std::vector<double> everywhere(added.size(), shift);
+    if (factorise(system, is_loose, everywhere, stats)) break;
   }
   last_shift_ = shift;
   const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
@@ -109,15 +129,22 @@ Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_ene
     for (size_t r = 0; r < v.size(); ++r) by_node[system.node_of[r]] = v[r];
     std::fill(skew.begin(), skew.end(), Vec3::Zero());
     total_energy.add_skew(x, by_node, skew);
-    for (size_t r = 0; r < v.size(); ++r) y[r] += skew[system.node_of[r]];
+    for (size_t r = 0; r < v.size(); ++r) {
+      if (is_loose[r]) {
+        y[r].setZero();
+      } else {
+        y[r] += skew[system.node_of[r]];
+      }
+    }
   };
   std::vector<BlockVector> basis;
-  const BlockVector start = start_vector(loose_rows(system.matrix));
+  const BlockVector start = start_vector(is_loose);
   const Eigenpair symmetric =
       smallest_eigenvalue(solve, start, {set::error, set::most_iterations}, basis);
   found.stiffness = symmetric.real - shift;
-  const Eigenpair leaving = leftmost_eigenvalue(multiply, solve, damping, std::move(basis),
-                                                {set::error, set::most_iterations, set::max_rate});
+  const Eigenpair leaving = leftmost_eigenvalue(
+      multiply, solve, damping, std::move(basis),
+      {is_definite ? set::rate_error : set::error, set::most_iterations, set::max_rate});
   stats.work.linear_iterations += symmetric.iterations + leaving.iterations;
   found.rate = is_definite ? std::min(-leaving.real, 0.0) : -leaving.real;
   found.is_stable = is_definite || found.rate <= set::max_rate;

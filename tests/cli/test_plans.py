@@ -14,7 +14,10 @@ SICK = {
     1: ["--annulus-scale", "1.15", "--chord-factor", "{strut}=1.25"],
     2: ["--chord-factor", "A2/4=0.70"],
     3: ["--annulus-scale", "1.10", "--chord-factor", "A2/4=0.67"],
+    4: ["--annulus-scale", "1.05"],
 }
+# Plans that make a valve ill, by names of chordae at 425 vertices.
+RUPTURE = {4: PLANS / "flail.json"}
 STRUT = {425: "A1/11"}
 if os.environ.get("MVS_TEST_LONG"):
     STRUT[1700] = "A2/6"
@@ -38,11 +41,14 @@ class Plans(unittest.TestCase):
         sick = [word.format(strut=STRUT[vertices]) for word in SICK[number]]
         self.json("generate", "--shape", "founding", "--vertices", vertices, "--posterior-height", 12, *sick,
                   "-o", "sick.obj")
+        if number in RUPTURE:
+            whole = self.json("repair", "sick.obj", "--plan", RUPTURE[number], "-o", "sick.obj")["before"]
+            self.assertEqual(whole["measures"]["regurgitant_orifice_area_mm2"], 0, "the rupture makes it leak")
         return self.json("repair", "sick.obj", "--plan", PLANS / f"valve{number}.json")
 
     def test_each_repair_seals_its_valve(self):
         for vertices in STRUT:
-            for number in SICK:
+            for number in SICK if vertices == 425 else SICK.keys() - RUPTURE.keys():
                 with self.subTest(vertices=vertices, valve=number):
                     found = self.repaired(number, vertices)
                     before, after = found["before"], found["after"]
@@ -55,7 +61,8 @@ class Plans(unittest.TestCase):
     def test_every_plan_is_explained(self):
         text = (PLANS / "README.md").read_text()
         files = sorted(path.name for path in PLANS.glob("*.json"))
-        self.assertEqual(files, [f"valve{number}.json" for number in SICK])
+        self.assertEqual(files, sorted([path.name for path in RUPTURE.values()]
+                                       + [f"valve{number}.json" for number in SICK]))
         for number in SICK:
             self.assertIn(f"valve{number}.obj", text)
             self.assertTrue(json.loads((PLANS / f"valve{number}.json").read_text())["notes"])

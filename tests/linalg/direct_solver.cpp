@@ -83,6 +83,8 @@ std::vector<NamedFactor> all_factors() {
                    make_direct_solver(backend), 1e-12});
   }
   all.push_back({"float", make_float_factor(), 1e-4});
+  // 1.5e-5 of the largest number of each column, times a hundred for the condition
+  all.push_back({"compact", make_compact_factor(), 1.5e-3});
   // the rest of the residual, and the share by which the norms of residual and solution differ
   all.push_back({"refined", make_mixed_precision_cholesky(), 1e-6});
   return all;
@@ -199,7 +201,7 @@ TEST_CASE("a_factor_computed_in_parts_has_the_same_bits") {
   Random random(9);
   const BlockMatrix m = random_matrix(random, 150, 600);
   const Positions b = random.vectors(150, 1);
-  for (const auto make : {make_block_factor, make_float_factor}) {
+  for (const auto make : {make_block_factor, make_float_factor, make_compact_factor}) {
     const std::unique_ptr<DirectSolver> whole = make(), parts = make();
     whole->analyse(m);
     parts->analyse(m);
@@ -209,6 +211,25 @@ TEST_CASE("a_factor_computed_in_parts_has_the_same_bits") {
     whole->solve(x);
     parts->solve(y);
     CHECK(x == y);
+  }
+}
+
+// Conjugate gradients need a symmetric, positive definite preconditioner.
+TEST_CASE("a_factor_in_16_bits_remains_symmetric_and_positive") {
+  Random random(10);
+  for (const uint32_t n : {1u, 5u, 60u, 300u}) {
+    const BlockMatrix m = random_matrix(random, n, n < 2 ? 0 : 4 * n);
+    const std::unique_ptr<DirectSolver> factor = make_compact_factor();
+    factor->analyse(m);
+    REQUIRE(factor->factorise(m));
+    const Positions a = random.vectors(n, 1), b = random.vectors(n, 1);
+    Positions x = a, y = b;
+    factor->solve(x);
+    factor->solve(y);
+    // rounding of floats in sums of up to 900 numbers
+    CHECK(std::abs(flat(x).dot(flat(b)) - flat(a).dot(flat(y))) <
+          1e-4 * flat(x).norm() * flat(b).norm());
+    CHECK(flat(x).dot(flat(a)) > 0);
   }
 }
 

@@ -198,12 +198,12 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
     whole.copy(matrix, place, nullptr);
     parts.copy(matrix, place, nullptr);
     REQUIRE(whole.factorise());
-    for (uint32_t part = 0; part < CachedPreconditioner::parts; ++part) {
-      CHECK(!parts.is_of(place, CachedPreconditioner::parts));
+    for (uint32_t part = 0; part < whole.parts(); ++part) {
+      CHECK(!parts.is_of(place, whole.parts()));
       REQUIRE(parts.factorise_part(part));
       REQUIRE(parts.factorise_part(0));  // finished parts remain
     }
-    CHECK(parts.is_of(place, CachedPreconditioner::parts));
+    CHECK(parts.is_of(place, whole.parts()));
     Positions rows(matrix.size()), x, y, back;
     for (size_t r = 0; r < rows.size(); ++r) rows[r] = g[matrix.node(static_cast<uint32_t>(r))];
     rows[3] = Vec3(1e-3, -2e-3, 3e-3);
@@ -389,7 +389,8 @@ TEST_CASE("a_damaged_solver_cache_is_refused") {
   CHECK(outcome(other) == MVS_E_VERSION);
   // more parts of a factor than there are
   other = good;
-  for (const uint64_t parts : {uint64_t{CachedPreconditioner::parts} + 1, uint64_t{UINT32_MAX}}) {
+  for (const uint64_t parts :
+       {uint64_t{CachedPreconditioner::parts_for(*good.model)} + 1, uint64_t{UINT32_MAX}}) {
     other.state.cache.counter = parts << 32;
     CHECK(outcome(other) == MVS_E_FORMAT);
     Solver solver(Backend::fastest);

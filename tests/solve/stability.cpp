@@ -54,6 +54,20 @@ struct DenseTangent {
     }
   }
 
+  // Without the rows of branch points whose own block has an eigenvalue below a bound.
+  void leave_out(const Model &model, double bound) {
+    std::vector<Eigen::Index> kept;
+    for (size_t r = 0; r < node_of.size(); ++r) {
+      const auto row = static_cast<Eigen::Index>(3 * r);
+      const Mat3 block = symmetric.block<3, 3>(row, row);
+      const double least = Eigen::SelfAdjointEigenSolver<Mat3>(block).eigenvalues()[0];
+      if (model.vertex_area[node_of[r]] == 0 && least < bound) continue;
+      for (int axis = 0; axis < 3; ++axis) kept.push_back(row + axis);
+    }
+    symmetric = Eigen::MatrixXd(symmetric(kept, kept));
+    skew = Eigen::MatrixXd(skew(kept, kept));
+    damping = Eigen::VectorXd(damping(kept));
+  }
   double stiffness() const {
     return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
         .eigenvalues()[0];
@@ -142,6 +156,25 @@ TEST_CASE("margins_are_those_of_a_dense_eigensolver") {
       CHECK(largest(found.mode) == about(1, 1e-12));
     }
   }
+}
+
+// Its trunks that are slack, or carry next to nothing, would be the softest part of the valve.
+TEST_CASE("margins_leave_out_branch_points_that_carry_nothing") {
+  mvs_parametric_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.vertices = 300;
+  desc.chord_slack = 1.05;
+  const Model model = *make_model(make_parametric_valve(desc));
+  const State state = closed(model);
+  DenseTangent dense(model, state);
+  const auto rows = dense.damping.size();
+  CHECK(dense.stiffness() < 1e-3);
+  dense.leave_out(model, 1e-3);
+  CHECK(dense.damping.size() < rows);
+  const Stability found = check_stability(model, state);
+  CHECK(found.stiffness == about(dense.stiffness(), 0.01));
+  CHECK(found.stiffness > 0.01);
+  CHECK(found.rate == about(dense.rate(), 0.01));
 }
 
 TEST_CASE("a_truss_snaps_at_its_critical_pressure") {
@@ -270,11 +303,16 @@ TEST_CASE("a_settled_valve_returns_from_a_small_disturbance") {
     }
     const Settled again = settle(model, disturbed, options);
     REQUIRE(again.stats.converged);
-    // a branch point between slack chordae has next to no stiffness
     const double margin =
         std::min(std::abs(first.stats.stiffness_margin), std::abs(again.stats.stiffness_margin));
     const double bound = std::max(1e-6, 2 * options.residual / margin);
-    CHECK(farthest(first.state.x, again.state.x) <= bound);
+    // branch points may have no place to return to
+    double moved = 0;
+    for (uint32_t i = 0; i < model.vertex_area.size(); ++i) {
+      if (model.vertex_area[i] == 0) continue;
+      moved = std::max(moved, (again.state.x[i] - first.state.x[i]).norm());
+    }
+    CHECK(moved <= bound);
   }
 }
 

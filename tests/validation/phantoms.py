@@ -244,6 +244,8 @@ def settings_of(arguments: argparse.Namespace, kind: str, seed: int) -> phantom.
     changes: dict[str, Any] = {"seed": seed, "pose": True}
     if arguments.short:
         changes.update(vertices=0, spacing={"micro-ct": 0.3, "ultrasound": 0.7}[kind])
+    if arguments.spacing:
+        changes["spacing"] = arguments.spacing
     if arguments.law:
         changes["law"] = arguments.law
     if arguments.exact_labels:
@@ -262,6 +264,7 @@ def main() -> int:
     add("--first", type=int, default=1, metavar="N", help="leave out the cases before this one [1]")
     add("--seed", type=int, default=0, metavar="N", help="of the cases [0]")
     add("--short", action="store_true", help="two cases of coarse phantoms, in less than a minute")
+    add("--spacing", type=float, metavar="MM", help="of the voxels [0.15; ultrasound 0.7]")
     add("--fitted-only", action="store_true", help="ultrasound: not also without the loaded image")
     add("--exact-labels", action="store_true", help="ultrasound labels without errors")
     add("--law", metavar="LAW", help="tissue of the true leaflets [may_newman_yin]")

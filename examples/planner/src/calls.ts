@@ -37,6 +37,7 @@ export interface Calls {
   hand_move: { argument: { position: number[] }; result: null };
   hand_end: { argument: null; result: Shown };
   checkpoint: { argument: { name: string }; result: string[] };
+  rename_checkpoint: { argument: { name: string; to: string }; result: string[] };
   restore: { argument: { name: string }; result: Shown };
   read_checkpoint: { argument: { name: string }; result: Shown };
   save_obj: { argument: null; result: Uint8Array };

@@ -1,9 +1,11 @@
 // Opens the built page from disk in Debian's Chromium, as a person would; collects errors of the page.
-import { chromium } from 'playwright-core';
-import { mkdtempSync } from 'node:fs';
+import assert from 'node:assert/strict';
+import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
+import { after, before } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { chromium } from 'playwright-core';
 
 export const page_path = resolve(
   process.env.PLANNER_PAGE ?? join(dirname(fileURLToPath(import.meta.url)), '../../../out/planner.html'),
@@ -18,6 +20,9 @@ const flags = [
   '--disable-component-update',
   '--disable-sync',
 ];
+
+/** ms that a test waits for what the page does: other work on the machine may take most of it. */
+const patience = 180_000;
 
 /** A browser with a profile of its own, so that storage outlives the page. `software`: no WebGL. */
 export async function openBrowser({
@@ -36,6 +41,7 @@ export async function openBrowser({
     hasTouch: touch,
     acceptDownloads: true,
   });
+  context.setDefaultTimeout(patience);
   return { context, profile: folder };
 }
 
@@ -55,7 +61,7 @@ export async function openPlanner(context, { hash = '' } = {}) {
 }
 
 /** Waits until nothing is calculated and the valve is shown. The page's policy forbids waitForFunction (eval). */
-export async function closed(page, limit = 60_000) {
+export async function closed(page, limit = patience) {
   const end = Date.now() + limit;
   for (;;) {
     const idle = await page.evaluate(() => {
@@ -76,5 +82,47 @@ export function figures(page) {
     const shown = state.preview.value ?? state.main.value;
     const { fields: _, ...rest } = shown.figures;
     return rest;
+  });
+}
+
+/** A file in a folder of its own; returns its path. */
+export function temporaryFile(name, content) {
+  const path = join(mkdtempSync(join(tmpdir(), 'planner-')), name);
+  writeFileSync(path, content);
+  return path;
+}
+
+/** A page for one test, which must have no errors. */
+export async function withPlanner(options, work) {
+  const { context, profile } = await openBrowser(options);
+  try {
+    const opened = await openPlanner(context, options);
+    await work({ ...opened, context, profile });
+    assert.deepEqual(opened.errors, []);
+  } finally {
+    await context.close();
+  }
+}
+
+/**
+ * One page for all tests of a suite, which `take` receives before the first of them and which must have no errors but
+ * those that the test `expects`. `prepare` gets the browser before the page is opened.
+ */
+export function sharePlanner(take, { prepare = async () => {}, expects = () => false } = {}) {
+  let context;
+  let errors = [];
+  before(async () => {
+    ({ context } = await openBrowser());
+    await prepare(context);
+    const opened = await openPlanner(context);
+    errors = opened.errors;
+    take({ context, ...opened });
+  });
+  after(async () => {
+    await context?.close();
+    assert.deepEqual(
+      errors.filter((text) => !expects(text)),
+      [],
+    );
   });
 }

@@ -1,12 +1,10 @@
 // What a surgeon does beyond the first steps: drawing a resection, sliding a clip, a measured
 // ring, the gradient of a flow, devices, a file that follows the plan, the way back to a plan that was left.
 import assert from 'node:assert/strict';
-import { mkdtempSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { after, before, beforeEach, describe, it } from 'node:test';
-import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
+import { beforeEach, describe, it } from 'node:test';
+import { closed, figures, sharePlanner, temporaryFile } from './browser.mjs';
 import {
+  answered,
   apply,
   begin,
   cameraRests,
@@ -16,34 +14,30 @@ import {
   openLeaflets,
   openPanel,
   save,
+  undo,
 } from './person.mjs';
 
 describe('planner features', () => {
-  let context, page, errors;
-  before(async () => {
-    ({ context } = await openBrowser());
+  let page;
+  sharePlanner((opened) => ({ page } = opened), {
     // a stand-in for the dialog, which no test can press
-    await context.addInitScript(() => {
-      window.written = [];
-      window.showSaveFilePicker = async ({ suggestedName }) => ({
-        name: suggestedName,
-        createWritable: async () => ({
-          write: async (bytes) => window.written.push(bytes),
-          close: async () => {},
-        }),
-      });
-    });
-    ({ page, errors } = await openPlanner(context));
+    prepare: (context) =>
+      context.addInitScript(() => {
+        window.written = [];
+        window.showSaveFilePicker = async ({ suggestedName }) => ({
+          name: suggestedName,
+          createWritable: async () => ({
+            write: async (bytes) => window.written.push(bytes),
+            close: async () => {},
+          }),
+        });
+      }),
   });
   beforeEach(async () => {
     await page.keyboard.press('Escape');
     await page.evaluate(() => (window.planner.state.notice.value = null));
     await page.keyboard.press('1');
     await cameraRests(page);
-  });
-  after(async () => {
-    await context.close();
-    assert.deepEqual(errors, []);
   });
 
   it('resects_along_a_drawn_outline', async () => {
@@ -62,9 +56,7 @@ describe('planner features', () => {
     await closed(page);
     await apply(page);
     assert.match((await figures(page)).history.at(-1).title, /P2 along an outline/);
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await undo(page);
   });
 
   /** Degrees of the clip of the form. */
@@ -89,9 +81,7 @@ describe('planner features', () => {
     await apply(page);
     await openPanel(page, 'Valve');
     assert.match(await page.getByTestId('devices').innerText(), /clip\s+\d+ stitches/);
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await undo(page);
   });
 
   it('turns_a_clip_by_its_handle_and_by_keys', async () => {
@@ -129,9 +119,7 @@ describe('planner features', () => {
     assert.ok((await page.evaluate(() => window.planner.state.draft.value.fields.position)) < 0);
     await apply(page);
     assert.match((await figures(page)).history.at(-1).title, new RegExp(`turned by ${dragged - 5} degrees`));
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await undo(page);
   });
 
   it('names_the_section_plane_and_marks_the_cut', async () => {
@@ -177,13 +165,11 @@ describe('planner features', () => {
       const angle = (2 * Math.PI * k) / 40;
       return `${0.018 * Math.cos(angle)}, ${0.0135 * Math.sin(angle)}, 0`;
     });
-    const path = join(mkdtempSync(join(tmpdir(), 'ring-')), 'ring.csv');
-    writeFileSync(path, `x, y, z\n${lines.join('\n')}\n`);
+    const path = temporaryFile('ring.csv', `x, y, z\n${lines.join('\n')}\n`);
     await begin(page, 'ring');
     await page.getByText('More', { exact: true }).click();
     await page.setInputFiles('#f-curve', path);
-    await page.waitForTimeout(100);
-    await closed(page);
+    await answered(page, 100);
     await apply(page);
     await openPanel(page, 'Valve');
     const [, wide, deep] = /ring\s+([\d.]+)\smm wide, ([\d.]+)\smm front/.exec(
@@ -199,8 +185,7 @@ describe('planner features', () => {
     await page.locator('#flow').fill('200');
     await page.keyboard.press('Tab');
     await page.getByRole('button', { name: 'Measure the open area' }).click();
-    await page.waitForTimeout(50);
-    await closed(page);
+    await answered(page);
     const { openArea, gradient } = await page.evaluate(() => window.planner.state.cost.value.value);
     // Bernoulli with the library's density and discharge coefficient (mvs/cost.h)
     const bernoulli = (0.5 * 1060 * (200e-6 / (0.85 * openArea * 1e-6)) ** 2) / 133.322;
@@ -223,11 +208,8 @@ describe('planner features', () => {
     for (let k = 0; k < 100 && (await page.evaluate(() => window.written.length)) < 2; ++k)
       await page.waitForTimeout(50);
     const bytes = await page.evaluate(() => [...window.written.at(-1)]);
-    const path = join(mkdtempSync(join(tmpdir(), 'kept-')), 'kept.mvsplan');
-    writeFileSync(path, Buffer.from(bytes));
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    const path = temporaryFile('kept.mvsplan', Buffer.from(bytes));
+    await undo(page);
     await open(page, path);
     assert.equal((await figures(page)).hash, hash);
   });
@@ -245,74 +227,6 @@ describe('planner features', () => {
     await page.getByText('gives exactly the saved valve').waitFor();
     await closed(page);
     assert.equal((await figures(page)).hash, hash);
-  });
-
-  it('draws_the_healthy_curve_of_a_tour_valve', async () => {
-    await openPanel(page, 'Learn');
-    await page.getByRole('button', { name: 'Valve 2' }).click();
-    await page.getByTestId('score').getByText('Study surgeon').waitFor({ timeout: 60_000 });
-    await closed(page);
-    await openPanel(page, 'Valve');
-    await page.getByText('Section through the valve').click();
-    await page.locator('path.plot-healthy').waitFor();
-    const length = (style) =>
-      page.evaluate((name) => document.querySelector(`path.plot-${name}`).getTotalLength(), style);
-    // the healthy valve is another shape of the same tissue
-    assert.ok((await length('healthy')) > 20 && (await length('healthy')) !== (await length('now')));
-  });
-
-  it('compares_with_the_healthy_valve_from_the_first_moment_of_the_next_tour_valve', async () => {
-    // the verdict names the chord, and the goal the load that is compared with
-    await openPanel(page, 'Learn');
-    const note = /beyond the working limit\s+A2\/4 \d+\s%[^]*No chord above 111\s% of its working limit/;
-    await page.evaluate(() => {
-      window.notes = [];
-      const text = (id) => document.querySelector(`[data-testid=${id}]`)?.innerText;
-      window.planner.state.main.subscribe(() =>
-        setTimeout(() => window.notes.push(text('verdict') + text('goals'))),
-      );
-    });
-    await page.getByRole('button', { name: 'Valve 3' }).click();
-    await page.getByTestId('score').getByText('Study surgeon').waitFor({ timeout: 60_000 });
-    await closed(page);
-    const notes = (await page.evaluate(() => window.notes)).filter((text) => /working limit/.test(text));
-    assert.ok(notes.length && notes.every((text) => note.test(text)), notes.join('\n'));
-    assert.match(await page.locator('.panel').innerText(), /Before illness: this same valve/);
-  });
-
-  it('shows_the_chord_of_the_hint_through_what_hides_it', async () => {
-    await page.getByText('A hint').click();
-    await page.getByRole('button', { name: 'Show the chord A2/4' }).click();
-    await cameraRests(page);
-    assert.match(await page.locator('.label-chord').innerText(), /A2\/4/);
-    const overlays = () =>
-      page.evaluate(
-        () =>
-          window.planner.viewport.scene().meshes.filter((mesh) => mesh.overlay && mesh.opacity < 0.6).length,
-      );
-    // beside the leak and its jet, which show faintly through the leaflets
-    assert.equal(await overlays(), 3);
-    await page.keyboard.press('Escape');
-    await page.waitForTimeout(250);
-    assert.equal(await overlays(), 2, 'the chord is let go');
-  });
-
-  it('shows_how_far_the_valve_opens_while_a_ring_is_chosen', async () => {
-    await begin(page, 'ring');
-    const opens = async () => {
-      const line = page.getByTestId('opening');
-      await line.getByText(/Opens to \d/).waitFor({ timeout: 30_000 });
-      const [, area, goal] = /Opens to ([\d.]+)\scm².*goal ([\d.]+)/.exec(await line.innerText());
-      return { area: +area, goal: +goal };
-    };
-    const large = await opens();
-    await page.locator('#f-size').fill('26');
-    await page.keyboard.press('Tab');
-    await page.waitForTimeout(50);
-    await closed(page);
-    const small = await opens();
-    assert.ok(small.area < 0.9 * large.area && small.goal === large.goal, JSON.stringify({ large, small }));
-    await page.keyboard.press('Escape');
   });
 
   it('shows_a_chord_that_answers_the_form_as_one_that_was_chosen_before', async () => {
@@ -360,11 +274,8 @@ describe('planner features', () => {
 
   it('takes_clicked_papillary_tips_at_import', async () => {
     await page.getByRole('button', { name: 'Healthy valve' }).click();
-    await page.waitForTimeout(200);
-    await closed(page);
-    const path = join(mkdtempSync(join(tmpdir(), 'surface-')), 'leaflets.obj');
-    writeFileSync(path, await openLeaflets(page));
-    await open(page, path);
+    await answered(page, 200);
+    await open(page, temporaryFile('leaflets.obj', await openLeaflets(page)));
     await page.getByRole('button', { name: 'Papillary tips' }).click();
     // below the annulus, in the view from the side
     await page.keyboard.press('3');
@@ -375,7 +286,7 @@ describe('planner features', () => {
     assert.match(await page.locator('.panel').innerText(), /2 set/);
     const clicked = await page.evaluate(() => window.planner.state.imported.value.points.tips);
     await page.getByRole('button', { name: 'Build the valve' }).click();
-    await page.getByTestId('findings').waitFor({ timeout: 240_000 });
+    await page.getByTestId('findings').waitFor();
     await closed(page);
     assert.match(await page.getByTestId('findings').innerText(), /papillary tips\s+given/i);
     // the heads of the built valve stand where the clicks were, to the width of a pixel in float precision

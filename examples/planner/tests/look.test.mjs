@@ -1,11 +1,9 @@
 // The picture and its labels: before and after, names beside what they name, views of a surface, the printed report.
 import assert from 'node:assert/strict';
-import { mkdtempSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
-import { after, before, describe, it } from 'node:test';
-import { closed, openBrowser, openPlanner } from './browser.mjs';
+import { describe, it } from 'node:test';
+import { closed, sharePlanner, temporaryFile } from './browser.mjs';
 import {
+  answered,
   apply,
   begin,
   cameraRests,
@@ -26,15 +24,8 @@ function passes(a, b, box) {
 }
 
 describe('planner to look at', () => {
-  let context, page, errors;
-  before(async () => {
-    ({ context } = await openBrowser());
-    ({ page, errors } = await openPlanner(context));
-  });
-  after(async () => {
-    await context.close();
-    assert.deepEqual(errors, []);
-  });
+  let page;
+  sharePlanner((opened) => ({ page } = opened));
   const positions = (name) =>
     page.evaluate((which) => [...window.planner.state[which].value.picture.positions], name);
   const shown = () => page.evaluate(() => [...window.planner.state.picture.value.positions]);
@@ -75,8 +66,7 @@ describe('planner to look at', () => {
     await begin(page, 'ring');
     await page.locator('#f-size').fill('30');
     await page.keyboard.press('Tab');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await answered(page);
     const now = await shown();
     await page.getByRole('button', { name: 'Before' }).click();
     assert.deepEqual(await shown(), await positions('main'));
@@ -93,6 +83,43 @@ describe('planner to look at', () => {
     await page.keyboard.press('Escape');
   });
 
+  it('covers_no_leaflet_by_a_notice', async () => {
+    // the longest of those that come by themselves, from the atrium and in a narrow window as well
+    await page.keyboard.press('1');
+    await cameraRests(page);
+    for (const [width, height] of [
+      [1280, 720],
+      [1024, 700],
+    ]) {
+      await page.setViewportSize({ width, height });
+      await page.waitForTimeout(200);
+      await page.evaluate(() => {
+        const text = '“Valve 3: dilated, and a short chord” is finished. Its repair can be opened once more.';
+        window.planner.state.notice.value = {
+          kind: 'info',
+          text,
+          action: { text: 'Return to it', run() {} },
+        };
+      });
+      const notice = await page.getByTestId('notice').boundingBox();
+      const covered = await page.evaluate(({ x, y, width: w, height: h }) => {
+        const { state, viewport } = window.planner;
+        const { positions } = state.picture.value;
+        const { triangles } = state.topologyOf(state.picture.value);
+        const box = viewport.renderer.canvas.getBoundingClientRect();
+        return [...new Set(triangles)].filter((node) => {
+          const place = [...positions.slice(3 * node, 3 * node + 3), viewport.width, viewport.height];
+          const [px, py] = viewport.camera.project(...place);
+          const [left, top] = [box.left + px - x, box.top + py - y];
+          return left > 0 && left < w && top > 0 && top < h;
+        }).length;
+      }, notice);
+      assert.equal(covered, 0, `${width} x ${height}`);
+      await page.locator('.notice').getByRole('button', { name: 'Close' }).click();
+    }
+    await page.setViewportSize({ width: 1280, height: 720 });
+  });
+
   it('prints_the_report', async () => {
     await openPanel(page, 'Plan');
     await page.getByRole('button', { name: 'Report' }).click();
@@ -101,6 +128,12 @@ describe('planner to look at', () => {
     // one page with four pictures; an empty one has 1 kB
     assert.ok(pdf.length > 50_000, `${pdf.length} bytes`);
     assert.equal(pdf.toString('latin1').match(/\/Type \/Page\b/g).length, 1);
+    // on the screen as well, in a narrow window too
+    const size = page.viewportSize();
+    await page.setViewportSize({ width: 1024, height: 700 });
+    const shown = await page.getByTestId('report').boundingBox();
+    await page.setViewportSize(size);
+    assert.ok(shown?.width > 500, `the report is ${shown?.width} pixels wide`);
     await page.keyboard.press('Escape');
   });
 
@@ -123,10 +156,8 @@ describe('planner to look at', () => {
 
   it('shows_a_surface_from_the_atrium', async () => {
     await page.getByRole('button', { name: 'Healthy valve' }).click();
-    await page.waitForTimeout(200);
-    await closed(page);
-    const path = join(mkdtempSync(join(tmpdir(), 'surface-')), 'turned.obj');
-    writeFileSync(path, await openLeaflets(page, [2, 0, 1]));
+    await answered(page, 200);
+    const path = temporaryFile('turned.obj', await openLeaflets(page, [2, 0, 1]));
     const valve = await page.evaluate(() => window.planner.state.main.value.figures.frame);
     await open(page, path);
     await page.getByRole('button', { name: 'Leave' }).waitFor();

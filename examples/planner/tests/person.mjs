@@ -82,6 +82,42 @@ export async function cameraRests(page) {
   }
 }
 
+/** Waits for the answer to what was just done. */
+export async function answered(page, reaction = 50) {
+  await page.waitForTimeout(reaction);
+  await closed(page);
+}
+
+export async function undo(page) {
+  await page.keyboard.press('Control+z');
+  await answered(page);
+}
+
+/**
+ * The share of the picture that shows tissue, which is redder than blue by `margin` of 255; chordae and background are
+ * not. `box`: left, top, width, height as shares of the picture.
+ */
+export function shareOfTissue(page, { box = [0, 0, 1, 1], margin = 20 } = {}) {
+  return page.evaluate(
+    async ([[left, top, wide, high], least]) => {
+      const image = new Image();
+      image.src = window.planner.viewport.snapshot();
+      await image.decode();
+      const canvas = document.createElement('canvas');
+      const [w, h] = [image.width, image.height];
+      [canvas.width, canvas.height] = [w, h];
+      const paint = canvas.getContext('2d');
+      paint.drawImage(image, 0, 0);
+      const part = [left * w, top * h, wide * w, high * h].map(Math.round);
+      const { data } = paint.getImageData(...part);
+      let tissue = 0;
+      for (let i = 0; i < data.length; i += 4) tissue += data[i] > data[i + 2] + least ? 1 : 0;
+      return tissue / (data.length / 4);
+    },
+    [box, margin],
+  );
+}
+
 export async function save(page) {
   const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Control+s')]);
   await closed(page);

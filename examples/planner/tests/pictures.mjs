@@ -27,7 +27,7 @@ try {
   await page.getByRole('button', { name: 'Valve 1' }).click();
   await page.waitForTimeout(200);
   await closed(page);
-  await page.getByTestId('score').getByText('Study surgeon').waitFor({ timeout: 60_000 });
+  await page.getByTestId('score').getByText('Study surgeon').waitFor();
   await shoot();
   await page.keyboard.press('2');
   await begin(page, 'band');
@@ -41,7 +41,7 @@ try {
   await page.selectOption('.viewbar select', 'tissue');
   await page.keyboard.press('1');
   await openPanel(page, 'Learn');
-  await page.getByText('All goals reached.').waitFor({ timeout: 60_000 });
+  await page.getByText('All goals reached.').waitFor();
   await shoot();
   // four pictures in a square, at half size, put together by the browser
   const page2 = await context.newPage();

@@ -1,19 +1,9 @@
 // The page for everybody: keyboard alone, touch, no WebGL, small windows, a crash.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
-import { begin, apply, openPanel } from './person.mjs';
-
-async function on(options, work) {
-  const { context, profile } = await openBrowser(options);
-  try {
-    const opened = await openPlanner(context, options);
-    await work({ ...opened, context, profile });
-    assert.deepEqual(opened.errors, []);
-  } finally {
-    await context.close();
-  }
-}
+import { pathToFileURL } from 'node:url';
+import { closed, figures, page_path, withPlanner } from './browser.mjs';
+import { answered, apply, begin, openPanel, shareOfTissue, undo } from './person.mjs';
 
 /** Presses Tab until an element has the focus. */
 async function tabTo(page, wanted) {
@@ -37,34 +27,28 @@ async function openForm(page, operation) {
 
 describe('planner for everybody', () => {
   it('is_used_with_the_keyboard_alone', async () => {
-    await on({}, async ({ page }) => {
+    await withPlanner({}, async ({ page }) => {
       const { hash } = await figures(page);
       await openForm(page, /annulus_scale/);
-      await page.waitForTimeout(150);
-      await closed(page);
+      await answered(page, 150);
       await tabTo(page, /f-factor/);
       await page.keyboard.press('Control+a');
       await page.keyboard.type('92');
       await tabTo(page, /Apply/);
-      await page.waitForTimeout(150);
-      await closed(page);
+      await answered(page, 150);
       await page.keyboard.press('Enter');
-      await page.waitForTimeout(150);
-      await closed(page);
+      await answered(page, 150);
       assert.match((await figures(page)).history[0].title, /92/);
-      await page.keyboard.press('Control+z');
-      await page.waitForTimeout(50);
-      await closed(page);
+      await undo(page);
       assert.equal((await figures(page)).hash, hash);
       await tabTo(page, /^ *$|valve/i);
     });
   });
 
   it('resects_along_an_outline_drawn_with_the_keyboard_alone', async () => {
-    await on({}, async ({ page }) => {
+    await withPlanner({}, async ({ page }) => {
       await openForm(page, /resect/);
-      await page.waitForTimeout(150);
-      await closed(page);
+      await answered(page, 150);
       await tabTo(page, /Draw the cut/);
       await page.keyboard.press('Enter');
       const press = async (key, times = 1) => {
@@ -84,8 +68,7 @@ describe('planner for everybody', () => {
       await press('Space');
       assert.match(await page.getByTestId('status').innerText(), /On P2. 4 points/);
       await press('Enter');
-      await page.waitForTimeout(100);
-      await closed(page);
+      await answered(page, 100);
       await press('Enter');
       await page.getByTestId('form').waitFor({ state: 'detached' });
       await closed(page);
@@ -94,13 +77,12 @@ describe('planner for everybody', () => {
   });
 
   it('ties_an_artificial_chord_with_the_keyboard_alone', async () => {
-    await on({}, async ({ page }) => {
+    await withPlanner({}, async ({ page }) => {
       await openForm(page, /neochord/);
       await page.waitForTimeout(200);
       // from the middle of P2 towards its free edge
       for (const key of ['ArrowRight', 'ArrowUp', 'Space']) await page.keyboard.press(key);
-      await page.waitForTimeout(150);
-      await closed(page);
+      await answered(page, 150);
       await page.keyboard.press('Enter');
       await page.getByTestId('form').waitFor({ state: 'detached' });
       await closed(page);
@@ -110,7 +92,7 @@ describe('planner for everybody', () => {
 
   for (const hash of ['#software', '#webgl']) {
     it(`draws_by_${hash.slice(1)}`, async () => {
-      await on({ hash }, async ({ page }) => {
+      await withPlanner({ hash }, async ({ page }) => {
         assert.equal(await page.evaluate(() => window.planner.viewport.renderer.name), hash.slice(1));
         await begin(page, 'ring');
         await apply(page);
@@ -120,26 +102,14 @@ describe('planner for everybody', () => {
   }
 
   it('draws_where_the_browser_has_no_webgl', async () => {
-    await on({ software: true }, async ({ page }) => {
+    await withPlanner({ software: true }, async ({ page }) => {
       assert.equal(await page.evaluate(() => window.planner.viewport.renderer.name), 'software');
     });
   });
 
   it('comes_back_after_a_lost_context', async () => {
-    await on({ hash: '#webgl' }, async ({ page }) => {
-      const share = () =>
-        page.evaluate(() => {
-          const { viewport } = window.planner;
-          const canvas = document.createElement('canvas');
-          [canvas.width, canvas.height] = [64, 36];
-          const paint = canvas.getContext('2d');
-          viewport.draw(false);
-          paint.drawImage(viewport.renderer.canvas, 0, 0, 64, 36);
-          const { data } = paint.getImageData(0, 0, 64, 36);
-          let pink = 0;
-          for (let i = 0; i < data.length; i += 4) pink += data[i] > data[i + 2] + 20 ? 1 : 0;
-          return pink / (64 * 36);
-        });
+    await withPlanner({ hash: '#webgl' }, async ({ page }) => {
+      const share = () => shareOfTissue(page);
       const before = await share();
       assert.ok(before > 0.15);
       await page.evaluate(async () => {
@@ -155,7 +125,7 @@ describe('planner for everybody', () => {
   });
 
   it('recovers_a_session_after_a_closed_tab_only_where_it_was_allowed', async () => {
-    await on({}, async ({ page, context }) => {
+    await withPlanner({}, async ({ page, context }) => {
       await begin(page, 'annulus_scale');
       await apply(page);
       await page.reload({ waitUntil: 'load' });
@@ -169,9 +139,7 @@ describe('planner for everybody', () => {
       const { hash } = await figures(page);
       const other = await context.newPage();
       await page.close({ runBeforeUnload: false });
-      await other.goto(
-        (await import('node:url')).pathToFileURL((await import('./browser.mjs')).page_path).href,
-      );
+      await other.goto(pathToFileURL(page_path).href);
       await closed(other);
       await other.getByRole('button', { name: 'Recover it' }).click();
       await other.waitForTimeout(300);
@@ -186,7 +154,7 @@ describe('planner for everybody', () => {
       [1920, 1080],
       [820, 1180],
     ]) {
-      await on({ width, height }, async ({ page }) => {
+      await withPlanner({ width, height }, async ({ page }) => {
         const clipped = await page.evaluate(() => {
           const bad = [];
           for (const button of document.querySelectorAll('header button, .viewbar button, .tabs button')) {
@@ -202,7 +170,7 @@ describe('planner for everybody', () => {
   });
 
   it('turns_and_zooms_with_fingers', async () => {
-    await on({ width: 820, height: 1180, touch: true }, async ({ page, context }) => {
+    await withPlanner({ width: 820, height: 1180, touch: true }, async ({ page, context }) => {
       const client = await context.newCDPSession(page);
       const camera = () =>
         page.evaluate(() => [

@@ -1,19 +1,22 @@
 // Stumbles of surgeons new to the page: names, figures and forms that did not say what the picture showed.
 import assert from 'node:assert/strict';
-import { after, before, describe, it } from 'node:test';
-import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, chordNames, chordPlace, openPanel } from './person.mjs';
+import { describe, it } from 'node:test';
+import { closed, figures, sharePlanner } from './browser.mjs';
+import {
+  answered,
+  apply,
+  begin,
+  cameraRests,
+  chordNames,
+  chordPlace,
+  openPanel,
+  shareOfTissue,
+  undo,
+} from './person.mjs';
 
 describe('planner as a surgeon reads it', () => {
-  let context, page, errors;
-  before(async () => {
-    ({ context } = await openBrowser());
-    ({ page, errors } = await openPlanner(context));
-  });
-  after(async () => {
-    await context.close();
-    assert.deepEqual(errors, []);
-  });
+  let page;
+  sharePlanner((opened) => ({ page } = opened));
   const drawn = () => page.waitForTimeout(250);
   const choice = () =>
     page.evaluate(() => {
@@ -25,26 +28,8 @@ describe('planner as a surgeon reads it', () => {
     });
 
   it('shows_no_daylight_between_leaflets_that_meet', async () => {
-    // in the middle of the picture there is nothing but tissue, which is redder than blue; chordae and background are not
-    const share = await page.evaluate(async () => {
-      const image = new Image();
-      image.src = window.planner.viewport.snapshot();
-      await image.decode();
-      const canvas = document.createElement('canvas');
-      [canvas.width, canvas.height] = [image.width, image.height];
-      const paint = canvas.getContext('2d');
-      paint.drawImage(image, 0, 0);
-      const [w, h] = [Math.round(0.4 * image.width), Math.round(0.4 * image.height)];
-      const { data } = paint.getImageData(
-        Math.round(0.3 * image.width),
-        Math.round(0.35 * image.height),
-        w,
-        h,
-      );
-      let other = 0;
-      for (let i = 0; i < data.length; i += 4) other += data[i] > data[i + 2] + 15 ? 0 : 1;
-      return other / (w * h);
-    });
+    // in the middle of the picture there is nothing but tissue
+    const share = 1 - (await shareOfTissue(page, { box: [0.3, 0.35, 0.4, 0.4], margin: 15 }));
     // where the middles of the leaflets are drawn it is 1e-3
     assert.ok(share < 2e-4, `share of daylight and chordae ${share}`);
   });
@@ -98,8 +83,7 @@ describe('planner as a surgeon reads it', () => {
     const { chords } = await figures(page);
     await begin(page, 'chord_length');
     await page.locator('#f-chord').selectOption({ label: chords[0].name });
-    await page.waitForTimeout(100);
-    await closed(page);
+    await answered(page, 100);
     const now = (await figures(page)).chords[0];
     assert.equal(now.rest, chords[0].rest);
     assert.ok(!(await page.getByTestId('chosen').innerText()).includes('→'));
@@ -117,9 +101,7 @@ describe('planner as a surgeon reads it', () => {
     assert.doesNotMatch(await page.getByTestId('verdict').innerText(), /before/);
     await page.keyboard.press('o');
     await closed(page);
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await undo(page);
   });
 
   it('names_the_chordae_beyond_their_limit_and_shows_them', async () => {
@@ -134,8 +116,6 @@ describe('planner as a surgeon reads it', () => {
     assert.ok((await figures(page)).chords.find((chord) => chord.name === name).over);
     assert.match(await page.locator('.label-chord').innerText(), /\d{3}\s% of its limit/);
     assert.match(await page.getByTestId('chosen').innerText(), /may tear/);
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(50);
-    await closed(page);
+    await undo(page);
   });
 });

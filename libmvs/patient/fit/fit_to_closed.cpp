@@ -10,14 +10,13 @@
 #include "patient/fit/fit_search.h"
 #include "patient/fit/linear_closure.h"
 #include "patient/normal_numbers.h"
+#include "patient/surface/rims.h"
 
 namespace mvs::core {
 namespace {
 
 // Step of the differences: 0.15 mm of a chord of 15 mm, far above the error of a settled valve.
 constexpr double difference = 0.01;
-// m, RMS distance of the annulus from the given surface: more is another frame or patient.
-constexpr double farthest_annulus = 8e-3;
 // Fits are as good as the best one if their distance is at most this much larger: less than two
 // segmentations of one valve differ by.
 constexpr double as_good_share = 1.1, as_good_distance = 0.05e-3;  // m

@@ -17,9 +17,6 @@
 namespace mvs::core {
 namespace {
 
-// m: annulus points farther from the rim in the mean are of another frame or patient. Points by
-// hand on images of 0.7 mm lie within 3 mm; the height of the leaflets is 10 mm and more.
-constexpr double farthest_annulus = 8e-3;
 // m: a free edge so far from the plane of the annulus is on the side of the ventricle. Normal
 // leaflets reach 10 mm deep; at 2.5 mm noise of an image can turn the sign.
 constexpr double sure_depth = 5e-3;

@@ -77,7 +77,7 @@ bool CachedPreconditioner::factorise_part(uint32_t part) {
     analyse();
     return true;
   }
-  const bool positive = factor_->factorise_part(system_.matrix, part - 1, parts - 1);
+  const bool positive = factor_->factorise_part(system_.matrix, part - 1, parts() - 1);
   if (!positive) key_ = {};
   return positive;
 }
@@ -85,7 +85,7 @@ bool CachedPreconditioner::factorise_part(uint32_t part) {
 bool CachedPreconditioner::factorise() {
   if (done_ == 0) analyse();
   const bool positive = factor_->factorise(system_.matrix);
-  done_ = parts;
+  done_ = parts();
   if (!positive) key_ = {};
   return positive;
 }

@@ -15,12 +15,20 @@ namespace mvs::core {
 class CachedPreconditioner {
  public:
   // Parts of a factorisation, of about equal work: first the pattern, then the numbers.
-  static constexpr uint32_t parts = settings::linear::factor_parts;
+  static uint32_t parts_for(const Model &model) {
+    namespace set = settings::linear;
+    return is_large(model) ? set::large_factor_parts : set::factor_parts;
+  }
+  // Whether factors are dear: points of instruments do not count.
+  static bool is_large(const Model &model) {
+    return model.valve.triangles.size() >= settings::linear::large_sheet;
+  }
 
   CachedPreconditioner(const Model &model, std::unique_ptr<DirectSolver> factor);
 
   // Whether at least `done` parts of the factor of this key are made.
   bool is_of(const PreconditionerKey &key, uint32_t done) const;
+  uint32_t parts() const { return parts_for(*model_); }
   // Copies the matrix of a key. `order`: elimination order of the nodes, null to find one.
   void copy(const StepMatrix &matrix, const PreconditionerKey &key,
             const std::vector<uint32_t> *order);

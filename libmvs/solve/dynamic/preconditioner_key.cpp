@@ -165,7 +165,7 @@ PreconditionerKeys unpack(const SolverCache &cache, const Model &model, size_t v
   keys.active = reader.key();
   if (!reader.at_end()) keys.pending = reader.key();
   unpack_ages(cache.counter, keys);
-  const uint32_t most_parts = keys.pending.empty() ? 0 : CachedPreconditioner::parts;
+  const uint32_t most_parts = keys.pending.empty() ? 0 : CachedPreconditioner::parts_for(model);
   MVS_MUST(reader.at_end() && keys.pending.age <= most_parts, MVS_E_FORMAT, "state",
            "the solver cache of the state is damaged: settle the valve, which makes a new one");
   return keys;

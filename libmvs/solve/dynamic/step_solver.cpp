@@ -15,8 +15,9 @@ bool is_block_cholesky(Backend backend) {
   return backend == Backend::fastest || backend == Backend::block;
 }
 
-std::unique_ptr<DirectSolver> make_preconditioner(Backend backend) {
-  return backend == Backend::fastest ? make_float_factor() : make_direct_solver(backend);
+std::unique_ptr<DirectSolver> make_preconditioner(const Model &model, Backend backend) {
+  if (backend != Backend::fastest) return make_direct_solver(backend);
+  return CachedPreconditioner::is_large(model) ? make_compact_factor() : make_float_factor();
 }
 
 }  // namespace
@@ -24,17 +25,23 @@ std::unique_ptr<DirectSolver> make_preconditioner(Backend backend) {
 StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, Backend backend)
     : model_(&model),
       total_energy_(&total_energy),
-      first_(model, make_preconditioner(backend)),
-      second_(model, make_preconditioner(backend)),
+      first_(model, make_preconditioner(model, backend)),
+      second_(model, make_preconditioner(model, backend)),
       direct_(model, make_direct_solver(backend)) {
   // other backends do best with the order that each of them finds for a matrix
-  if (is_block_cholesky(backend)) order_.emplace(model, total_energy.pairs());
+  if (is_block_cholesky(backend)) {
+    if (CachedPreconditioner::is_large(model)) {
+      dissection_.emplace();
+    } else {
+      order_.emplace(model, total_energy.pairs());
+    }
+  }
   keys_.reserve(model.node_count());
   for (CowVector<Vec3> &x : positions_) x.reserve(model.node_count());
 }
 
 void StepSolver::solve(const StepSystem &system, State &state, StepWork &work) {
-  if (keys_.pending().age == CachedPreconditioner::parts) {
+  if (keys_.pending().age == pending_->parts()) {
     std::swap(active_, pending_);
     keys_.set({keys_.pending(), {}});
   }
@@ -81,13 +88,25 @@ bool StepSolver::iterate(const StepSystem &system, StepWork &work) {
   return true;
 }
 
+// Whether the next factor is to be begun, from the age of the active one and the iterations of this
+// step alone: what the steps before needed is no part of the state.
+bool StepSolver::is_worn() const {
+  namespace set = settings::linear;
+  const uint32_t age = keys_.active().age;
+  if (!CachedPreconditioner::is_large(*model_)) {
+    return iterations_ > set::many_iterations || age > set::max_age;
+  }
+  if (age > set::max_large_age) return true;
+  return iterations_ > set::few_iterations &&
+         (iterations_ - set::few_iterations) * age > set::worth;
+}
+
 // Begins the next factor where the active one is old or needs many iterations; otherwise does one
 // part of the factor that was begun.
 void StepSolver::work_ahead(const StepSystem &system, StepWork &work) {
-  namespace set = settings::linear;
   if (keys_.pending().empty()) {
     work.stats.skipped |= MVS_SKIPPED_FACTOR;
-    if (iterations_ <= set::many_iterations && keys_.active().age <= set::max_age) return;
+    if (!is_worn()) return;
     keys_.set_pending(key_at(system));
     copy_matrix(system.matrix, keys_.pending(), *pending_, work.stats.work);
   } else if (work.left > reserved_passes) {
@@ -95,7 +114,7 @@ void StepSolver::work_ahead(const StepSystem &system, StepWork &work) {
     --work.left;
     if (!pending_->factorise_part(keys_.pending().age)) {
       keys_.set_pending({});
-    } else if (keys_.count_pending_part() == CachedPreconditioner::parts) {
+    } else if (keys_.count_pending_part() == pending_->parts()) {
       ++work.stats.factorisations;
     }
   }
@@ -108,7 +127,7 @@ bool StepSolver::factorise_here(const StepSystem &system, StepWork &work) {
   guess_.clear();  // a factor of this very matrix needs no guess
   const PreconditionerKey key = key_at(system);
   --work.left;  // of every solver alike, also of one that has this factor
-  bool positive = active_->is_of(key, CachedPreconditioner::parts);
+  bool positive = active_->is_of(key, active_->parts());
   if (!positive) {
     copy_matrix(system.matrix, key, *active_, work.stats.work);
     const PhaseTimer timer(work.stats.work, MVS_PHASE_FACTOR);
@@ -168,8 +187,14 @@ void StepSolver::copy_matrix(const StepMatrix &matrix, const PreconditionerKey &
                              CachedPreconditioner &factor, Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
   ++profile.orderings;
-  if (order_) order_->update(total_energy_->contact().contact_pairs());
-  factor.copy(matrix, key, order_ ? &order_->nodes() : nullptr);
+  const std::vector<uint32_t> *order = nullptr;
+  if (order_) {
+    order_->update(total_energy_->contact().contact_pairs());
+    order = &order_->nodes();
+  } else if (dissection_) {
+    order = &dissection_->find(matrix, key.x);
+  }
+  factor.copy(matrix, key, order);
 }
 
 void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix,
@@ -186,7 +211,7 @@ void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix
 
 void StepSolver::make_factors(StepMatrix &matrix, const Assemble &assemble) {
   if (keys_.active().empty()) return;
-  const uint32_t all = CachedPreconditioner::parts, some = keys_.pending().age;
+  const uint32_t all = active_->parts(), some = keys_.pending().age;
   if (pending_->is_of(keys_.active(), all)) std::swap(active_, pending_);
   if (!active_->is_of(keys_.active(), all) &&
       !remake(keys_.active(), all, *active_, matrix, assemble)) {

@@ -16,6 +16,7 @@
 #include "linalg/spmv.h"
 #include "solve/dynamic/cached_preconditioner.h"
 #include "solve/dynamic/contact_ordering.h"
+#include "solve/dynamic/dissection_ordering.h"
 #include "solve/dynamic/preconditioner_key.h"
 #include "solve/dynamic/time_step.h"
 
@@ -52,6 +53,7 @@ class StepSolver {
               StepMatrix &matrix, const Assemble &assemble);
   void copy_matrix(const StepMatrix &matrix, const PreconditionerKey &key,
                    CachedPreconditioner &factor, Profile &profile);
+  bool is_worn() const;
   bool iterate(const StepSystem &system, StepWork &work);
   void work_ahead(const StepSystem &system, StepWork &work);
   bool factorise_here(const StepSystem &system, StepWork &work);
@@ -61,7 +63,9 @@ class StepSolver {
 
   const Model *model_;
   const TotalEnergy *total_energy_;
-  std::optional<ContactOrdering> order_;  // empty: the backend finds its own
+  // both empty: the backend finds its own
+  std::optional<ContactOrdering> order_;
+  std::optional<DissectionOrdering> dissection_;  // of large sheets
   CachedPreconditioner first_, second_;
   CachedPreconditioner *active_ = &first_, *pending_ = &second_;
   CachedPreconditioner direct_;  // in double precision

@@ -56,9 +56,7 @@ void check_rest(const Surgery &s) {
 }
 
 double rest_area(const Valve &valve) {
-  double area = 0;
-  for (const Tri &t : valve.triangles.get()) area += triangle_area(valve.rest, t);
-  return area;
+  return surface_area(valve.rest, valve.triangles);
 }
 
 std::string title_of(const Surgery &s, const mvs_op_resect &op, const ResectPlan &plan) {

@@ -2,6 +2,9 @@
 //
 //   bench_step                       scenes S and M, 60 s of simulated time each
 //   bench_step --seconds 2 --scenes S
+//   bench_step --seconds 1 --scenes 20k --closed
+//                                    20,000 vertices, 77 steps a phase of the play, which would not
+//                                    close the valve: a settle does first
 //   bench_step --csv FILE            also as a table, one row a scene and phase of the play
 //   bench_step --tool convex         the ball of the play as a convex tool of 200 vertices, beside
 //                                    the play with the ball: ratios of the steps while it pushes
@@ -23,9 +26,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -40,7 +45,11 @@ namespace {
 using bench::Phase;
 using bench::StepWatch;
 
-const std::map<std::string, uint32_t> scene_vertices = {{"S", 425}, {"M", 1700}};
+const std::map<std::string, uint32_t> scene_vertices = {
+    {"S", 425}, {"M", 1700}, {"L", 6800}, {"20k", 20000}};
+// in the order of MVS_PHASE_*
+constexpr std::array<const char *, MVS_PHASE_COUNT> phase_names = {
+    "terms", "broad", "narrow", "assembly", "ordering", "factor", "solve", "line search"};
 constexpr double dt = 1e-3;
 constexpr double play_s = 10;
 constexpr int explicit_steps = 200;
@@ -53,6 +62,7 @@ struct Options {
   std::vector<std::string> scenes = {"S", "M"};
   double seconds = 60;
   uint32_t budget = 0, workers = 1;
+  bool closed = false;
   std::string csv, tool = "ball";
 
   double now() const {
@@ -66,6 +76,8 @@ struct Row {
   std::vector<double> hand;             // of both, while a hand moves
   size_t lowered_linear = 0, lowered_step = 0, broad = 0, orderings = 0, made = 0;
   size_t iterations = 0, served = 0;  // of conjugate gradients; steps without work on a factor
+  size_t passes = 0, factors = 0;
+  std::array<double, MVS_PHASE_COUNT> phase_s{};  // of active steps, wall time
   size_t crossings = 0;
   double quiet = 0, quiet_by_hand = 0;  // sums of shares over active steps, over those with a hand
 
@@ -81,6 +93,9 @@ struct Row {
     made += other.made;
     iterations += other.iterations;
     served += other.served;
+    passes += other.passes;
+    factors += other.factors;
+    for (size_t p = 0; p < phase_s.size(); ++p) phase_s[p] += other.phase_s[p];
     crossings = std::max(crossings, other.crossings);
     quiet += other.quiet;
     quiet_by_hand += other.quiet_by_hand;
@@ -122,6 +137,9 @@ void take_step(mvs::Simulator &sim, const Options &options, bool hand_moves, Ste
   row.iterations += profile.linear_iterations;
   row.served += !asleep && (profile.skipped & MVS_SKIPPED_FACTOR) != 0;
   if (asleep) return;
+  row.passes += profile.passes;
+  row.factors += profile.factorisations;
+  for (size_t p = 0; p < row.phase_s.size(); ++p) row.phase_s[p] += profile.phase_s[p];
   row.made += watch.makes_energy(sim, stats);
   const double quiet = StepWatch::quiet(sim, dt, at_rest);
   row.quiet += quiet;
@@ -147,8 +165,9 @@ Row run_phase(mvs::Simulator &sim, const Options &options, const std::string &sc
   return row;
 }
 
-// A row a phase, over all its repetitions.
-std::vector<Row> run_scene(const Options &options, const std::string &scene, bench::Pusher pusher) {
+// A row a phase, over all its repetitions; told to `done` once it is complete.
+std::vector<Row> run_scene(const Options &options, const std::string &scene, bench::Pusher pusher,
+                           const std::function<void(const Row &)> &done) {
   mvs_sim_desc desc = {};
   desc.workers = options.workers;
   mvs::Simulator sim(desc);
@@ -156,6 +175,10 @@ std::vector<Row> run_scene(const Options &options, const std::string &scene, ben
   valve.shape = MVS_SHAPE_FOUNDING;
   valve.vertices = scene_vertices.at(scene);
   sim.generate(valve);
+  if (options.closed) {
+    sim.set_load(MVS_SYSTOLE_PA);
+    sim.settle();
+  }
   const std::vector<Phase> phases = bench::play(pusher);
   const double times = std::max(1.0, std::round(options.seconds / play_s));
   const double share = options.seconds / (times * static_cast<double>(phases.size()));
@@ -167,6 +190,7 @@ std::vector<Row> run_scene(const Options &options, const std::string &scene, ben
       rows[p].scene = scene;
       rows[p].phase = row.phase;
       rows[p].add(row);
+      if (time + 1 == static_cast<int>(times)) done(rows[p]);
     }
   }
   return rows;
@@ -243,6 +267,14 @@ void tell(const Options &options, const std::string &scene, const Row &whole) {
   std::printf("%s: %.1f linear iterations an active step; %.0f %% of them worked on no factor\n",
               scene.c_str(), static_cast<double>(whole.iterations) / steps,
               100 * static_cast<double>(whole.served) / steps);
+  std::printf("%s: an active step has %.2f passes, %.2f broad phases, %.3f factors", scene.c_str(),
+              static_cast<double>(whole.passes) / steps, static_cast<double>(whole.broad) / steps,
+              static_cast<double>(whole.factors) / steps);
+  for (size_t p = 0; p < whole.phase_s.size(); ++p) {
+    std::printf("%s %s %.2f", p == 0 ? "; ms of wall time:" : ",", phase_names[p],
+                1e3 * whole.phase_s[p] / steps);
+  }
+  std::printf("\n");
   std::printf(
       "%s: %.0f %% of the nodes go less than 1e-8 m in an active step, %.0f %% while a hand "
       "moves: what parts asleep could save\n",
@@ -275,17 +307,17 @@ void run(const Options &options) {
     whole.phase = "all";
     Row pushed, pushed_by_ball;
     if (options.tool == "convex") {
-      for (const Row &row : run_scene(options, scene, bench::Pusher::ball)) {
+      run_scene(options, scene, bench::Pusher::ball, [&](const Row &row) {
         if (row.phase == bench::push_phase) pushed_by_ball = row;
-      }
+      });
     }
     const auto pusher = options.tool == "convex" ? bench::Pusher::convex : bench::Pusher::ball;
-    for (const Row &row : run_scene(options, scene, pusher)) {
+    run_scene(options, scene, pusher, [&](const Row &row) {
       print(row);
       write(csv, row);
       whole.add(row);
       if (row.phase == bench::push_phase) pushed = row;
-    }
+    });
     if (options.tool == "convex") compare(scene, pushed, pushed_by_ball);
     print(whole);
     write(csv, whole);
@@ -300,15 +332,18 @@ int main(int argc, char **argv) {
   try {
     Options options;
     CLI::App app("What a live step costs, over a minute of scripted play.");
-    app.add_option("--scenes", options.scenes, "S 425, M 1700 vertices")
+    app.add_option("--scenes", options.scenes, "S 425, M 1700, L 6800, 20k 20000 vertices")
         ->capture_default_str()
-        ->check(CLI::IsMember({"S", "M"}));
+        ->check(CLI::IsMember({"S", "M", "L", "20k"}));
     app.add_option("--seconds", options.seconds, "of simulated time, for all phases together")
         ->check(CLI::PositiveNumber);
     app.add_option("--budget", options.budget, "of a step; 0: the default");
     app.add_option("--workers", options.workers,
                    "threads; with more than one, times are wall-clock")
         ->check(CLI::Range(1u, uint32_t{MVS_MAX_WORKERS}));
+    app.add_flag("--closed", options.closed,
+                 "close the valve by a settle first: a short play of a large valve steps a closed "
+                 "one");
     app.add_option("--tool", options.tool, "that pushes P2")
         ->capture_default_str()
         ->check(CLI::IsMember({"ball", "convex"}));

@@ -48,13 +48,16 @@ def motion_of_landmarks(start: Points, end: Points) -> tuple[Motion, float]:
 
 
 def motion_of_images(moving: Any, fixed: Any) -> tuple[Motion, Finding]:
-    """Rigid registration of two grey volumes: Mattes mutual information, three resolutions.
+    """Rigid registration of two grey volumes: Mattes mutual information, three resolutions, from the
+    position in which the centres of their tissue coincide.
 
     Random samples of a fixed seed: the same images give the same motion.
     """
     sitk = need("SimpleITK")
+    # of the tissue, not of all grey values: those of the background would make it the centre of the volume
     start = sitk.CenteredTransformInitializer(
-        fixed, moving, sitk.Euler3DTransform(), sitk.CenteredTransformInitializerFilter.MOMENTS)
+        _tissue_in(fixed), _tissue_in(moving), sitk.Euler3DTransform(),
+        sitk.CenteredTransformInitializerFilter.MOMENTS)
     method = sitk.ImageRegistrationMethod()
     method.SetMetricAsMattesMutualInformation(32)
     method.SetMetricSamplingStrategy(method.RANDOM)
@@ -77,6 +80,12 @@ def motion_of_images(moving: Any, fixed: Any) -> tuple[Motion, Finding]:
         f"the loaded image was turned by {angle:.1f} degrees and its middle moved by "
         f"{np.linalg.norm(shift):.1f} mm to fit the open one (mutual information); give landmarks of "
         "both images if this is wrong", [*motion.turn.ravel(), *motion.shift])
+
+
+def _tissue_in(image: Any) -> Any:
+    """1 where an image is brighter than Otsu's threshold, else 0."""
+    sitk = need("SimpleITK")
+    return sitk.Cast(sitk.OtsuThreshold(image, 0, 1), sitk.sitkFloat32)
 
 
 def closed_surface(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,

@@ -1,11 +1,32 @@
 // Checkpoints, and figures that are calculated on request.
+import { batch } from '@preact/signals';
 import { change, run } from './requests';
 import * as state from './state';
-import { t } from '../text/texts';
+import { planTexts, t } from '../text/texts';
 
 export async function saveCheckpoint(name: string): Promise<void> {
   const names = await run(t.saving, 'checkpoint', { name });
-  if (names) state.checkpoints.value = names;
+  if (!names) return;
+  state.checkpoints.value = names;
+  state.changed.value = true;
+}
+
+export async function renameCheckpoint(name: string, to: string): Promise<void> {
+  if (!to || to === name) return;
+  const names = await run(t.saving, 'rename_checkpoint', { name, to });
+  if (!names) return;
+  batch(() => {
+    state.checkpoints.value = names;
+    if (state.compareWith.value === name) state.compareWith.value = to;
+    state.changed.value = true;
+  });
+}
+
+/** A name that no checkpoint has, for the next one. */
+export function nextName(): string {
+  let k = state.checkpoints.value.length + 1;
+  while (state.checkpoints.value.includes(planTexts.planOf(k))) ++k;
+  return planTexts.planOf(k);
 }
 
 export async function restoreCheckpoint(name: string): Promise<void> {

@@ -1,6 +1,7 @@
 // The tour: opening its valves, and measuring how far a sealed valve opens, which is one of the goals.
 import { effect } from '@preact/signals';
 import { shippedVertices } from '../shipped';
+import { edgeHeight } from '../flail';
 import { tourTexts } from '../text/texts';
 import { percentOfLimit } from '../notable';
 import type { FoundingResult } from '../protocol';
@@ -57,14 +58,28 @@ export function allowedLoad(): number | null {
   return healthy ? percentOfLimit(1.1 * Math.max(1, healthy.measures.chordLoad)) : null;
 }
 
+/** The scallop that is flail in a valve of the tour. */
+export const flailOf = (number: number): string | undefined => ({ 4: 'P2' })[number];
+
+/** mm of the free edge of the tour's flail scallop above the annulus, of the applied valve; null where there is none. */
+export function flailHeight(): number | null {
+  const scallop = flailOf(state.tour.value?.number ?? 0);
+  const { picture, figures } = state.main.value!;
+  const topology = state.topologyOf(picture);
+  return scallop && topology ? edgeHeight(topology, picture, figures.frame, scallop) : null;
+}
+
 /** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */
-export function reached(): Record<'sealed' | 'chords' | 'open', boolean | null> {
+export function reached(): Record<'sealed' | 'chords' | 'open' | 'edge', boolean | null> {
+  const height = flailHeight();
   const { hash, known, measures } = state.main.value!.figures;
   const cost = openingOf(hash);
   const [least, allowed] = [leastOpening(), allowedLoad()];
   return {
     sealed: known === 'shape' ? null : measures.atRest && measures.orifice === 0,
     chords: allowed !== null ? percentOfLimit(measures.chordLoad) <= allowed : null,
+    // a valve without a flail scallop has nothing to reach
+    edge: height === null || height < 0,
     open: cost && least !== null ? cost.openArea >= least : null,
   };
 }

@@ -210,15 +210,24 @@ export const tourTexts = {
   present: (k: number) => `Valve ${k} of the tour`,
   finished: 'All goals reached',
   finishedOf: (count: number) =>
-    count < 3 ? `${count} of 3 valves sealed.` : 'Three of three valves are sealed: the tour is finished.',
-  study: 'What the study’s surgeon did',
+    count < 4 ? `${count} of 4 valves sealed.` : 'All four valves are sealed: the tour is finished.',
+  study: {
+    title: 'What the study’s surgeon did',
+    column: 'Study surgeon',
+    help: 'Study surgeon: the repair of 2011, repeated here.',
+  },
+  example: {
+    title: 'A way to repair it',
+    column: 'Example',
+    help: 'Example: two artificial chordae and a band.',
+  },
   show: (chord: string) => `Show the chord ${chord}`,
-  columnsHelp:
-    'Before illness: this same valve with its annulus and chordae as they were; the valve that the page begins with is another one. Study surgeon: the repair of 2011, repeated here. Coaptation: mean along the whole line of closure, in which a gap counts as 0.',
+  columnsHelp: (other: string) =>
+    `Before illness: this same valve with its annulus and chordae as they were; the valve that the page begins with is another one. ${other} Coaptation: mean along the whole line of closure, in which a gap counts as 0.`,
   namesHelp:
     'AL1 to AL3 are heads of the anterolateral papillary muscle, PM1 to PM3 of the posteromedial one; A2/13 is chord 13 of the scallop A2.',
   whenSealed: '(measured once it is sealed)',
-  columns: { yours: 'Yours', study: 'Study surgeon', healthy: 'Before illness' },
+  columns: { yours: 'Yours', healthy: 'Before illness' },
   rows: {
     leak: 'Leak, mm²',
     coaptation: 'Coaptation, mean, mm',
@@ -226,9 +235,9 @@ export const tourTexts = {
     area: 'Open area, cm²',
     ap: 'Annulus AP, mm',
   },
-  heading: 'Learn it on three leaking valves',
+  heading: 'Learn it on four leaking valves',
   intro: [
-    'A surgeon in the study of 2011 learned this kind of program in ten minutes and sealed these three valves.',
+    'A surgeon in the study of 2011 learned this kind of program in ten minutes and sealed the first three of these valves; the fourth has a flail leaflet.',
     'Turn the valve with the left button (or one finger), zoom with the wheel (or two fingers). The red area is the leak.',
     'Open “Repair”, choose an operation, and watch the closed valve while you change it. Nothing is done until you press Apply, and everything can be undone.',
   ],
@@ -253,14 +262,27 @@ export const tourTexts = {
       chord: 'A2/4',
       hint: 'Two faults need two steps: free the leaflet from the short chord, then bring the annulus back to its size.',
     },
-  ],
+    {
+      title: 'Valve 4: a flail P2',
+      story:
+        'The chordae of the free edge of P2 and those behind it are torn, and in systole the annulus is 5 % too large. The edge of P2 stands in the atrium.',
+      hint: 'Hold the edge of P2 with two artificial chordae, one from each papillary muscle, then support the annulus with a band or a ring. A small ring alone can seal this valve, but P2 stays flail.',
+    },
+  ] as { title: string; story: string; hint: string; chord?: string }[],
   goals: {
     sealed: 'No leak under 120 mmHg',
+    edge: (scallop: string, height: number | null) =>
+      `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
     chords: (percent: number | null) =>
       `No chord above ${percent ?? '…'} % of its working limit, a tenth more than before its illness`,
     open: 'Opens to at least 90 % of its area before its illness',
   },
-  shortGoals: { sealed: 'No leak', chords: 'Chordae', open: 'Opens' },
+  shortGoals: {
+    sealed: 'No leak',
+    edge: (scallop: string) => `Edge of ${scallop}`,
+    chords: 'Chordae',
+    open: 'Opens',
+  },
   won: 'All goals reached.',
 };
 
@@ -354,6 +376,7 @@ export const refusals = {
   missing: (file: string) => `${file} is missing from the session`,
   noPreview: 'there is no preview to apply: choose an operation',
   noCheckpoint: (name: string) => `there is no checkpoint ${name}`,
+  sameCheckpoint: (name: string) => `there is already a checkpoint “${name}”: choose another name`,
   noOperation: (kind: string) => `there is no operation ${kind}`,
   noField: (kind: string, name: string) => `${kind} has no field ${name}`,
   cancelled: 'cancelled',
@@ -650,6 +673,8 @@ export const planTexts = {
   checkpoints: 'Checkpoints',
   checkpointName: 'Name of the checkpoint',
   planOf: (k: number) => `Plan ${k}`,
+  rename: (name: string) => `Rename “${name}”`,
+  newName: (name: string) => `New name of “${name}”`,
   keep: 'Keep this plan',
   files: 'Save and report',
   returnTo: 'Return to it',

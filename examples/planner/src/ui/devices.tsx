@@ -3,7 +3,7 @@ import { suture } from '../notable';
 import * as state from '../store/state';
 import { deviceTexts } from '../text/texts';
 import type { Figures, Picture, Topology } from '../protocol';
-import { isClosed } from '../view/scene';
+import { isClosed } from '../view/heart';
 import { Section } from './parts';
 
 interface Device {

@@ -1,6 +1,6 @@
 // The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair".
 import { Check, CircleHelp, X } from 'lucide-preact';
-import { allowedLoad, reached, startValve } from '../store/tour';
+import { allowedLoad, flailHeight, flailOf, reached, startValve } from '../store/tour';
 import * as state from '../store/state';
 import { tourTexts } from '../text/texts';
 import { Button } from './parts';
@@ -14,11 +14,15 @@ interface Check {
   later?: string;
 }
 
-function checks(): Check[] {
+function checks(number: number): Check[] {
   const { goals, shortGoals } = tourTexts;
-  const { sealed, chords, open } = reached();
+  const { sealed, chords, open, edge } = reached();
+  const scallop = flailOf(number);
   return [
     { text: goals.sealed, short: shortGoals.sealed, done: sealed },
+    ...(scallop
+      ? [{ text: goals.edge(scallop, flailHeight()), short: shortGoals.edge(scallop), done: edge }]
+      : []),
     { text: goals.chords(allowedLoad()), short: shortGoals.chords, done: chords },
     { text: goals.open, short: shortGoals.open, done: open, later: tourTexts.whenSealed },
   ];
@@ -26,10 +30,11 @@ function checks(): Check[] {
 
 /** `short`: in one line, without the heading. */
 export function Goals({ number, short }: { number: number; short?: boolean }) {
-  const found = checks();
+  const found = checks(number);
   const count = state.finished.value.length;
   // in the order of the tour, and back to those that were passed over
-  const next = [1, 2, 3, 1, 2].slice(number).find((k) => !state.finished.value.includes(k));
+  const valves = tourTexts.valves.map((_, k) => k + 1);
+  const next = [...valves.slice(number), ...valves].find((k) => !state.finished.value.includes(k));
   const icon = ({ done }: Check) =>
     done === null ? <CircleHelp size={18} /> : done ? <Check size={18} /> : <X size={18} />;
   return (

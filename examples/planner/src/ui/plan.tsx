@@ -1,8 +1,6 @@
 // The panel "Plan": operations, checkpoints, two plans side by side, notes, and keeping it all.
-import { useSignal } from '@preact/signals';
-import { Bookmark, Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
+import { Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
 import { redo, undo } from '../store/history';
-import { compareCheckpoint, restoreCheckpoint, saveCheckpoint } from '../store/measure';
 import {
   allowAutosave,
   autosave,
@@ -17,11 +15,11 @@ import {
 import * as state from '../store/state';
 import { appTexts, barTexts, figure, figureNames, planTexts, say } from '../text/texts';
 import type { Measures } from '../protocol';
+import { Checkpoints } from './checkpoints';
 import { Button, Section } from './parts';
 
 export function PlanPanel() {
   const figures = state.main.value?.figures;
-  const name = useSignal('');
   if (!figures) return <p class="hint">{appTexts.closing}</p>;
   const done = figures.history.filter((entry) => !entry.undone);
   return (
@@ -51,46 +49,8 @@ export function PlanPanel() {
         ))}
       </ol>
       {done.length === 0 && <p class="hint">{planTexts.nothing}</p>}
-      <Section title={planTexts.checkpoints} open>
-        <form
-          class="row"
-          onSubmit={(event) => {
-            event.preventDefault();
-            const given = name.value.trim() || planTexts.planOf(state.checkpoints.value.length + 1);
-            void saveCheckpoint(given);
-            name.value = '';
-          }}
-        >
-          <input
-            type="text"
-            class="checkpoint-name"
-            maxLength={40}
-            aria-label={planTexts.checkpointName}
-            placeholder={planTexts.planOf(state.checkpoints.value.length + 1)}
-            value={name.value}
-            onInput={(event) => (name.value = event.currentTarget.value)}
-          />
-          <button type="submit" class="button plain">
-            <Bookmark size={16} />
-            <span>{planTexts.keep}</span>
-          </button>
-        </form>
-        {state.checkpoints.value.map((checkpoint) => (
-          <div class="row checkpoint">
-            <span>{checkpoint}</span>
-            <Button onClick={() => void restoreCheckpoint(checkpoint)}>{planTexts.returnTo}</Button>
-            <Button
-              pressed={state.compareWith.value === checkpoint}
-              onClick={() =>
-                void compareCheckpoint(state.compareWith.value === checkpoint ? null : checkpoint)
-              }
-            >
-              {planTexts.compare}
-            </Button>
-          </div>
-        ))}
-        {state.compared.value && <SideBySide />}
-      </Section>
+      <Checkpoints />
+      {state.compared.value && <SideBySide />}
       <Section title={planTexts.notes}>
         <textarea
           rows={4}

@@ -1,5 +1,5 @@
-// The tour: the three leaking valves of the founding study, a goal, and a score beside the healthy valve and the
-// founding surgeon's repair.
+// The tour: three leaking valves of the founding study and one with a flail leaflet, a goal, and a score beside the healthy
+// valve and the repair of the founding surgeon, or an example.
 import { Check, Eye, Wrench } from 'lucide-preact';
 import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
@@ -21,7 +21,7 @@ export function TourPanel() {
           ))}
         </>
       )}
-      <div class="row">
+      <div class="row valves">
         {tourTexts.valves.map((_, k) => (
           <Button
             kind={tour?.number === k + 1 ? 'main' : 'plain'}
@@ -51,9 +51,11 @@ function Goal() {
         <summary>{tourTexts.hint}</summary>
         <div class="section-body">
           <p>{texts.hint}</p>
-          <Button icon={<Eye size={16} />} onClick={() => showChord(texts.chord)}>
-            {tourTexts.show(texts.chord)}
-          </Button>
+          {texts.chord && (
+            <Button icon={<Eye size={16} />} onClick={() => showChord(texts.chord!)}>
+              {tourTexts.show(texts.chord)}
+            </Button>
+          )}
         </div>
       </details>
       <Goals number={tour.number} />
@@ -70,11 +72,12 @@ function Score() {
   const figures = state.main.value!.figures;
   const founding = tour.founding;
   const cost = openingOf(figures.hash);
+  const other = tour.number > 3 ? tourTexts.example : tourTexts.study;
   const columns = [
     { name: tourTexts.columns.yours, m: figures.measures, area: cost?.openArea },
     ...(founding?.repaired
       ? [
-          { name: tourTexts.columns.study, m: founding.repaired.measures, area: founding.repaired.openArea },
+          { name: other.column, m: founding.repaired.measures, area: founding.repaired.openArea },
           { name: tourTexts.columns.healthy, m: founding.healthy.measures, area: founding.healthy.openArea },
         ]
       : []),
@@ -106,10 +109,10 @@ function Score() {
           {row(tourTexts.rows.ap, (c) => figure(c.m.annulusAp, 1))}
         </tbody>
       </table>
-      {founding?.repaired && <p class="hint">{tourTexts.columnsHelp}</p>}
+      {founding?.repaired && <p class="hint">{tourTexts.columnsHelp(other.help)}</p>}
       {founding?.repaired && (
         <details class="section">
-          <summary>{tourTexts.study}</summary>
+          <summary>{other.title}</summary>
           <div class="section-body">
             <ol>
               {founding.repaired.operations.map((line) => (

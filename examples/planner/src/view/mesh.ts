@@ -19,6 +19,11 @@ export interface Mesh {
   flat: boolean;
 }
 
+/** The place of a node. */
+export function point(x: Float32Array, node: number): number[] {
+  return [x[3 * node], x[3 * node + 1], x[3 * node + 2]];
+}
+
 /** Collects coloured triangles of many small shapes into one mesh. */
 export class Shapes {
   private positions: number[] = [];

@@ -1,10 +1,8 @@
 // The picture: canvas, renderer, camera, labels, and the pointer. Draws only when something has changed; while
 // something moves at a lower resolution, then once more in full.
 import { effect, untracked } from '@preact/signals';
-import { leakPlaces, shareOfLimit } from '../notable';
 import * as state from '../store/state';
 import { appTexts } from '../text/texts';
-import type { Fields, Topology } from '../protocol';
 import { Camera, type Preset } from './camera';
 import { cutMesh, planeOf } from './cut';
 import { Gestures } from './gestures';
@@ -13,7 +11,8 @@ import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
-import { atrialSide, sceneMeshes } from './scene';
+import { atrialSide } from './leaflets';
+import { shownFields, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh, type SurfaceFrame } from './surface';
 import { WebGl } from './webgl';
@@ -165,38 +164,12 @@ export class Viewport {
   }
 
   frameOf(): number[] {
-    return (
-      this.found?.frame ??
-      (state.preview.value ?? state.main.value)?.figures.frame ??
-      state.motion.value?.frame ??
-      this.guessedFrame()
-    );
-  }
-
-  /** Frame of a picture that has no figures yet: centre and normal of the annulus. */
-  private guessedFrame(): number[] {
-    const picture = state.picture.value;
-    const topology = picture && state.topologyOf(picture);
-    if (!picture || !topology) return [0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1];
-    const centre = [0, 0, 0];
-    for (const node of topology.annulus)
-      for (let c = 0; c < 3; ++c) centre[c] += picture.positions[3 * node + c] / topology.annulus.length;
-    return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
+    return this.found?.frame ?? shownFrame();
   }
 
   /** Radius of the annulus or of a surface, mm. */
   radius(): number {
-    if (this.found) return this.found.radius;
-    const picture = state.main.value?.picture ?? state.picture.value;
-    const topology = picture && state.topologyOf(picture);
-    if (!picture || !topology) return 20;
-    const frame = this.frameOf();
-    let largest = 5;
-    for (const node of topology.annulus) {
-      const [x, y, z] = [0, 1, 2].map((c) => picture.positions[3 * node + c] - frame[c]);
-      largest = Math.max(largest, Math.hypot(x, y, z));
-    }
-    return largest;
+    return this.found?.radius ?? shownRadius(this.frameOf());
   }
 
   plane(): CutPlane | null {
@@ -211,70 +184,9 @@ export class Viewport {
     return [0, 1, 2].map((c) => f[c] + state.sectionAt.value * f[6 + c] + up * f[9 + c]);
   }
 
-  /** Values per node of the valve that is shown at rest. */
-  private fields(): Fields | null {
-    return state.motion.value ? null : (state.figures.value?.fields ?? null);
-  }
-
   private buildScene(): void {
     this.sceneDirty = false;
-    const picture = state.picture.value;
-    const topology = picture && state.topologyOf(picture);
-    if (this.surface) {
-      this.meshes = [this.surface];
-      return;
-    }
-    if (!picture || !topology) {
-      this.meshes = [];
-      return;
-    }
-    const shown = state.motion.value ? null : state.shown.value;
-    const figures = shown?.figures ?? null;
-    const choice = state.choice.value;
-    const chord = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
-    this.meshes = sceneMeshes(topology, picture, {
-      map: shown ? state.map.value : 'tissue',
-      fields: this.fields(),
-      distance: this.distances(),
-      frame: this.frameOf(),
-      load: figures ? Float32Array.from(figures.chords, shareOfLimit) : null,
-      chosenChord: topology.chords.findIndex((part) => part.id === chord),
-      chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
-      chordsOn: state.chordsOn.value,
-      jets: leakPlaces(figures?.orificeParts ?? []),
-      closed: state.motion.value ? (state.main.value?.picture ?? null) : null,
-      removed: state.chordsOn.value && shown === state.preview.value ? this.removed(topology) : [],
-    });
-  }
-
-  /** Ends of the chordae that the preview takes away, in the valve before. */
-  private removed(topology: Topology): [number[], number[]][] {
-    const before = state.main.value?.picture;
-    const old = before && state.topologyOf(before);
-    if (!old || old === topology) return [];
-    const kept = new Set(topology.chords.map((part) => part.id));
-    const at = (node: number) => [...before.positions.subarray(3 * node, 3 * node + 3)];
-    return old.chords.flatMap((part, k): [number[], number[]][] =>
-      kept.has(part.id) ? [] : [[at(old.chordNodes[2 * k]), at(old.chordNodes[2 * k + 1])]],
-    );
-  }
-
-  /** Distance of each node from its place in the valve before, matched by origin. */
-  private distances(): Float32Array | null {
-    const now = state.shown.value?.picture;
-    const then = (state.compared.value ?? (state.preview.value ? state.main.value : state.first.value))
-      ?.picture;
-    const [a, b] = [now && state.topologyOf(now), then && state.topologyOf(then)];
-    if (!now || !then || !a || !b) return null;
-    const rows = new Map<number, number>();
-    b.origin.forEach((origin, row) => rows.set(origin, row));
-    return Float32Array.from(a.origin, (origin, i) => {
-      const j = origin === 0xffffffff ? undefined : rows.get(origin);
-      if (j === undefined) return NaN;
-      let sum = 0;
-      for (let c = 0; c < 3; ++c) sum += (now.positions[3 * i + c] - then.positions[3 * j + c]) ** 2;
-      return Math.sqrt(sum);
-    });
+    this.meshes = this.surface ? [this.surface] : valveMeshes(this.frameOf());
   }
 
   /** The first picture of a valve sets the camera. */
@@ -295,7 +207,7 @@ export class Viewport {
     const topology = picture && state.topologyOf(picture);
     const plane = this.plane();
     if (plane && topology && !this.surface) {
-      const drawn = atrialSide(topology, picture, this.fields());
+      const drawn = atrialSide(topology, picture, shownFields());
       meshes.push(cutMesh(topology, drawn, plane, this.frameOf(), this.radius()));
     }
     const marks = marksMesh(state.sectionOn.value && !this.surface ? this.handle() : null);

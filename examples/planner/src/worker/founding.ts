@@ -1,9 +1,11 @@
-// The valves of the tour: the three diseased valves of the founding paper's study (Tenenholtz et al., IROS 2011)
-// as examples/plans/README.md makes them, their healthy original, and the paper's repairs.
+// The valves of the tour: the three diseased valves of the founding paper's study (Tenenholtz et al., IROS 2011) and one
+// with a flail leaflet, as examples/plans/README.md makes them, their healthy original, and a repair of each.
 import type { Mvs, Simulator, Snapshot } from 'libmvs';
 import plan1 from '../../../plans/valve1.json?raw';
 import plan2 from '../../../plans/valve2.json?raw';
 import plan3 from '../../../plans/valve3.json?raw';
+import plan4 from '../../../plans/valve4.json?raw';
+import flail from '../../../plans/flail.json?raw';
 import type { FoundingResult } from '../protocol';
 import { figuresOf } from './picture';
 import { mm2 } from './units';
@@ -11,6 +13,8 @@ import { mm2 } from './units';
 interface Disease {
   annulus: number;
   chord?: [string, number];
+  /** A plan that makes it ill. */
+  illness?: string;
   plan: string;
 }
 
@@ -19,15 +23,17 @@ const diseases: Record<number, Disease> = {
   1: { annulus: 1.15, chord: ['A1/11', 1.25], plan: plan1 },
   2: { annulus: 1, chord: ['A2/4', 0.7], plan: plan2 },
   3: { annulus: 1.1, chord: ['A2/4', 0.67], plan: plan3 },
+  4: { annulus: 1.05, illness: flail, plan: plan4 },
 };
 
 /** The OBJ file of a valve of the study; number 0 is the healthy one. */
 export function foundingValve(mvs: Mvs, number: number, vertices: number): Uint8Array {
-  const { annulus, chord } = diseases[number];
+  const { annulus, chord, illness } = diseases[number];
   const sim = mvs.simulator();
   try {
     sim.generateValve({ shape: 'founding', posterior_height: 0.012, annulus_scale: annulus, vertices });
     if (chord) sim.apply('chord_length', { chord: chord[0], factor: chord[1] });
+    if (illness) sim.replayPlan(illness);
     return sim.read((snapshot) => snapshot.save('obj'));
   } finally {
     sim.dispose();
@@ -62,7 +68,7 @@ export class HealthyValve {
   }
 }
 
-/** Figures of the founding paper's repair of valve `number`. */
+/** Figures of a repair of valve `number`: that of the founding paper, or our own of the fourth valve. */
 export function foundingRepair(
   mvs: Mvs,
   number: number,

@@ -3,6 +3,7 @@
 import { DIASTOLE_PA, MvsError, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
 import type { Cost, Known, Motion, Operation, Section, SectionRequest, Shown, Spread } from '../protocol';
 import { refusals } from '../text/texts';
+import { Checkpoints } from './checkpoints';
 import { libraryFields } from './operations';
 import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
 import { sectionOf } from './section';
@@ -28,7 +29,7 @@ export class Planner {
   private preview: Snapshot | null = null;
   /** Bytes of the starting valve, an OBJ file. */
   start = new Uint8Array(0);
-  readonly checkpoints = new Map<string, Snapshot>();
+  readonly checkpoints = new Checkpoints();
   /** The healthy original of a valve of the tour; it belongs to the tour. */
   healthy: Snapshot | null = null;
   /** The closed valve before the first operation. */
@@ -62,8 +63,7 @@ export class Planner {
   }
 
   private forget(): void {
-    for (const snapshot of this.checkpoints.values()) snapshot.dispose();
-    this.checkpoints.clear();
+    this.checkpoints.forget();
     this.healthy = null;
     this.first?.dispose();
     this.first = null;
@@ -231,25 +231,18 @@ export class Planner {
   }
 
   checkpoint(name: string): string[] {
-    this.checkpoints.get(name)?.dispose();
-    this.checkpoints.set(name, this.main.snapshot());
+    this.checkpoints.keep(name, this.main.snapshot());
     return [...this.checkpoints.keys()];
-  }
-
-  private checkpointOf(name: string): Snapshot {
-    const kept = this.checkpoints.get(name);
-    if (!kept) throw new MvsError('MVS_E_ID', name, refusals.noCheckpoint(name));
-    return kept;
   }
 
   restore(name: string, stage: (shown: Shown) => void): Promise<Shown> {
     this.discard();
-    this.main.restore(this.checkpointOf(name));
+    this.main.restore(this.checkpoints.of(name));
     return this.mainInStages(stage);
   }
 
   readCheckpoint(name: string): Shown {
-    return this.shownOf(this.checkpointOf(name));
+    return this.shownOf(this.checkpoints.of(name));
   }
 
   /** Figures of several closures along different loading paths. */

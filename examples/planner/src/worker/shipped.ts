@@ -7,7 +7,7 @@ import { frameOf, motionOf } from './picture';
 
 /** The OBJ file of a shipped valve. */
 export function shippedValve(mvs: Mvs, name: string, vertices: number): Uint8Array {
-  const number = /^founding([0-3])$/.exec(name);
+  const number = /^founding([0-4])$/.exec(name);
   if (number) return foundingValve(mvs, Number(number[1]), vertices);
   const sim = mvs.simulator();
   try {

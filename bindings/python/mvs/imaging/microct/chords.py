@@ -17,8 +17,9 @@ from .segment import Tissue
 Points = NDArray[np.float64]
 TRUNK = 3e-3
 """m: chords that run together for less than this near a papillary muscle are taken to begin there"""
-SAME_HEAD = 4e-3
-"""m: chords of one muscle that begin nearer than this to each other have one head"""
+SAME_HEAD = 0.8e-3
+"""m: chords of one muscle that begin nearer than this to each other, a diameter, have one head. Chordae
+spread over several mm of a muscle: one head for all of them would move their ends by as much."""
 
 EXTENSION = 4e-3
 """m: the end of a chord is continued at most so far to its insertion"""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..mesh import Sheet
 from ..needs import need
 from ..orientation import neighbour_pairs
+from .bridges import bridges
 from .segment import EVERYWHERE, Mask, Thick, Tissue, nearest_voxels
 
 Points = NDArray[np.float64]
@@ -80,11 +81,12 @@ def paths_of(results: Mapping[str, Any]) -> Paths:
         return none
     rows = tuple(voxels.T)
     pairs = neighbour_pairs(skeleton.shape, voxels)
+    to_leaflet = np.where(leaflets[rows], 0, nearest_voxels(leaflets, voxels)[0]) * step
+    in_muscle = muscles.mask[rows]
+    pairs = np.vstack([pairs, bridges(voxels, pairs, (to_leaflet < REACH) & ~in_muscle, tissue.mask, step)])
     length = np.linalg.norm(voxels[pairs[:, 0]] - voxels[pairs[:, 1]], axis=1) * step
     links = sparse.coo_matrix((length, pairs.T), (len(voxels),) * 2).tocsr()
     degree = np.bincount(pairs.ravel(), minlength=len(voxels))
-    to_leaflet = np.where(leaflets[rows], 0, nearest_voxels(leaflets, voxels)[0]) * step
-    in_muscle = muscles.mask[rows]
     nearest = np.where(in_muscle[:, None], voxels, nearest_voxels(muscles.mask, voxels)[1])
     own = results["thick"].label[tuple(nearest.T)]
     starts = np.flatnonzero(in_muscle)

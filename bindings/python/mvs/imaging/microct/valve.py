@@ -18,8 +18,11 @@ from ..open_valve import check_open_valve
 from ..pipeline import Pipeline, Run
 from ..valve import ImageValve, build, distance_from_image, scanned
 from .chords import ChordNetwork
-from .loaded import Loaded, loaded_of, settled, with_loaded_boundary, with_loaded_lengths
+from .lengths import with_loaded_lengths
+from .loaded import Loaded, loaded_of, settled, with_loaded_boundary
+from .muscles import muscle_groups
 from .stages import PIPELINE
+from .tissue import with_tissue_of_image
 
 Points = NDArray[np.float64]
 MARGINAL, BASAL = 2.5e-3, 4e-3
@@ -39,15 +42,18 @@ def valve_of_volumes(image: Any, loaded: Optional[Any], landmarks: Mapping[str, 
     network: ChordNetwork = run["chords"]
     given = dict(landmarks)
     if given.get("papillary_tips") is None and network.heads:
-        given["papillary_tips"] = network.nodes[:network.heads]
+        heads = network.nodes[:network.heads]
+        group = muscle_groups(heads)
+        given["papillary_tips"] = np.array([heads[group == k].mean(axis=0) for k in np.unique(group)])
     other: Optional[Loaded] = None
     if loaded is not None:
-        other = loaded_of(loaded, image, landmarks, loaded_landmarks, register, pipeline, console)
+        other = loaded_of(loaded, image, landmarks, loaded_landmarks, register, pipeline, console,
+                          run)
     console.stage("building and closing the valve")
     made = build(leaflets, given, None, name, lambda done, _: console.share(done),
                  findings=tuple(other.findings if other else ()), **options)
     if network.heads:
-        made = with_chords(made, network, other)
+        made = with_chords(made, network, other, "leaflet" in options)
     made.image = scanned(image)
     if other is not None and loaded is not None:
         made.loaded, made.loaded_image = other.surface, scanned(loaded, other.motion)
@@ -69,7 +75,8 @@ def leaflets_of_run(run: Run) -> Leaflets:
     return leaflets
 
 
-def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded]) -> ImageValve:
+def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded],
+                tissue_known: bool = False) -> ImageValve:
     """The valve with the chordae of the image in the place of assumed ones, closed again."""
     valve = mvs.valve_of(made.opened)
     vertex, moved = _vertices_of(made.opened, network)
@@ -77,6 +84,8 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     found = [_chord_finding(network, moved)]
     if loaded is not None:
         found += with_loaded_boundary(valve, network, loaded)
+        if not tissue_known:
+            found.append(with_tissue_of_image(valve, loaded.surface))
     opened, closed, stats = settled(valve)
     if loaded is not None and stats.converged:
         opened, closed, stats, more = with_loaded_lengths(valve, closed, network, loaded)

@@ -1,0 +1,97 @@
+// Checkpoints of the plan: kept under a name, renamed, returned to, compared with the present plan.
+import { useSignal, type Signal } from '@preact/signals';
+import { useEffect, useRef } from 'preact/hooks';
+import { Bookmark, Pencil } from 'lucide-preact';
+import {
+  compareCheckpoint,
+  nextName,
+  renameCheckpoint,
+  restoreCheckpoint,
+  saveCheckpoint,
+} from '../store/measure';
+import * as state from '../store/state';
+import { planTexts } from '../text/texts';
+import { Button, Section } from './parts';
+
+/** Characters of a name: what one line of the panel holds. */
+const longest = 40;
+
+export function Checkpoints() {
+  const name = useSignal('');
+  const renamed = useSignal<string | null>(null);
+  return (
+    <Section title={planTexts.checkpoints} open>
+      <form
+        class="row"
+        onSubmit={(event) => {
+          event.preventDefault();
+          void saveCheckpoint(name.value.trim() || nextName());
+          name.value = '';
+        }}
+      >
+        <input
+          type="text"
+          class="checkpoint-name"
+          maxLength={longest}
+          aria-label={planTexts.checkpointName}
+          placeholder={nextName()}
+          value={name.value}
+          onInput={(event) => (name.value = event.currentTarget.value)}
+        />
+        <button type="submit" class="button plain">
+          <Bookmark size={16} />
+          <span>{planTexts.keep}</span>
+        </button>
+      </form>
+      {state.checkpoints.value.map((checkpoint) => (
+        <div class="row checkpoint" key={checkpoint}>
+          {renamed.value === checkpoint ? (
+            <NewName name={checkpoint} renamed={renamed} />
+          ) : (
+            <span>{checkpoint}</span>
+          )}
+          <Button onClick={() => void restoreCheckpoint(checkpoint)}>{planTexts.returnTo}</Button>
+          <Button
+            pressed={state.compareWith.value === checkpoint}
+            onClick={() => void compareCheckpoint(state.compareWith.value === checkpoint ? null : checkpoint)}
+          >
+            {planTexts.compare}
+          </Button>
+          <Button
+            icon={<Pencil size={16} />}
+            label={planTexts.rename(checkpoint)}
+            onClick={() => (renamed.value = checkpoint)}
+          />
+        </div>
+      ))}
+    </Section>
+  );
+}
+
+/** The field in which a checkpoint gets another name: Enter or leaving the field takes it, Escape does not. */
+function NewName({ name, renamed }: { name: string; renamed: Signal<string | null> }) {
+  const field = useRef<HTMLInputElement>(null);
+  useEffect(() => field.current?.select(), []);
+  const take = () => {
+    if (renamed.value !== name) return;
+    renamed.value = null;
+    void renameCheckpoint(name, field.current!.value.trim());
+  };
+  return (
+    <input
+      ref={field}
+      type="text"
+      class="checkpoint-name renamed"
+      maxLength={longest}
+      aria-label={planTexts.newName(name)}
+      value={name}
+      onBlur={take}
+      onKeyDown={(event) => {
+        if (event.key === 'Enter') take();
+        else if (event.key === 'Escape') renamed.value = null;
+        else return;
+        event.stopPropagation();
+      }}
+    />
+  );
+}

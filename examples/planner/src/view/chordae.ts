@@ -1,0 +1,62 @@
+// Chordae as tubes from the papillary heads to the ventricular side of the leaflets, in the colour of their load or kind.
+import type { Picture, Topology } from '../protocol';
+import { suture } from '../notable';
+import { colourOf, maps, tissue } from './colours';
+import { point, Shapes, type Colour, type Mesh } from './mesh';
+import type { SceneOptions } from './scene';
+
+const strut = 3;
+
+function chordColour(topology: Topology, picture: Picture, options: SceneOptions, k: number): Colour {
+  if (k === options.chosenChord) return tissue.chosen;
+  if (topology.chordKind[k] === suture) return tissue.suture;
+  const load = options.load ? options.load[k] : 0;
+  if (options.map === 'load') return colourOf(maps.load, 100 * load);
+  if (load > 1) return tissue.over;
+  if (picture.chordTaut[k] < 0) return tissue.slack;
+  return topology.chordKind[k] === strut ? tissue.strut : tissue.chord;
+}
+
+/** mm between the surface of a chord and the leaflet that it ends at. */
+const below = 0.15;
+
+/** Both ends of a chord. With the `normals` of the nodes, which point into the atrium and vanish beside the leaflets, it ends
+ *  on the side of the ventricle, and shows on no other. */
+function chordEnds(topology: Topology, picture: Picture, k: number, radius: number, normals: Float32Array) {
+  const end = topology.chordNodes[2 * k + 1];
+  const [a, b] = [point(picture.positions, topology.chordNodes[2 * k]), point(picture.positions, end)];
+  if (topology.chordKind[k] !== suture)
+    for (let c = 0; c < 3; ++c) b[c] -= (radius + below) * normals[3 * end + c];
+  return [a, b];
+}
+
+export function chordae(
+  topology: Topology,
+  picture: Picture,
+  options: SceneOptions,
+  normals: Float32Array,
+): Mesh {
+  const shapes = new Shapes();
+  const many = topology.chordKind.length > 1500;
+  const onLeaflet = new Uint8Array(topology.nodes);
+  for (const node of topology.triangles) onLeaflet[node] = 1;
+  for (let k = 0; k < topology.chordKind.length; ++k) {
+    const chosen = k === options.chosenChord;
+    const thin = Math.min(0.75, Math.max(0.22, 0.62 * topology.chordRadius[k]));
+    const radius = (many ? 0.15 : thin) * (chosen ? 1.8 : 1);
+    const [a, b] = chordEnds(topology, picture, k, radius, normals);
+    shapes.tube(a, b, radius, chordColour(topology, picture, options, k), many ? 4 : 7);
+    // a joint where chordae branch; on the leaflet it would show on the other side
+    if (!many && onLeaflet[topology.chordNodes[2 * k + 1]] === 0)
+      shapes.sphere(b, radius * 1.15, chordColour(topology, picture, options, k), 4, 6);
+  }
+  return shapes.mesh({ cut: true });
+}
+
+/** The chosen chord once more, through whatever hides it. */
+export function throughAll(topology: Topology, picture: Picture, k: number, normals: Float32Array): Mesh {
+  const shapes = new Shapes();
+  const [a, b] = chordEnds(topology, picture, k, 0.35, normals);
+  shapes.tube(a, b, 0.35, tissue.chosen);
+  return shapes.mesh({ overlay: true, opacity: 0.55 });
+}

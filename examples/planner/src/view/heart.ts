@@ -1,0 +1,57 @@
+// What holds the leaflets: the annulus, papillary heads, rings and bands.
+import type { Picture, Topology } from '../protocol';
+import { tissue } from './colours';
+import { point, Shapes, type Mesh } from './mesh';
+import type { SceneOptions } from './scene';
+
+/** The curves of rings and bands in a moving valve: each point goes with the node of the annulus to which it is sewn. */
+function carriedRings(topology: Topology, picture: Picture, closed: Picture | null): Float32Array {
+  if (closed?.topology !== picture.topology) return picture.ringPoints;
+  const points = closed.ringPoints.slice();
+  const [now, then] = [picture.positions, closed.positions];
+  for (let k = 0; k < points.length; k += 3) {
+    const range = (node: number) =>
+      Math.hypot(...[0, 1, 2].map((c) => then[3 * node + c] - closed.ringPoints[k + c]));
+    const node = topology.annulus.reduce((best, other) => (range(other) < range(best) ? other : best));
+    for (let c = 0; c < 3; ++c) points[k + c] += now[3 * node + c] - then[3 * node + c];
+  }
+  return points;
+}
+
+/** Whether a curve is a ring: its ends are as near as its points; those of a band are apart. */
+export function isClosed(points: number[][]): boolean {
+  const range = (a: number[], b: number[]) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  const steps = points.slice(1).map((point, k) => range(points[k], point));
+  return range(points[0], points[points.length - 1]) < 3 * Math.max(...steps);
+}
+
+export function boundary(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+  const shapes = new Shapes();
+  const x = picture.positions;
+  shapes.path(
+    Array.from(topology.annulus, (node) => point(x, node)),
+    0.55,
+    tissue.annulus,
+    true,
+  );
+  const radius = topology.headNodes.length > 8 ? 0.9 : topology.headNodes.length > 2 ? 1.5 : 2;
+  topology.headNodes.forEach((node, h) => {
+    const at = point(x, node);
+    const colour = h === options.chosenHead ? tissue.chosen : tissue.head;
+    shapes.sphere(at, radius, colour, 10, 16);
+    const below = [
+      at[0] - 4.5 * options.frame[9],
+      at[1] - 4.5 * options.frame[10],
+      at[2] - 4.5 * options.frame[11],
+    ];
+    shapes.tube(at, below, radius, colour, 16, radius * 1.25);
+    shapes.sphere(below, radius * 1.25, colour, 10, 16);
+  });
+  const rings = carriedRings(topology, picture, options.closed);
+  for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
+    const points = [];
+    for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k) points.push(point(rings, k));
+    shapes.path(points, 1.15, tissue.ring, isClosed(points), 10);
+  }
+  return shapes.mesh();
+}

@@ -1,0 +1,92 @@
+// The leaflets: their mesh with both sides told apart or in the colours of a map, and their atrial side, which is what is drawn.
+import type { Fields, Picture, Topology } from '../protocol';
+import { colourOf, maps, tissue } from './colours';
+import { vertexNormals, type Mesh } from './mesh';
+import type { SceneOptions } from './scene';
+
+/** mm between the middle of a leaflet and its sides: half the distance at which leaflets of the library touch. */
+export const halfThickness = 0.5;
+
+/** Value of the colour map at each node. */
+function mapValues(picture: Picture, options: SceneOptions): Float32Array | null {
+  const { map, fields, frame } = options;
+  if (map === 'height') {
+    const x = picture.positions;
+    const values = new Float32Array(x.length / 3);
+    for (let i = 0; i < values.length; ++i) {
+      values[i] =
+        (x[3 * i] - frame[0]) * frame[9] +
+        (x[3 * i + 1] - frame[1]) * frame[10] +
+        (x[3 * i + 2] - frame[2]) * frame[11];
+    }
+    return values;
+  }
+  if (map === 'distance') return options.distance;
+  if (!fields) return null;
+  if (map === 'coaptation') return fields.coaptation;
+  if (map === 'stretch') return fields.stretch.map((v) => 100 * v);
+  return null;
+}
+
+export function leafletMesh(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+  const nodes = picture.positions.length / 3;
+  const front = new Float32Array(3 * nodes);
+  const back = new Float32Array(3 * nodes);
+  const values = options.map === 'tissue' || options.map === 'load' ? null : mapValues(picture, options);
+  if (values && options.map !== 'tissue' && options.map !== 'load') {
+    for (let i = 0; i < nodes; ++i) {
+      const colour = colourOf(maps[options.map], values[i]);
+      front.set(colour, 3 * i);
+      back.set(colour, 3 * i);
+    }
+  } else {
+    const anterior = Math.max(
+      0,
+      topology.leaflets.findIndex((leaflet) => leaflet.name === 'A'),
+    );
+    const { triangles, triangleLeaflet } = topology;
+    for (let t = 0; t < triangleLeaflet.length; ++t) {
+      const isAnterior = triangleLeaflet[t] === anterior;
+      for (let k = 0; k < 3; ++k) {
+        front.set(isAnterior ? tissue.atrialAnterior : tissue.atrialPosterior, 3 * triangles[3 * t + k]);
+        back.set(
+          isAnterior ? tissue.ventricularAnterior : tissue.ventricularPosterior,
+          3 * triangles[3 * t + k],
+        );
+      }
+    }
+  }
+  return {
+    positions: picture.positions,
+    normals: vertexNormals(picture.positions, topology.triangles),
+    index: topology.triangles,
+    front,
+    back,
+    opacity: 1,
+    overlay: false,
+    cut: true,
+    flat: false,
+  };
+}
+
+/** mm that stay between two leaflets, so that they do not cross between their nodes. */
+const clearance = 0.2;
+let lifted: { of: Picture; fields: Fields; picture: Picture } | null = null;
+
+/** The picture with the atrial side of the leaflets in place of their middle. Where leaflets touch, their middles are apart by
+ *  the thickness of a leaflet: seen from the atrium a sealed valve would seem to leak. The last one is kept. */
+export function atrialSide(topology: Topology, picture: Picture, fields: Fields | null): Picture {
+  if (!fields) return picture;
+  if (lifted?.of === picture && lifted.fields === fields) return lifted.picture;
+  const positions = picture.positions.slice();
+  const normals = vertexNormals(positions, topology.triangles);
+  for (const node of topology.annulus) normals.fill(0, 3 * node, 3 * node + 3);
+  for (let i = 0; i < positions.length; ++i) {
+    const apart = fields.coaptation[Math.floor(i / 3)];
+    positions[i] +=
+      (apart < Infinity ? Math.min(halfThickness, Math.max(0, 0.5 * (apart - clearance))) : halfThickness) *
+      normals[i];
+  }
+  lifted = { of: picture, fields, picture: { ...picture, positions } };
+  return lifted.picture;
+}

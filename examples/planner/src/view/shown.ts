@@ -1,0 +1,98 @@
+// The valve that the page shows, be it that of the plan, a preview, the valve before, or one in motion: its frame and
+// size, and its meshes with what is known of it.
+import { leakPlaces, shareOfLimit } from '../notable';
+import type { Fields, Topology } from '../protocol';
+import * as state from '../store/state';
+import type { Mesh } from './mesh';
+import { sceneMeshes } from './scene';
+
+/** Rows: origin in mm, AP, CC, into the atrium. */
+export function shownFrame(): number[] {
+  return (
+    (state.preview.value ?? state.main.value)?.figures.frame ?? state.motion.value?.frame ?? guessedFrame()
+  );
+}
+
+/** Frame of a picture that has no figures yet: centre and normal of the annulus. */
+function guessedFrame(): number[] {
+  const picture = state.picture.value;
+  const topology = picture && state.topologyOf(picture);
+  if (!picture || !topology) return [0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1];
+  const centre = [0, 0, 0];
+  for (const node of topology.annulus)
+    for (let c = 0; c < 3; ++c) centre[c] += picture.positions[3 * node + c] / topology.annulus.length;
+  return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
+}
+
+/** Radius of the annulus about the origin of a frame, mm. */
+export function shownRadius(frame: number[]): number {
+  const picture = state.main.value?.picture ?? state.picture.value;
+  const topology = picture && state.topologyOf(picture);
+  if (!picture || !topology) return 20;
+  let largest = 5;
+  for (const node of topology.annulus) {
+    const [x, y, z] = [0, 1, 2].map((c) => picture.positions[3 * node + c] - frame[c]);
+    largest = Math.max(largest, Math.hypot(x, y, z));
+  }
+  return largest;
+}
+
+/** Values per node of the valve that is shown at rest. */
+export function shownFields(): Fields | null {
+  return state.motion.value ? null : (state.figures.value?.fields ?? null);
+}
+
+/** The meshes of the valve, none where there is none. */
+export function valveMeshes(frame: number[]): Mesh[] {
+  const picture = state.picture.value;
+  const topology = picture && state.topologyOf(picture);
+  if (!picture || !topology) return [];
+  const shown = state.motion.value ? null : state.shown.value;
+  const figures = shown?.figures ?? null;
+  const choice = state.choice.value;
+  const chord = state.added.value?.id ?? (choice?.kind === 'chord' ? choice.id : '');
+  const map = shown ? state.map.value : 'tissue';
+  return sceneMeshes(topology, picture, {
+    map,
+    fields: shownFields(),
+    distance: map === 'distance' ? distances() : null,
+    frame,
+    load: figures ? Float32Array.from(figures.chords, shareOfLimit) : null,
+    chosenChord: topology.chords.findIndex((part) => part.id === chord),
+    chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
+    chordsOn: state.chordsOn.value,
+    jets: leakPlaces(figures?.orificeParts ?? []),
+    closed: state.motion.value ? (state.main.value?.picture ?? null) : null,
+    removed: state.chordsOn.value && shown === state.preview.value ? removedChords(topology) : [],
+  });
+}
+
+/** Ends of the chordae that the preview takes away, in the valve before. */
+function removedChords(topology: Topology): [number[], number[]][] {
+  const before = state.main.value?.picture;
+  const old = before && state.topologyOf(before);
+  if (!old || old === topology) return [];
+  const kept = new Set(topology.chords.map((part) => part.id));
+  const at = (node: number) => [...before.positions.subarray(3 * node, 3 * node + 3)];
+  return old.chords.flatMap((part, k): [number[], number[]][] =>
+    kept.has(part.id) ? [] : [[at(old.chordNodes[2 * k]), at(old.chordNodes[2 * k + 1])]],
+  );
+}
+
+/** Distance of each node from its place in the valve before, matched by origin. */
+function distances(): Float32Array | null {
+  const now = state.shown.value?.picture;
+  const then = (state.compared.value ?? (state.preview.value ? state.main.value : state.first.value))
+    ?.picture;
+  const [a, b] = [now && state.topologyOf(now), then && state.topologyOf(then)];
+  if (!now || !then || !a || !b) return null;
+  const rows = new Map<number, number>();
+  b.origin.forEach((origin, row) => rows.set(origin, row));
+  return Float32Array.from(a.origin, (origin, i) => {
+    const j = origin === 0xffffffff ? undefined : rows.get(origin);
+    if (j === undefined) return NaN;
+    let sum = 0;
+    for (let c = 0; c < 3; ++c) sum += (now.positions[3 * i + c] - then.positions[3 * j + c]) ** 2;
+    return Math.sqrt(sum);
+  });
+}

@@ -1,0 +1,108 @@
+// Sessions: saved, repeated by the native command, opened again, with their checkpoints.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { describe, it } from 'node:test';
+import { unzipSync } from 'fflate';
+import { figures, sharePlanner, temporaryFile } from './browser.mjs';
+import { answered, apply, begin, open, openPanel, save, undo } from './person.mjs';
+
+/** Repeats a session with the native command; returns the hash that it finds. */
+function nativeHash(session) {
+  const folder = mkdtempSync(join(tmpdir(), 'session-'));
+  for (const [name, bytes] of Object.entries(unzipSync(readFileSync(session)))) {
+    if (!name.includes('/')) writeFileSync(join(folder, name), bytes);
+  }
+  const told = execFileSync(process.env.MVS_COMMAND, [
+    'plan',
+    'replay',
+    join(folder, 'plan.json'),
+    '--on',
+    join(folder, 'valve.obj'),
+    '--json',
+  ]);
+  return JSON.parse(String(told)).hash;
+}
+
+describe('sessions', () => {
+  let page;
+  sharePlanner((opened) => ({ page } = opened));
+
+  it(
+    'saves_a_session_that_the_native_command_repeats',
+    { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND is not set' },
+    async () => {
+      await begin(page, 'clip');
+      await page.keyboard.press('q');
+      await apply(page);
+      assert.match((await figures(page)).history.at(-1).title, /turned by 5 degrees/);
+      await begin(page, 'ring');
+      await apply(page);
+      const path = await save(page);
+      assert.equal(nativeHash(path), (await figures(page)).hash);
+    },
+  );
+
+  it('opens_a_saved_session_with_its_hash', async () => {
+    await begin(page, 'annulus_scale');
+    await apply(page);
+    const { hash } = await figures(page);
+    const path = await save(page);
+    const copy = temporaryFile('kept.mvsplan', readFileSync(path));
+    await undo(page);
+    assert.notEqual((await figures(page)).hash, hash);
+    await open(page, copy);
+    assert.equal((await figures(page)).hash, hash);
+    assert.match(await page.getByTestId('notice').innerText(), /exactly the saved valve/);
+  });
+
+  it('refuses_a_damaged_session_and_stays', async () => {
+    const { hash } = await figures(page);
+    await open(page, temporaryFile('broken.mvsplan', 'not an archive'));
+    assert.match(await page.getByTestId('notice').innerText(), /not a session/);
+    assert.equal((await figures(page)).hash, hash);
+  });
+
+  it('renames_checkpoints_and_keeps_their_names_and_order_in_the_session', async () => {
+    await openPanel(page, 'Plan');
+    const names = () => page.locator('.checkpoint > span').allInnerTexts();
+    const keep = async () => {
+      await page.getByRole('button', { name: 'Keep this plan' }).click();
+      await answered(page);
+    };
+    const rename = async (name, to) => {
+      await page.getByRole('button', { name: `Rename “${name}”` }).click();
+      await page.keyboard.type(to);
+      await page.keyboard.press('Enter');
+      await answered(page);
+    };
+    await keep();
+    await undo(page);
+    await keep();
+    const { hash } = await figures(page);
+    assert.deepEqual(await names(), ['Plan 1', 'Plan 2']);
+    await rename('Plan 1', 'Clip and ring');
+    assert.deepEqual(await names(), ['Clip and ring', 'Plan 2']);
+    // a name that another one has is refused, and so is none
+    await rename('Plan 2', 'Clip and ring');
+    assert.match(await page.getByTestId('notice').innerText(), /already a checkpoint “Clip and ring”/);
+    await rename('Plan 2', ' ');
+    // Escape leaves the name as it is
+    await page.getByRole('button', { name: 'Rename “Plan 2”' }).click();
+    await page.keyboard.type('Nothing');
+    await page.keyboard.press('Escape');
+    assert.deepEqual(await names(), ['Clip and ring', 'Plan 2']);
+    // the next one gets no name that is taken: it would replace that one
+    await rename('Plan 2', 'Plan 3');
+    assert.equal(await page.locator('input.checkpoint-name').getAttribute('placeholder'), 'Plan 4');
+    await open(page, temporaryFile('renamed.mvsplan', readFileSync(await save(page))));
+    assert.deepEqual(await names(), ['Clip and ring', 'Plan 3']);
+    for (const [k, same] of [false, true].entries()) {
+      await page.getByRole('button', { name: 'Return to it' }).nth(k).click();
+      await answered(page);
+      assert.equal((await figures(page)).hash === hash, same, `checkpoint ${k + 1}`);
+    }
+  });
+});

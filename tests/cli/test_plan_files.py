@@ -1,0 +1,84 @@
+"""`mvs repair` and `mvs plan` with plans written by hand."""
+import json
+import re
+import unittest
+
+from test_cli import Command
+
+
+class Plans(Command):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.ok("generate", "--shape", "founding", "-o", "sick.obj", "--annulus-scale", 1.15, "--chord-factor", "A2/7=1.25")
+        cls.plan("p.json", {"do": "annulus_scale", "factor": 0.85},
+                 {"do": "chord_add", "head": "PM1",
+                  "site": {"scallop": "A2", "along": 0.4, "height": 0.95}})
+
+    @classmethod
+    def plan(cls, name, *steps):
+        (cls.dir / name).write_text(json.dumps(
+            {"format": "mvs-plan", "version": 1, "valve": {"name": "any"}, "steps": steps}))
+
+    def test_a_repair_seals_a_leaking_valve(self):
+        done = self.json("repair", "sick.obj", "--plan", "p.json", "-o", "fixed.obj",
+                         "--save-plan", "done.json")
+        orifice = "regurgitant_orifice_area_mm2"
+        self.assertGreater(done["before"]["measures"][orifice], 10)
+        self.assertEqual(done["after"]["measures"][orifice], 0)
+        self.assertEqual(len(done["operations"]), 2)
+        self.assertEqual(done["after"]["intersections"], 0)
+        # the applied plan replays to the same bits, and shows the effect of each operation
+        again = self.json("plan", "replay", "done.json", "--on", "sick.obj", "-o", "again.obj")
+        self.assertTrue(again["same_valve"] and again["same_result"])
+        self.assertEqual(again["hash"], done["after"]["hash"])
+        self.assertEqual((self.dir / "again.obj").read_bytes(),
+                         (self.dir / "fixed.obj").read_bytes())
+        self.assertIn("orifice", self.ok("plan", "show", "done.json").stdout)
+        self.assertFalse(self.json("plan", "check", "done.json", "--on", "v.obj")["same_valve"])
+
+    def test_an_inapplicable_plan_fails_before_anything_is_written(self):
+        self.plan("bad.json", {"do": "annulus_scale", "factor": 0.9},
+                  {"do": "chord_remove", "chord": "P9/9"})
+        for line in (["repair", "sick.obj", "--plan", "bad.json", "-o", "x.obj"],
+                     ["plan", "check", "bad.json", "--on", "v.obj"],
+                     ["plan", "replay", "bad.json", "--on", "v.obj", "-o", "x.obj"]):
+            with self.subTest(line):
+                printed = self.fails(*line).stderr
+                self.assertIn("step 2 of the plan", printed)
+                self.assertIn("P9/9", printed)
+
+    def test_a_handwritten_plan_is_refused_with_the_missing_part(self):
+        step = {"do": "annulus_scale", "factor": 0.85}
+        head = {"format": "mvs-plan", "version": 1}
+        for text, words in (('{"format": "mvs-plan",\n "version": 1,\n}', "line 3"),
+                            ({"steps": [step]}, 'lacks "format": "mvs-plan"'),
+                            ({**head, "format": 3}, 'lacks "format": "mvs-plan"'),
+                            (head, '"steps" must be a list'),
+                            ({**head, "steps": [3]}, 'an object with a "do"'),
+                            ({**head, "steps": [step], "valve": "any"}, '"valve" must be')):
+            (self.dir / "own.json").write_text(text if isinstance(text, str) else json.dumps(text))
+            for line in (["plan", "show", "own.json"],
+                         ["repair", "sick.obj", "--plan", "own.json", "-o", "never.obj"]):
+                with self.subTest(line, words=words):
+                    self.assertIn(words, self.fails(*line).stderr)
+        # "valve" is optional
+        (self.dir / "own.json").write_text(json.dumps({**head, "steps": [step]}))
+        self.assertIn("annulus_scale", self.ok("plan", "show", "own.json").stdout)
+        self.assertEqual(self.json("plan", "check", "own.json", "--on", "v.obj")["operations"], 1)
+
+    def test_a_file_that_is_not_a_plan_is_refused(self):
+        (self.dir / "empty.json").write_text("")
+        (self.dir / "number.json").write_text(json.dumps(
+            {"format": "mvs-plan", "version": 1, "steps": [{"do": "load", "pressure_Pa": "high"}]}))
+        for name, words in (("v.obj", "is no plan"), ("nowhere.json", "No such file"),
+                            (".", "cannot be read"), ("empty.json", "is no plan"),
+                            ("number.json", "wrong type")):
+            with self.subTest(name):
+                printed = self.fails("plan", "show", name).stderr
+                self.assertRegex(printed, rf"^mvs: {re.escape(name)}: [^\n]*{words}[^\n]*\n$")
+                self.assertNotIn("json.exception", printed)
+
+
+if __name__ == "__main__":
+    unittest.main()
