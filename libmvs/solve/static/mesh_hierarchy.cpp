@@ -9,6 +9,7 @@
 #include "anatomy/family_level.h"
 #include "base/error.h"
 #include "geometry/intersect.h"
+#include "model/law.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
 #include "solve/static/newton.h"
@@ -30,6 +31,7 @@ double coarse_residual(const Model &coarse, const Load &load) {
 struct Level {
   const Model *model;
   std::shared_ptr<const Coarsened> made;  // from the next finer level; null at the finest
+  ModelPtr surrogate;                     // of the finest level; null on all others
   State state;
   SolveOptions options;
   Progress progress;  // of this level and all coarser ones
@@ -49,6 +51,40 @@ Progress part_of(const Progress &whole, double from, double to) {
   };
 }
 
+// Prot's law is left out: it closed in half the time, but four of five valves to shapes of higher
+// energy (settings.h).
+bool has_surrogate(const Leaflet &leaflet) {
+  return leaflet.law == LeafletLawId::fung || leaflet.law == LeafletLawId::may_newman_yin;
+}
+
+bool has_tissue_with_surrogate(const Model &model) {
+  const auto &leaflets = model.valve.leaflets;
+  return std::any_of(leaflets.begin(), leaflets.end(), has_surrogate);
+}
+
+// The level before the finest one where tissue has an exponential law: the same mesh with the
+// bilinear membrane. Slack tissue has nearly no stiffness under an exponential law, so that the
+// valve creeps towards its fold; with the bilinear law it takes few steps.
+Level surrogate_of(const Level &fine) {
+  namespace set = settings::mesh_hierarchy;
+  const LeafletLaw &bilinear = *find_leaflet_law(LeafletLawId::bilinear);
+  Valve valve = fine.model->valve;
+  for (Leaflet &leaflet : valve.leaflets) {
+    if (!has_surrogate(leaflet)) continue;
+    leaflet.law = bilinear.id;
+    leaflet.constants = default_constants(bilinear.constants);
+  }
+  const ModelPtr model = make_model(std::move(valve), fine.model);
+  SolveOptions options = fine.options;
+  options.residual =
+      std::max(options.residual,
+               set::surrogate_residual * std::abs(fine.state.load.pressure) * mean_area(*model));
+  options.max_iterations = set::max_coarse_iterations;
+  options.checks_stability = false;
+  return Level{model.get(), nullptr, model,
+               fine.state,  options, part_of(fine.progress, 0, set::coarse_progress)};
+}
+
 // Returns the next coarser level; empty where the valve cannot have so few vertices or its coarse
 // mesh intersects itself.
 std::optional<Level> coarser(const Level &fine, CoarseLevels &kept) {
@@ -63,8 +99,8 @@ std::optional<Level> coarser(const Level &fine, CoarseLevels &kept) {
     options.residual = std::max(options.residual, coarse_residual(*made->model, state.load));
     options.max_iterations = set::max_coarse_iterations;
     options.checks_stability = false;
-    return Level{made->model.get(), made, std::move(state), options,
-                 part_of(fine.progress, 0, set::coarse_progress)};
+    return Level{made->model.get(), made,    nullptr,
+                 std::move(state),  options, part_of(fine.progress, 0, set::coarse_progress)};
   } catch (const Error &error) {
     if (error.code != MVS_E_ARGUMENT && error.code != MVS_E_OP) throw;
     return {};
@@ -74,6 +110,10 @@ std::optional<Level> coarser(const Level &fine, CoarseLevels &kept) {
 // Starts a level from the shape of the settled coarser one, unless it intersects itself there and
 // cannot be untangled. Counts in the statistics of the coarser levels what was done.
 void start_from(const Level &coarse, Level &fine, SolveStats &spent) {
+  if (coarse.surrogate) {
+    fine.state.x = coarse.state.x;
+    return;
+  }
   const LevelMap &map = coarse.made->map;
   State start = to_fine(map, *coarse.model, *fine.model, coarse.state);
   const Untangled done = untangle(map, coarse.state.x, *fine.model, start.x.edit());
@@ -108,7 +148,11 @@ class HierarchySettling final : public Settling {
   HierarchySettling(Solver &solver, const Model &model, const State &state,
                     const SolveOptions &options, const Progress &progress)
       : solver_(&solver) {
-    levels_.push_back({&model, nullptr, state, options, progress});
+    levels_.push_back({&model, nullptr, nullptr, state, options, progress});
+    if (may_coarsen(levels_.back()) && has_tissue_with_surrogate(model)) {
+      levels_.back().has_coarser = true;
+      levels_.push_back(surrogate_of(levels_.back()));
+    }
     while (may_coarsen(levels_.back())) {
       std::optional<Level> next = coarser(levels_.back(), solver.coarse_levels());
       if (!next) break;

@@ -4,8 +4,10 @@
 //
 // The leaflets take their places in long waves, which a coarse mesh resolves; shorter folds form on
 // the fine mesh at the end. The path differs from that of the fine mesh alone, so a valve that can
-// fold in several ways may close to another of its shapes (libmvs/ensemble). A valve near rest, as
-// after most operations, starts from its own shape, which is better than that of a coarse mesh.
+// fold in several ways may close to another of its shapes (libmvs/ensemble). Where tissue has
+// the law of May-Newman and Yin or of Fung the levels have the bilinear membrane, and one of them
+// the mesh of the valve. A valve near rest, as after most operations, starts from its own shape,
+// which is better than that of a coarse mesh.
 #pragma once
 
 #include <memory>
