@@ -1,6 +1,6 @@
 // Checkpoints of the plan: kept under a name, renamed, returned to, compared with the present plan.
 import { useSignal, type Signal } from '@preact/signals';
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import { Bookmark, Pencil } from 'lucide-preact';
 import {
   compareCheckpoint,
@@ -71,7 +71,8 @@ export function Checkpoints() {
 /** The field in which a checkpoint gets another name: Enter or leaving the field takes it, Escape does not. */
 function NewName({ name, renamed }: { name: string; renamed: Signal<string | null> }) {
   const field = useRef<HTMLInputElement>(null);
-  useEffect(() => field.current?.select(), []);
+  // before the next key, which would be a shortcut of the page
+  useLayoutEffect(() => field.current?.select(), []);
   const take = () => {
     if (renamed.value !== name) return;
     renamed.value = null;
