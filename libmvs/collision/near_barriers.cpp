@@ -1,4 +1,4 @@
-// Gaps of candidates, and what is left of them.
+// Gaps of barrier candidates, and the candidates that remain after the nodes have moved.
 #include "collision/near_barriers.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Near barrier candidates: what is left out could neither act nor need a limit.
+// Near barrier candidates: a candidate that is left out could neither act nor need a limit.
 #include "collision/near_barriers.h"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// What holds the leaflets: the annulus, papillary heads, rings and bands.
+// Annulus, papillary heads, rings and bands.
 import type { Picture, Topology } from '../protocol';
 import { tissue } from './colours';
 import { point, Shapes, type Mesh } from './mesh';

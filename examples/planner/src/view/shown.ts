@@ -1,5 +1,5 @@
 // The valve that the page shows, be it that of the plan, a preview, the valve before, or one in motion: its frame and
-// size, and its meshes with what is known of it.
+// size, and its meshes with their labels and leak.
 import { leakPlaces, shareOfLimit } from '../notable';
 import type { Fields, Topology } from '../protocol';
 import * as state from '../store/state';
@@ -42,7 +42,7 @@ export function shownFields(): Fields | null {
   return state.motion.value ? null : (state.figures.value?.fields ?? null);
 }
 
-/** The meshes of the valve, none where there is none. */
+/** The meshes of the valve; an empty list before the first valve. */
 export function valveMeshes(frame: number[]): Mesh[] {
   const picture = state.picture.value;
   const topology = picture && state.topologyOf(picture);
