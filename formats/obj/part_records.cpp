@@ -19,6 +19,13 @@ void read_constants(Fields &fields, std::span<const Constant> constants, Values 
   }
 }
 
+// The name and id of a part that other lines refer to by its name.
+template <typename Part>
+void read_named(Fields &fields, Part &part) {
+  fields.need(fields.text("name", part.name), "name");
+  fields.whole("id", part.id);
+}
+
 }  // namespace
 
 void ObjReader::leaflet(Line &line) {
@@ -27,8 +34,7 @@ void ObjReader::leaflet(Line &line) {
   Leaflet leaflet;
   uint32_t law = 0;
   Fields fields(line);
-  fields.need(fields.text("name", leaflet.name), "name");
-  fields.whole("id", leaflet.id);
+  read_named(fields, leaflet);
   if (fields.choice("law", law, obj::words_of(leaflet_laws())))
     leaflet.law = static_cast<LeafletLawId>(law + 1);
   fields.number("thickness", leaflet.thickness, obj::mm);
@@ -49,8 +55,7 @@ void ObjReader::scallop(Line &line) {
   Scallop scallop;
   std::string of;
   Fields fields(line);
-  fields.need(fields.text("name", scallop.name), "name");
-  fields.whole("id", scallop.id);
+  read_named(fields, scallop);
   fields.need(fields.text("leaflet", of), "leaflet");
   fields.end();
   const auto leaflet = leaflets_.find(of);
@@ -144,8 +149,7 @@ void ObjReader::ring(Line &line) {
   Ring ring;
   uint32_t kind = 0;
   Fields fields(line);
-  fields.need(fields.text("name", ring.name), "name");
-  fields.whole("id", ring.id);
+  read_named(fields, ring);
   if (fields.choice("kind", kind, obj::ring_kinds)) ring.kind = static_cast<RingKind>(kind + 1);
   fields.end();
   valve.rings.push_back(std::move(ring));
@@ -163,8 +167,7 @@ void ObjReader::curve(Line &line) {
   check_room(valve.curves, line);
   ChordCurve curve;
   Fields fields(line);
-  fields.need(fields.text("name", curve.name), "name");
-  fields.whole("id", curve.id);
+  read_named(fields, curve);
   fields.end();
   valve.curves.push_back(std::move(curve));
 }

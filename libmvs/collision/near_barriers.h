@@ -21,6 +21,8 @@ class NearBarriers {
  public:
   // Shorter lists than `least` are taken whole: measuring their pairs costs less than this.
   explicit NearBarriers(size_t least = 20000) : least_(least) {}
+  NearBarriers(const NearBarriers &) = delete;  // it points to its own lists
+  NearBarriers &operator=(const NearBarriers &) = delete;
 
   // Selects, in their order, the candidates that may be in range at x or, if there is a step dx,
   // may need a limit there (StepLimiter). `broad_phase` outlives the selection.

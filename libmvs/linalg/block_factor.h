@@ -52,6 +52,7 @@ class BlockFactor final : public DirectSolver {
   using Row = Eigen::Matrix<T, 3, 1>;
   T *panel(const Supernode &s) { return value_.data() + s.panel; }
   void weigh();
+  CompactPanel compact(size_t k);
   void compress();
   void solve_compactly();
   size_t begin_of(uint32_t part, uint32_t parts) const;

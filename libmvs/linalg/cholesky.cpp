@@ -125,6 +125,14 @@ bool BlockFactor<T>::factorise(const BlockMatrix &matrix) {
                                                          : factorise_part(matrix, 0, 1);
 }
 
+// The panel of supernode k in 16 bits.
+template <typename T>
+CompactPanel BlockFactor<T>::compact(size_t k) {
+  const Supernode &s = pattern_.node[k];
+  return {inverse_.data() + 3 * inverse_numbers * s.first, tiles_.data() + tiles_of_[k],
+          scale_.data() + 3 * s.first, 3 * s.width(), s.height()};
+}
+
 template <typename T>
 void BlockFactor<T>::compress() {
   if constexpr (std::is_same_v<T, float>) {
@@ -139,10 +147,7 @@ void BlockFactor<T>::compress() {
     scale_.resize(x_.size());
     inverse_.resize(inverse_numbers * x_.size());
     for (size_t k = 0; k < pattern_.node.size(); ++k) {
-      const Supernode &s = pattern_.node[k];
-      compress_panel(panel(s),
-                     {inverse_.data() + 3 * inverse_numbers * s.first, tiles_.data() + tiles_of_[k],
-                      scale_.data() + 3 * s.first, 3 * s.width(), s.height()});
+      compress_panel(panel(pattern_.node[k]), compact(k));
     }
   }
 }
@@ -150,12 +155,6 @@ void BlockFactor<T>::compress() {
 template <typename T>
 void BlockFactor<T>::solve_compactly() {
   if constexpr (std::is_same_v<T, float>) {
-    const auto compact = [&](size_t k) {
-      const Supernode &s = pattern_.node[k];
-      return CompactPanel{inverse_.data() + 3 * inverse_numbers * s.first,
-                          tiles_.data() + tiles_of_[k], scale_.data() + 3 * s.first, 3 * s.width(),
-                          s.height()};
-    };
     for (size_t k = 0; k < pattern_.node.size(); ++k) {
       const Supernode &s = pattern_.node[k];
       load(s, s.row_end, local_.data());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 
 #include "base/bit_cast.h"
 #include "base/simd.h"
@@ -142,6 +143,21 @@ MVS_INLINE void take_tiles(const int32_t *words, size_t tiles, const float *by, 
   }
 }
 
+// Calls use() with the number of columns of a block as a constant.
+template <typename Use>
+MVS_INLINE void for_columns(size_t columns, const Use &use) {
+  switch (columns) {
+    case 3:
+      return use(std::integral_constant<size_t, 3>());
+    case 6:
+      return use(std::integral_constant<size_t, 6>());
+    case 9:
+      return use(std::integral_constant<size_t, 9>());
+    default:
+      return use(std::integral_constant<size_t, solve_columns>());
+  }
+}
+
 MVS_INLINE void forward_columns(const CompactPanel &p, float *x) {
   std::array<float, tile_rows> y;
   for_blocks(p.width, p.height, [&](size_t first, size_t last, size_t words) {
@@ -150,16 +166,8 @@ MVS_INLINE void forward_columns(const CompactPanel &p, float *x) {
     multiply(p.inverse + inverse_numbers * first, columns, x + first, y.data());
     std::copy_n(y.data(), columns, x + first);
     for (size_t k = 0; k < columns; ++k) y[k] *= p.scale[first + k];
-    switch (columns) {
-      case 3:
-        return take_tiles<3>(from, tiles, y.data(), x + last);
-      case 6:
-        return take_tiles<6>(from, tiles, y.data(), x + last);
-      case 9:
-        return take_tiles<9>(from, tiles, y.data(), x + last);
-      default:
-        return take_tiles<solve_columns>(from, tiles, y.data(), x + last);
-    }
+    for_columns(columns,
+                [&](auto constant) { take_tiles<constant>(from, tiles, y.data(), x + last); });
   });
 }
 
@@ -174,19 +182,9 @@ MVS_INLINE void backward_columns(const CompactPanel &p, float *x) {
     const size_t columns = last - first, tiles = tile_count(last, p.height);
     from -= tiles * columns * lanes;
     const float *scale = p.scale + first;
-    switch (columns) {
-      case 3:
-        take_sums<3>(from, tiles, x + last, scale, x + first);
-        break;
-      case 6:
-        take_sums<6>(from, tiles, x + last, scale, x + first);
-        break;
-      case 9:
-        take_sums<9>(from, tiles, x + last, scale, x + first);
-        break;
-      default:
-        take_sums<solve_columns>(from, tiles, x + last, scale, x + first);
-    }
+    for_columns(columns, [&](auto constant) {
+      take_sums<constant>(from, tiles, x + last, scale, x + first);
+    });
     multiply(p.inverse + inverse_numbers * first + tile_rows * columns, columns, x + first,
              y.data());
     std::copy_n(y.data(), columns, x + first);
@@ -219,7 +217,7 @@ MVS_INLINE void invert(const float *panel, size_t height, size_t columns, float 
   }
 }
 
-MVS_INLINE void compress(const float *panel, const BasicCompactPanel<float, int32_t> &p) {
+MVS_INLINE void compress(const float *panel, const CompactPanel &p) {
   const size_t height = p.height;
   float *scale = p.scale;
   for_blocks(p.width, height, [&](size_t first, size_t last, size_t words) {
@@ -252,7 +250,7 @@ size_t compact_size(size_t width, size_t height) {
   return words;
 }
 
-void compress_panel(const float *panel, const BasicCompactPanel<float, int32_t> &to) {
+void compress_panel(const float *panel, const CompactPanel &to) {
   static const auto kernel = simd_kernel<&compress>();
   kernel(panel, to);
 }

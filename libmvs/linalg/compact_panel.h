@@ -16,19 +16,17 @@ namespace mvs::core {
 // The numbers that each column of a panel has in `inverse`.
 inline constexpr size_t inverse_numbers = 32;
 
-template <typename Float, typename Word>
-struct BasicCompactPanel {
-  Float *inverse;  // of the diagonal blocks, block after block
-  Word *tiles;
-  Float *scale;  // of each column
+struct CompactPanel {
+  float *inverse;  // of the diagonal blocks, block after block
+  int32_t *tiles;
+  float *scale;  // of each column
   size_t width, height;
 };
-using CompactPanel = BasicCompactPanel<const float, const int32_t>;
 
 // Words of the tiles of a panel.
 size_t compact_size(size_t width, size_t height);
 // Sets the compact form of a panel that factorise_panel() has left.
-void compress_panel(const float *panel, const BasicCompactPanel<float, int32_t> &to);
+void compress_panel(const float *panel, const CompactPanel &to);
 // These do what solve_forward() and solve_backward() of panel.h do, with the compact form.
 void solve_forward(const CompactPanel &panel, float *x);
 void solve_backward(const CompactPanel &panel, float *x);

@@ -113,14 +113,15 @@ class RitzSpace {
   // Both parts of K v - kappa B v for a Ritz pair; the second is empty if the pair is real. Returns
   // its norm in the inverse weights.
   double residual(const LeftmostEigen &pair, std::array<BlockVector, 2> &parts) const {
+    const BlockVector real = vector(pair);
     parts[0] = combination(product_, pair.vector_real);
-    subtract_weighted(pair.real, vector(pair), parts[0]);
+    subtract_weighted(pair.real, real, parts[0]);
     parts[1].clear();
     if (pair.imaginary != 0) {
       const BlockVector imaginary = combination(v_, pair.vector_imaginary);
       parts[1] = combination(product_, pair.vector_imaginary);
       subtract_weighted(pair.real, imaginary, parts[1]);
-      subtract_weighted(pair.imaginary, vector(pair), parts[1]);
+      subtract_weighted(pair.imaginary, real, parts[1]);
       subtract_weighted(-pair.imaginary, imaginary, parts[0]);
     }
     double square = 0;
@@ -164,7 +165,7 @@ Eigenpair leftmost_eigenvalue(const LinearMap &multiply, const LinearMap &solve,
     if (found.error > goal.error && found.iterations < goal.most) {
       ++found.iterations;
       for (const BlockVector &part : residual) {
-        if (part.empty() || is_zero(part)) continue;
+        if (is_zero(part)) continue;  // as the imaginary part of a real pair, which is empty
         BlockVector correction;
         solve(part, correction);
         grows = space.add_vector(std::move(correction)) || grows;

@@ -1,8 +1,7 @@
-// Triangular solution with the columns of one block of a factorised panel, on their own: what the
-// kernels of panel_solve.cpp and compact_panel.cpp share.
+// Forward solution with the columns of one block of a factorised panel, on their own, for
+// panel_solve.cpp and compact_panel.cpp.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "base/simd.h"
@@ -35,46 +34,6 @@ MVS_INLINE void forward_block(const T *panel, size_t height, size_t first, size_
     forward_square(a, b, c, j, x);
     const T x0 = x[j], x1 = x[j + 1], x2 = x[j + 2];
     for (size_t i = j + 3; i < last; ++i) x[i] = x[i] - a[i] * x0 - b[i] * x1 - c[i] * x2;
-  }
-}
-
-// Subtracts the products of three columns with the rows below, from the last row on.
-template <typename T>
-MVS_INLINE void take_rows(const T *a, size_t height, size_t first, size_t last, const T *x,
-                          std::array<T, 3> &sum) {
-  const T *b = a + height, *c = b + height;
-  for (size_t i = last; i-- > first;) {
-    sum[0] -= a[i] * x[i];
-    sum[1] -= b[i] * x[i];
-    sum[2] -= c[i] * x[i];
-  }
-}
-
-// Solves for three numbers, of which `sum` is left, by the square of their columns from row j on.
-MVS_INLINE void backward_square(const double *a, const double *b, const double *c, size_t j,
-                                const std::array<double, 3> &sum, double *x) {
-  x[j + 2] = sum[2] * c[j + 2];
-  x[j + 1] = (sum[1] - b[j + 2] * x[j + 2]) * b[j + 1];
-  x[j] = (sum[0] - a[j + 2] * x[j + 2] - a[j + 1] * x[j + 1]) * a[j];
-}
-
-MVS_INLINE void backward_square(const float *a, const float *b, const float *c, size_t j,
-                                const std::array<float, 3> &sum, float *x) {
-  x[j + 2] = sum[2] * c[j + 2];
-  x[j + 1] = sum[2] * b[j + 2] + sum[1] * b[j + 1];
-  x[j] = (sum[2] * a[j + 2] + sum[1] * a[j + 1]) + sum[0] * a[j];
-}
-
-// Solves for columns first .. last, without the products with rows from `last` on: three at a time,
-// so that their sums are independent.
-template <typename T>
-MVS_INLINE void backward_block(const T *panel, size_t height, size_t first, size_t last,
-                               size_t rows, T *x) {
-  for (size_t j = last; j > first; j -= 3) {
-    const T *a = panel + (j - 3) * height, *b = a + height, *c = b + height;
-    std::array<T, 3> sum = {x[j - 3], x[j - 2], x[j - 1]};
-    take_rows(a, height, j, rows, x, sum);
-    backward_square(a, b, c, j - 3, sum, x);
   }
 }
 

@@ -60,6 +60,46 @@ MVS_INLINE void forward_rows(const T *row, size_t width, size_t height, size_t r
   }
 }
 
+// Subtracts the products of three columns with the rows below, from the last row on.
+template <typename T>
+MVS_INLINE void take_rows(const T *a, size_t height, size_t first, size_t last, const T *x,
+                          std::array<T, 3> &sum) {
+  const T *b = a + height, *c = b + height;
+  for (size_t i = last; i-- > first;) {
+    sum[0] -= a[i] * x[i];
+    sum[1] -= b[i] * x[i];
+    sum[2] -= c[i] * x[i];
+  }
+}
+
+// Solves for three numbers, of which `sum` is left, by the square of their columns from row j on.
+MVS_INLINE void backward_square(const double *a, const double *b, const double *c, size_t j,
+                                const std::array<double, 3> &sum, double *x) {
+  x[j + 2] = sum[2] * c[j + 2];
+  x[j + 1] = (sum[1] - b[j + 2] * x[j + 2]) * b[j + 1];
+  x[j] = (sum[0] - a[j + 2] * x[j + 2] - a[j + 1] * x[j + 1]) * a[j];
+}
+
+MVS_INLINE void backward_square(const float *a, const float *b, const float *c, size_t j,
+                                const std::array<float, 3> &sum, float *x) {
+  x[j + 2] = sum[2] * c[j + 2];
+  x[j + 1] = sum[2] * b[j + 2] + sum[1] * b[j + 1];
+  x[j] = (sum[2] * a[j + 2] + sum[1] * a[j + 1]) + sum[0] * a[j];
+}
+
+// Solves for columns first .. last, without the products with rows from `last` on: three at a time,
+// so that their sums are independent.
+template <typename T>
+MVS_INLINE void backward_block(const T *panel, size_t height, size_t first, size_t last,
+                               size_t rows, T *x) {
+  for (size_t j = last; j > first; j -= 3) {
+    const T *a = panel + (j - 3) * height, *b = a + height, *c = b + height;
+    std::array<T, 3> sum = {x[j - 3], x[j - 2], x[j - 1]};
+    take_rows(a, height, j, rows, x, sum);
+    backward_square(a, b, c, j - 3, sum, x);
+  }
+}
+
 struct Sums {
   Float8::Value of_a = {}, of_b = {}, of_c = {};
 };

@@ -35,8 +35,7 @@ std::vector<uint8_t> loose_rows(const Model &model, const HessianAssembler &syst
   const BlockMatrix &matrix = system.matrix;
   std::vector<uint8_t> is_loose(matrix.size(), 0);
   for (uint32_t r = 0; r < matrix.size(); ++r) {
-    const uint32_t node = system.node_of[r];
-    const bool is_branch_point = node < model.vertex_area.size() && model.vertex_area[node] == 0;
+    const bool is_branch_point = model.vertex_area[system.node_of[r]] == 0;
     is_loose[r] = is_branch_point && !is_above(matrix.value[matrix.start[r]], set::loose_stiffness);
   }
   return is_loose;

@@ -11,6 +11,7 @@
 #include "geometry/intersect.h"
 #include "solve/dynamic/cached_preconditioner.h"
 #include "solve/dynamic/implicit_euler.h"
+#include "tests/founding.h"
 #include "tests/solve/bench.h"
 
 using namespace mvs::core;
@@ -20,13 +21,15 @@ namespace {
 
 constexpr double systole = MVS_SYSTOLE_PA;
 
-ModelPtr small_parametric() {
-  mvs_parametric_desc desc = {};
-  desc.shape = MVS_SHAPE_FOUNDING;
-  desc.struct_size = sizeof desc;
-  desc.vertices = 200;
-  desc.annulus_contraction = 0.9;
+ModelPtr parametric(uint32_t vertices, double annulus_contraction = 0) {
+  mvs_parametric_desc desc = founding_valve();
+  desc.vertices = vertices;
+  desc.annulus_contraction = annulus_contraction;
   return make_model(make_parametric_valve(desc));
+}
+
+ModelPtr small_parametric() {
+  return parametric(200, 0.9);
 }
 
 // The leaflets part and meet again.
@@ -42,6 +45,18 @@ bool same(const State &a, const State &b) {
   return same(a.x.get(), b.x.get()) && same(a.v.get(), b.v.get()) && a.steps == b.steps;
 }
 
+// The next steps from a state by a solver that has taken others before, and by a new one.
+void check_steps_of_a_new_solver(const Model &model, const State &state, Solver &used,
+                                 Backend backend, int steps) {
+  State other = state, ahead = state;
+  Solver fresh(backend);
+  for (int j = 0; j < steps; ++j) {
+    fresh.step(model, other, {});
+    used.step(model, ahead, {});
+    REQUIRE(same(other, ahead));
+  }
+}
+
 }  // namespace
 
 // Data that a solver keeps (pattern, candidates, forces) have no effect: a solver that has seen
@@ -54,16 +69,7 @@ TEST_CASE("steps_under_a_changing_load_have_the_same_bits_from_any_state") {
     Solver one(backend);
     for (int k = 0; k < 120; ++k) {
       if (k % 4 == 0) beat(state, k);
-      if (k % 40 == 20) {
-        State other = state;
-        Solver fresh(backend);
-        State ahead = state;
-        for (int j = 0; j < 15; ++j) {
-          fresh.step(*model, other, {});
-          one.step(*model, ahead, {});
-          REQUIRE(same(other, ahead));
-        }
-      }
+      if (k % 40 == 20) check_steps_of_a_new_solver(*model, state, one, backend, 15);
       one.step(*model, state, {});
     }
   }
@@ -72,26 +78,14 @@ TEST_CASE("steps_under_a_changing_load_have_the_same_bits_from_any_state") {
 // The same for a sheet with another order, factors in 16 bits made in more parts, and a schedule of
 // its own.
 TEST_CASE("steps_of_a_large_sheet_have_the_same_bits_from_any_state") {
-  mvs_parametric_desc desc = {};
-  desc.shape = MVS_SHAPE_FOUNDING;
-  desc.struct_size = sizeof desc;
-  desc.vertices = 4300;
-  const ModelPtr model = make_model(make_parametric_valve(desc));
+  const ModelPtr model = parametric(4300);
   REQUIRE(CachedPreconditioner::is_large(*model));
   State state = initial_state(*model);
   state.load = {systole, 1};
   Solver one(Backend::fastest);
   uint32_t factors = 0;
   for (int k = 0; k < 24; ++k) {
-    if (k % 8 == 5) {
-      State other = state, ahead = state;
-      Solver fresh(Backend::fastest);
-      for (int j = 0; j < 3; ++j) {
-        fresh.step(*model, other, {});
-        one.step(*model, ahead, {});
-        REQUIRE(same(other, ahead));
-      }
-    }
+    if (k % 8 == 5) check_steps_of_a_new_solver(*model, state, one, Backend::fastest, 3);
     factors += one.step(*model, state, {}).factorisations;
   }
   CHECK(factors > 1);
@@ -185,11 +179,7 @@ TEST_CASE("an_unloaded_valve_rests_only_without_forces") {
 // In steps of 20 ms nodes would move farther than any node may. Limited node by node such a step
 // leads uphill, and a valve that takes no part of it would never move.
 TEST_CASE("a_valve_out_of_balance_keeps_moving") {
-  mvs_parametric_desc desc = {};
-  desc.shape = MVS_SHAPE_FOUNDING;
-  desc.struct_size = sizeof desc;
-  desc.vertices = 425;
-  const ModelPtr model = make_model(make_parametric_valve(desc));
+  const ModelPtr model = parametric(425);
   State state = closed(*model);
   Solver solver(Backend::fastest);
   SolveOptions options;

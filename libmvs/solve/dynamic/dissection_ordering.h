@@ -9,16 +9,8 @@
 
 namespace mvs::core {
 
-class DissectionOrdering {
- public:
-  // Returns the free nodes in the order of their elimination, for the blocks of the matrix that are
-  // not zero: entries that a pattern keeps of earlier contact must not change the factor.
-  const std::vector<uint32_t> &find(const StepMatrix &matrix, const std::vector<Vec3> &x);
-
- private:
-  std::vector<Edge> pairs_;   // of rows
-  std::vector<Vec3> places_;  // m, by rows
-  std::vector<uint32_t> nodes_;
-};
+// Returns the free nodes in the order of their elimination, for the blocks of the matrix that are
+// not zero: entries that a pattern keeps of earlier contact must not change the factor.
+std::vector<uint32_t> dissection_order(const StepMatrix &matrix, const std::vector<Vec3> &x);
 
 }  // namespace mvs::core

@@ -30,11 +30,8 @@ StepSolver::StepSolver(const Model &model, const TotalEnergy &total_energy, Back
       direct_(model, make_direct_solver(backend)) {
   // other backends do best with the order that each of them finds for a matrix
   if (is_block_cholesky(backend)) {
-    if (CachedPreconditioner::is_large(model)) {
-      dissection_.emplace();
-    } else {
-      order_.emplace(model, total_energy.pairs());
-    }
+    dissects_ = CachedPreconditioner::is_large(model);
+    if (!dissects_) order_.emplace(model, total_energy.pairs());
   }
   keys_.reserve(model.node_count());
   for (CowVector<Vec3> &x : positions_) x.reserve(model.node_count());
@@ -187,14 +184,10 @@ void StepSolver::copy_matrix(const StepMatrix &matrix, const PreconditionerKey &
                              CachedPreconditioner &factor, Profile &profile) {
   const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
   ++profile.orderings;
-  const std::vector<uint32_t> *order = nullptr;
-  if (order_) {
-    order_->update(total_energy_->contact().contact_pairs());
-    order = &order_->nodes();
-  } else if (dissection_) {
-    order = &dissection_->find(matrix, key.x);
-  }
-  factor.copy(matrix, key, order);
+  if (order_) order_->update(total_energy_->contact().contact_pairs());
+  std::vector<uint32_t> dissected;
+  if (dissects_) dissected = dissection_order(matrix, key.x);
+  factor.copy(matrix, key, order_ ? &order_->nodes() : dissects_ ? &dissected : nullptr);
 }
 
 void StepSolver::resume(State &state, const StepOptions &how, StepMatrix &matrix,

@@ -63,9 +63,9 @@ class StepSolver {
 
   const Model *model_;
   const TotalEnergy *total_energy_;
-  // both empty: the backend finds its own
+  // of a small sheet; otherwise empty: by dissection, or the backend finds its own
   std::optional<ContactOrdering> order_;
-  std::optional<DissectionOrdering> dissection_;  // of large sheets
+  bool dissects_ = false;
   CachedPreconditioner first_, second_;
   CachedPreconditioner *active_ = &first_, *pending_ = &second_;
   CachedPreconditioner direct_;  // in double precision

@@ -23,10 +23,6 @@ const settings::mesh_hierarchy::Extent &extent_for(const Model &model) {
                                     : settings::mesh_hierarchy::exponential;
 }
 
-double coarse_residual(const Model &coarse, const Load &load) {
-  return extent_for(coarse).coarse_residual * std::abs(load.pressure) * mean_area(coarse);
-}
-
 // A mesh of the hierarchy.
 struct Level {
   const Model *model;
@@ -57,30 +53,40 @@ bool has_surrogate(const Leaflet &leaflet) {
   return leaflet.law == LeafletLawId::fung || leaflet.law == LeafletLawId::may_newman_yin;
 }
 
+// Options of a level that is left at so many rest forces.
+SolveOptions rough(SolveOptions options, double rest_forces, const Model &model, const Load &load) {
+  options.residual =
+      std::max(options.residual, rest_forces * std::abs(load.pressure) * mean_area(model));
+  options.max_iterations = settings::mesh_hierarchy::max_coarse_iterations;
+  options.checks_stability = false;
+  return options;
+}
+
 bool has_tissue_with_surrogate(const Model &model) {
   const auto &leaflets = model.valve.leaflets;
   return std::any_of(leaflets.begin(), leaflets.end(), has_surrogate);
 }
 
-// The level before the finest one where tissue has an exponential law: the same mesh with the
-// bilinear membrane. Slack tissue has nearly no stiffness under an exponential law, so that the
-// valve creeps towards its fold; with the bilinear law it takes few steps.
-Level surrogate_of(const Level &fine) {
-  namespace set = settings::mesh_hierarchy;
+// The same mesh with the bilinear membrane. Slack tissue has nearly no stiffness under an
+// exponential law, so that the valve creeps towards its fold; with the bilinear law it takes few
+// steps.
+ModelPtr make_surrogate(const Model &fine) {
   const LeafletLaw &bilinear = *find_leaflet_law(LeafletLawId::bilinear);
-  Valve valve = fine.model->valve;
+  Valve valve = fine.valve;
   for (Leaflet &leaflet : valve.leaflets) {
     if (!has_surrogate(leaflet)) continue;
     leaflet.law = bilinear.id;
     leaflet.constants = default_constants(bilinear.constants);
   }
-  const ModelPtr model = make_model(std::move(valve), fine.model);
-  SolveOptions options = fine.options;
-  options.residual =
-      std::max(options.residual,
-               set::surrogate_residual * std::abs(fine.state.load.pressure) * mean_area(*model));
-  options.max_iterations = set::max_coarse_iterations;
-  options.checks_stability = false;
+  return make_model(std::move(valve), &fine);
+}
+
+// The level before the finest one where tissue has an exponential law.
+Level surrogate_of(const Level &fine, CoarseLevels &kept) {
+  namespace set = settings::mesh_hierarchy;
+  const ModelPtr model = kept.surrogate(*fine.model);
+  const SolveOptions options =
+      rough(fine.options, set::surrogate_residual, *model, fine.state.load);
   return Level{model.get(), nullptr, model,
                fine.state,  options, part_of(fine.progress, 0, set::coarse_progress)};
 }
@@ -95,10 +101,8 @@ std::optional<Level> coarser(const Level &fine, CoarseLevels &kept) {
         *fine.model, std::max(vertices, extent_for(*fine.model).min_coarse_vertices));
     State state = to_coarse(made->map, fine.state);
     if (!find_intersections(state.x, made->model->valve.triangles).empty()) return {};
-    SolveOptions options = fine.options;
-    options.residual = std::max(options.residual, coarse_residual(*made->model, state.load));
-    options.max_iterations = set::max_coarse_iterations;
-    options.checks_stability = false;
+    const SolveOptions options =
+        rough(fine.options, extent_for(*made->model).coarse_residual, *made->model, state.load);
     return Level{made->model.get(), made,    nullptr,
                  std::move(state),  options, part_of(fine.progress, 0, set::coarse_progress)};
   } catch (const Error &error) {
@@ -141,6 +145,12 @@ std::shared_ptr<const Coarsened> CoarseLevels::coarsened(const Model &fine, size
   return made;
 }
 
+ModelPtr CoarseLevels::surrogate(const Model &fine) {
+  if (!surrogate_ || surrogate_of_ != fine.serial) surrogate_ = make_surrogate(fine);
+  surrogate_of_ = fine.serial;
+  return surrogate_;
+}
+
 namespace {
 
 class HierarchySettling final : public Settling {
@@ -151,7 +161,7 @@ class HierarchySettling final : public Settling {
     levels_.push_back({&model, nullptr, nullptr, state, options, progress});
     if (may_coarsen(levels_.back()) && has_tissue_with_surrogate(model)) {
       levels_.back().has_coarser = true;
-      levels_.push_back(surrogate_of(levels_.back()));
+      levels_.push_back(surrogate_of(levels_.back(), solver.coarse_levels()));
     }
     while (may_coarsen(levels_.back())) {
       std::optional<Level> next = coarser(levels_.back(), solver.coarse_levels());

@@ -23,6 +23,8 @@ class CoarseLevels {
  public:
   // See coarsen_in_family().
   std::shared_ptr<const Coarsened> coarsened(const Model &fine, size_t vertices);
+  // The same valve with a bilinear membrane in place of exponential tissue.
+  ModelPtr surrogate(const Model &fine);
 
  private:
   struct Kept {
@@ -31,6 +33,8 @@ class CoarseLevels {
     std::shared_ptr<const Coarsened> made;
   };
   std::vector<Kept> kept_;  // the last one made last
+  ModelPtr surrogate_;
+  uint64_t surrogate_of_ = 0;  // serial of its valve
 };
 
 // Settles as Solver::settle does. Uses coarser meshes with Newton's method on as many

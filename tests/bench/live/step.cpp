@@ -37,6 +37,7 @@
 #include <vector>
 
 #include "tests/bench/clock.h"
+#include "tests/bench/closing.h"
 #include "tests/bench/live/step_play.h"
 #include "tests/bench/live/step_watch.h"
 
@@ -47,9 +48,6 @@ using bench::StepWatch;
 
 const std::map<std::string, uint32_t> scene_vertices = {
     {"S", 425}, {"M", 1700}, {"L", 6800}, {"20k", 20000}};
-// in the order of MVS_PHASE_*
-constexpr std::array<const char *, MVS_PHASE_COUNT> phase_names = {
-    "terms", "broad", "narrow", "assembly", "ordering", "factor", "solve", "line search"};
 constexpr double dt = 1e-3;
 constexpr double play_s = 10;
 constexpr int explicit_steps = 200;
@@ -271,7 +269,7 @@ void tell(const Options &options, const std::string &scene, const Row &whole) {
               static_cast<double>(whole.passes) / steps, static_cast<double>(whole.broad) / steps,
               static_cast<double>(whole.factors) / steps);
   for (size_t p = 0; p < whole.phase_s.size(); ++p) {
-    std::printf("%s %s %.2f", p == 0 ? "; ms of wall time:" : ",", phase_names[p],
+    std::printf("%s %s %.2f", p == 0 ? "; ms of wall time:" : ",", bench::phase_names[p].c_str(),
                 1e3 * whole.phase_s[p] / steps);
   }
   std::printf("\n");
