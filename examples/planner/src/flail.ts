@@ -1,5 +1,6 @@
 // A flail leaflet: a free edge that stands in the atrium.
 import type { Picture, Topology } from './protocol';
+import { heightOf } from './view/mesh';
 import { linesOf } from './view/seams';
 
 /** mm of the highest point of a scallop's free edge above the plane of the annulus; seams are not free. */
@@ -14,8 +15,7 @@ export function edgeHeight(
   let highest = -Infinity;
   topology.triangles.forEach((node, k) => {
     if (topology.triangleScallop[Math.floor(k / 3)] !== which || !free.has(node)) return;
-    const height = [0, 1, 2].reduce((sum, c) => sum + (positions[3 * node + c] - frame[c]) * frame[9 + c], 0);
-    highest = Math.max(highest, height);
+    highest = Math.max(highest, heightOf(positions, node, frame));
   });
   return highest;
 }

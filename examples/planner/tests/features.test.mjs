@@ -14,6 +14,7 @@ import {
   openLeaflets,
   openPanel,
   save,
+  startAfresh,
   undo,
 } from './person.mjs';
 
@@ -33,12 +34,7 @@ describe('planner features', () => {
         });
       }),
   });
-  beforeEach(async () => {
-    await page.keyboard.press('Escape');
-    await page.evaluate(() => (window.planner.state.notice.value = null));
-    await page.keyboard.press('1');
-    await cameraRests(page);
-  });
+  beforeEach(() => startAfresh(page));
 
   it('resects_along_a_drawn_outline', async () => {
     await begin(page, 'resect');

@@ -2,17 +2,12 @@
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
 import { closed, sharePlanner } from './browser.mjs';
-import { answered, begin, cameraRests, openPanel } from './person.mjs';
+import { answered, begin, cameraRests, openPanel, startAfresh } from './person.mjs';
 
 describe('planner to learn with', () => {
   let page;
   sharePlanner((opened) => ({ page } = opened));
-  beforeEach(async () => {
-    await page.keyboard.press('Escape');
-    await page.evaluate(() => (window.planner.state.notice.value = null));
-    await page.keyboard.press('1');
-    await cameraRests(page);
-  });
+  beforeEach(() => startAfresh(page));
 
   it('draws_the_healthy_curve_of_a_tour_valve', async () => {
     await openPanel(page, 'Learn');

@@ -88,6 +88,14 @@ export async function answered(page, reaction = 50) {
   await closed(page);
 }
 
+/** Leaves forms and notices, and looks at the valve as the surgeon does. */
+export async function startAfresh(page) {
+  await page.keyboard.press('Escape');
+  await page.evaluate(() => (window.planner.state.notice.value = null));
+  await page.keyboard.press('1');
+  await cameraRests(page);
+}
+
 export async function undo(page) {
   await page.keyboard.press('Control+z');
   await answered(page);
@@ -127,8 +135,7 @@ export async function save(page) {
 /** Opens a file as the dialog would. */
 export async function open(page, path) {
   await page.setInputFiles('#file', path);
-  await page.waitForTimeout(150);
-  await closed(page);
+  await answered(page, 150);
 }
 
 /** The open leaflets of the valve as OBJ, as another program writes a surface; `axes`: the coordinates in their order there. */

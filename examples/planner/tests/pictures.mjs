@@ -3,8 +3,8 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { closed, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, openPanel } from './person.mjs';
+import { openBrowser, openPlanner } from './browser.mjs';
+import { answered, apply, begin, cameraRests, openPanel } from './person.mjs';
 
 const target = resolve(dirname(fileURLToPath(import.meta.url)), '../../pictures/planner.png');
 const size = { width: 1280, height: 720 };
@@ -25,8 +25,7 @@ try {
   };
   await openPanel(page, 'Learn');
   await page.getByRole('button', { name: 'Valve 1' }).click();
-  await page.waitForTimeout(200);
-  await closed(page);
+  await answered(page, 200);
   await page.getByTestId('score').getByText('Study surgeon').waitFor();
   await shoot();
   await page.keyboard.press('2');

@@ -1,7 +1,7 @@
 // The leaflets: their mesh with both sides told apart or in the colours of a map, and their atrial side, which is what is drawn.
 import type { Fields, Picture, Topology } from '../protocol';
 import { colourOf, maps, tissue } from './colours';
-import { vertexNormals, type Mesh } from './mesh';
+import { heightOf, vertexNormals, type Mesh } from './mesh';
 import type { SceneOptions } from './scene';
 
 /** mm between the middle of a leaflet and its sides: half the distance at which leaflets of the library touch. */
@@ -12,14 +12,7 @@ function mapValues(picture: Picture, options: SceneOptions): Float32Array | null
   const { map, fields, frame } = options;
   if (map === 'height') {
     const x = picture.positions;
-    const values = new Float32Array(x.length / 3);
-    for (let i = 0; i < values.length; ++i) {
-      values[i] =
-        (x[3 * i] - frame[0]) * frame[9] +
-        (x[3 * i + 1] - frame[1]) * frame[10] +
-        (x[3 * i + 2] - frame[2]) * frame[11];
-    }
-    return values;
+    return new Float32Array(x.length / 3).map((_, node) => heightOf(x, node, frame));
   }
   if (map === 'distance') return options.distance;
   if (!fields) return null;

@@ -24,6 +24,11 @@ export function point(x: Float32Array, node: number): number[] {
   return [x[3 * node], x[3 * node + 1], x[3 * node + 2]];
 }
 
+/** mm of a node above the origin of a frame, along its last axis. */
+export function heightOf(x: Float32Array, node: number, frame: number[]): number {
+  return [0, 1, 2].reduce((sum, c) => sum + (x[3 * node + c] - frame[c]) * frame[9 + c], 0);
+}
+
 /** Collects coloured triangles of many small shapes into one mesh. */
 export class Shapes {
   private positions: number[] = [];

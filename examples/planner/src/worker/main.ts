@@ -100,10 +100,7 @@ const handlers: Handlers = {
     return planner.shown();
   },
   checkpoint: ({ name }) => planner.checkpoint(name),
-  rename_checkpoint: ({ name, to }) => {
-    planner.checkpoints.rename(name, to);
-    return [...planner.checkpoints.keys()];
-  },
+  rename_checkpoint: ({ name, to }) => planner.checkpoints.rename(name, to),
   restore: ({ name }, { stage }) => planner.restore(name, stage),
   read_checkpoint: ({ name }) => planner.readCheckpoint(name),
   save_obj: () => planner.main.read((snapshot) => snapshot.save('obj')),

@@ -231,8 +231,7 @@ export class Planner {
   }
 
   checkpoint(name: string): string[] {
-    this.checkpoints.keep(name, this.main.snapshot());
-    return [...this.checkpoints.keys()];
+    return this.checkpoints.keep(name, this.main.snapshot());
   }
 
   restore(name: string, stage: (shown: Shown) => void): Promise<Shown> {

@@ -113,11 +113,12 @@ def paired_ways(closed: mvs.Snapshot, network: ChordNetwork, loaded: Loaded,
         return []
     points = np.asarray(closed.node_position)
     ends = np.asarray(valve.chord_nodes, np.int64)
-    at = lambda nodes: points[np.array(nodes)][:, None]  # noqa: E731
-    away = np.linalg.norm(at([ends[way.segments[-1], 1] for way in mine])
-                          - other.nodes[[way.end for way in theirs]][None], axis=2)
-    heads = np.linalg.norm(at([ends[way.segments[0], 0] for way in mine])
-                           - other.nodes[[way.head for way in theirs]][None], axis=2)
+
+    def apart(nodes: list[int], others: list[int]) -> Points:
+        return np.asarray(np.linalg.norm(points[nodes][:, None] - other.nodes[others][None], axis=2))
+
+    away = apart([ends[way.segments[-1], 1] for way in mine], [way.end for way in theirs])
+    heads = apart([ends[way.segments[0], 0] for way in mine], [way.head for way in theirs])
     possible = (away < SAME_CHORD) & (heads < SAME_MUSCLE)
     lengths = np.array([other.length[list(way.segments)].sum() for way in theirs])
     own = np.array([network.length[list(way.segments)].sum() for way in mine])

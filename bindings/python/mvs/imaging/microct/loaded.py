@@ -123,7 +123,11 @@ def _onto_curve(points: Points, curve: Points) -> Points:
     return np.asarray(need("scipy.ndimage").gaussian_filter1d(step, 2, axis=0, mode="wrap"))
 
 
-def settled(valve: mvs.Valve) -> tuple[mvs.Snapshot, mvs.Snapshot, mvs.Stats]:
+Closure = tuple[mvs.Snapshot, mvs.Snapshot, mvs.Stats]
+"""A valve open, closed under 120 mmHg, and how it came to rest"""
+
+
+def settled(valve: mvs.Valve) -> Closure:
     """The valve open, and closed under 120 mmHg."""
     with mvs.Simulator() as sim:
         sim.set_valve(valve)

@@ -7,37 +7,44 @@ image does not show it; the loaded one does, as the chordae and the boundary are
 from __future__ import annotations
 
 import dataclasses
+from typing import Optional
 
 import mvs
 from ..findings import finding
 from ..mesh import Sheet
 from ..valve import distance_from_image
-from .loaded import settled
+from .loaded import Closure, settled
 
 CANDIDATES = (mvs.LeafletLaw.BILINEAR, mvs.LeafletLaw.FUNG, mvs.LeafletLaw.MAY_NEWMAN_YIN,
               mvs.LeafletLaw.PROT)
 """Membranes of mitral tissue, each with the published constants of the library"""
 
 
-def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet) -> mvs.Finding:
-    """Sets the law of all leaflets of a valve to that whose closure is nearest to the loaded image.
+def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet) -> tuple[mvs.Finding, Closure]:
+    """Sets the law of all leaflets of a valve to that whose closure is nearest to the loaded image, and
+    closes the valve.
 
     Laws whose closure does not come to rest are left out; without any the valve keeps its law.
     """
     given = valve.leaflets
     away: dict[mvs.LeafletLaw, float] = {}
+    nearest: Optional[Closure] = None
     for law in CANDIDATES:
         valve.leaflets = _with_law(given, law)
         try:
-            _, closed, stats = settled(valve)
+            closure = settled(valve)
         except mvs.Error:
             continue
+        _, closed, stats = closure
         if stats.converged and not closed.measures.intersections:
-            away[law] = float(distance_from_image(closed, loaded).values[0])
-    if not away:
+            distance = float(distance_from_image(closed, loaded).values[0])
+            if nearest is None or distance < min(away.values()):
+                nearest = closure
+            away[law] = distance
+    if nearest is None:
         valve.leaflets = given
         return finding("tissue", mvs.FindingSource.ASSUMED, 0.2,
-                       "with no tissue did the leaflets come to rest under load; theirs was kept")
+                       "with no tissue did the leaflets come to rest under load; theirs was kept"), settled(valve)
     order = sorted(away, key=lambda law: away[law])
     best = order[0]
     valve.leaflets = _with_law(given, best)
@@ -45,7 +52,7 @@ def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet) -> mvs.Finding:
     return finding(
         "tissue", mvs.FindingSource.MEASURED, 0.6,
         f"{best.name.lower()}: closed with it the leaflets are nearest to those in the loaded image (RMS: "
-        f"{words}); give --leaflet if the tissue is known", [away[law] for law in order], "m")
+        f"{words}); give --leaflet if the tissue is known", [away[law] for law in order], "m"), nearest
 
 
 def _with_law(leaflets: list[mvs.Leaflet], law: mvs.LeafletLaw) -> list[mvs.Leaflet]:

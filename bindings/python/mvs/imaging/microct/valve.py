@@ -84,9 +84,11 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     found = [_chord_finding(network, moved)]
     if loaded is not None:
         found += with_loaded_boundary(valve, network, loaded)
-        if not tissue_known:
-            found.append(with_tissue_of_image(valve, loaded.surface))
-    opened, closed, stats = settled(valve)
+    if loaded is None or tissue_known:
+        opened, closed, stats = settled(valve)
+    else:
+        tissue, (opened, closed, stats) = with_tissue_of_image(valve, loaded.surface)
+        found.append(tissue)
     if loaded is not None and stats.converged:
         opened, closed, stats, more = with_loaded_lengths(valve, closed, network, loaded)
         found.append(more)
