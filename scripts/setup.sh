@@ -62,6 +62,20 @@ files_as_one=
 # CMake options of every build_preset of a script: a tree configured another way compiles again.
 options_of_all=()
 
+# Configures a preset: configure_preset NAME [CMAKE OPTION ...]; its log is build/NAME.log. Where another
+# compiler is found than that of the tree, as with ccache's folder in PATH, CMake begins the tree anew and drops
+# all options: a build without sanitizers would pass for one with them. So it is configured once more.
+configure_preset() {
+  local log=build/$1.log dropped='variables that require your cache to be deleted'
+  cmake --preset "$@" >"$log" 2>&1 && ! grep -q "$dropped" "$log" && return
+  if grep -q "$dropped" "$log"; then
+    rm -rf "build/$1/CMakeCache.txt" "build/$1/CMakeFiles"
+    cmake --preset "$@" >"$log" 2>&1 && return
+  fi
+  cat "$log" >&2
+  return 1
+}
+
 # Configures and builds a preset of CMakePresets.json: build_preset NAME [CMAKE OPTION ...] [-- BUILD
 # OPTION ...]. The short gate and the demo compile files together with precompiled headers,
 # everything else compiles them one by one, with ccache where it is installed.
@@ -81,10 +95,7 @@ build_preset() {
     launcher=(-DMVS_PRECOMPILED=all -DMVS_UNITY=)
   fi
   mkdir -p build
-  cmake --preset "$preset" "${launcher[@]}" "${options_of_all[@]}" "${options[@]}" >"build/$preset.log" 2>&1 || {
-    cat "build/$preset.log" >&2
-    return 1
-  }
+  configure_preset "$preset" "${launcher[@]}" "${options_of_all[@]}" "${options[@]}" || return 1
   cmake --build --preset "$preset" "${@:2}"
 }
 
