@@ -25,7 +25,7 @@
 
 #ifndef MVS_HAS_LIBCCD
 TEST_CASE("distances_and_crossings_are_those_of_libccd") {
-  MESSAGE("skipped: Debian's libccd-dev is not installed");
+  MESSAGE("skipped: built with MVS_CCD=OFF, or without Debian's libccd-dev");
 }
 #else
 #include <ccd/ccd.h>
