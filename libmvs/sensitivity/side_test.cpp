@@ -23,6 +23,31 @@ NodeField force_at(const Model &model, const State &state, EquilibriumTangent &t
   return e;
 }
 
+// Errors of a motion at the distance h, m by the fastest node or chord.
+struct SideErrors {
+  double mean, half;  // of both sides; of their difference
+};
+
+SideErrors errors_at(const Model &model, const State &state, EquilibriumTangent &tangent,
+                     std::span<const ParameterStep> steps, const NodeField &motion, double h) {
+  NodeField above = force_at(model, state, tangent, steps, motion, h);
+  NodeField below = force_at(model, state, tangent, steps, motion, -h);
+  tangent.solve(above, false);
+  tangent.solve(below, false);
+  NodeField mean(above.size()), half(above.size());
+  for (size_t i = 0; i < mean.size(); ++i) {
+    mean[i] = 0.5 * (above[i] + below[i]);
+    half[i] = 0.5 * (above[i] - below[i]);
+  }
+  return {fastest_of(mean), fastest_of(half)};
+}
+
+// To which errors are relative: the fastest node; where a chord that is slack moves nothing, a
+// share of the change of its own length, as forces differ by rounding.
+double scale_of(const NodeField &motion, double fastest) {
+  return std::max(fastest_of(motion), settings::sensitivity::least_motion * fastest);
+}
+
 }  // namespace
 
 double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion) {
@@ -41,18 +66,15 @@ bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTang
   namespace set = settings::sensitivity;
   const double fastest = fastest_along(steps, motion);
   if (fastest == 0) return true;
-  const double h = slack / fastest;
-  NodeField above = force_at(model, state, tangent, steps, motion, h);
-  NodeField below = force_at(model, state, tangent, steps, motion, -h);
-  tangent.solve(above, false);
-  tangent.solve(below, false);
-  NodeField mean(above.size()), half(above.size());
-  for (size_t i = 0; i < mean.size(); ++i) {
-    mean[i] = 0.5 * (above[i] + below[i]);
-    half[i] = 0.5 * (above[i] - below[i]);
-  }
-  return fastest_of(mean) <= set::mean_error * fastest_of(motion) &&
-         fastest_of(half) <= set::side_error * fastest_of(motion);
+  const double scale = scale_of(motion, fastest);
+  const auto at = [&](double distance) {
+    return errors_at(model, state, tangent, steps, motion, distance / fastest);
+  };
+  const SideErrors errors = at(slack);
+  if (errors.mean > set::mean_error * scale) return false;
+  if (errors.half <= set::side_error * scale) return true;
+  // no switch, but a strong curvature: its error falls with the distance
+  return at(set::nearer * slack).half <= set::side_error * scale;
 }
 
 bool holds_on_one_side(const Model &model, const State &state, EquilibriumTangent &tangent,
@@ -71,7 +93,7 @@ bool holds_on_one_side(const Model &model, const State &state, EquilibriumTangen
     }
   }
   tangent.solve(e, false);
-  return fastest_of(e) <= settings::sensitivity::side_error * fastest_of(moved.motion);
+  return fastest_of(e) <= settings::sensitivity::side_error * scale_of(moved.motion, fastest);
 }
 
 }  // namespace mvs::core

@@ -5,7 +5,8 @@
 // of dx on that side. At a smooth point both sides have opposite errors of order h; where contact,
 // a chord or the law of a spring switches within h, they do not. So the test needs no list of what
 // may switch, and does not take the mean of two sides for a derivative, as a central difference
-// would.
+// would. Errors are relative to the fastest node or, for a chord that is slack, to the change of
+// its own length.
 #pragma once
 
 #include <span>
@@ -18,7 +19,8 @@ namespace mvs::core {
 // become taut alone.
 double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion);
 
-// `motion` is dx for the change `steps` of the parameters. Takes two solutions.
+// `motion` is dx for the change `steps` of the parameters. Takes two solutions, four
+// where only the difference of both sides is too large.
 bool holds_on_both_sides(const Model &model, const State &state, EquilibriumTangent &tangent,
                          std::span<const ParameterStep> steps, const NodeField &motion,
                          double slack);

@@ -21,6 +21,8 @@ namespace {
 struct NotAtRest {};
 
 constexpr double rest_force = 1e-10;  // N; settles end far below it, because Newton converges
+// What the issue on derivatives asks for; a displacement of 5e-8 m leaves rounding of about 1e-6.
+constexpr double most_error = 1e-4;
 
 State settled(const Model &model, State state) {
   SolveOptions options;
@@ -215,6 +217,33 @@ TEST_CASE("coaptation_gradient_is_that_of_differences") {
   CHECK((at(h) - at(-h)) / (2 * h) == about(slope, 1e-5));
 }
 
+TEST_CASE("slack_chordae_change_nothing_and_are_declared_smooth") {
+  const double away = 2e-7;  // m, twice the slack of the side test
+  uint64_t seed = 100;
+  Random random(seed);
+  for (int valve = 0; valve < 3; ++valve) {
+    const Closed closed = some_valve(random, seed);
+    std::vector<Parameter> lengths;
+    for (uint32_t c = 0; c < closed.model->valve.chords.size(); ++c) {
+      const Chord &chord = closed.model->valve.chords[c];
+      const double length = (closed.state.x[chord.a] - closed.state.x[chord.b]).norm();
+      if (length > chord.rest_length - away || is_idle(closed, chord.a) || is_idle(closed, chord.b))
+        continue;
+      lengths.push_back({ParameterKind::chord_rest_length, c, 0, {}});
+    }
+    SensitivityOptions options;
+    options.with_motion = true;
+    const Sensitivity found = differentiate(*closed.model, closed.state,
+                                            {random_functional(closed, random)}, lengths, options);
+    for (size_t p = 0; p < lengths.size(); ++p) {
+      CAPTURE(lengths[p].index);
+      CHECK(found.derivative[p] == 0);
+      CHECK(found.parameter_notes[p] == 0);
+    }
+    MESSAGE(lengths.size() << " slack chordae");
+  }
+}
+
 // One pair of a valve and a parameter, or of a valve and the gradient of a functional over all rest
 // lengths: what the derivative says, and a central difference of two settles.
 struct Compared {
@@ -223,11 +252,11 @@ struct Compared {
   mvs_sensitivity_notes notes = 0;        // of the parameter
 };
 
-Compared compare(const Closed &closed, const Quantity &q, const std::vector<Parameter> &parameters,
-                 const std::vector<double> &direction, const NodeField &motion, bool smooth,
-                 double slack) {
-  if (fastest_of(motion) == 0) return {smooth, 0, 0};  // all chordae are slack: nothing to compare
-  const double h = 0.5 * slack / fastest_of(motion);
+// The fastest node moves by `distance`.
+Compared compared_at(const Closed &closed, const Quantity &q,
+                     const std::vector<Parameter> &parameters, const std::vector<double> &direction,
+                     const NodeField &motion, bool smooth, double distance) {
+  const double h = distance / fastest_of(motion);
   Closed above = closed, below = closed;
   double slope = 0;
   for (size_t p = 0; p < parameters.size(); ++p) {
@@ -244,6 +273,19 @@ Compared compare(const Closed &closed, const Quantity &q, const std::vector<Para
   }
   const double difference = (value_of(above, q) - value_of(below, q)) / (2 * h);
   return {smooth, fastest_of(error) / fastest_of(motion), std::abs(difference / slope - 1)};
+}
+
+Compared compare(const Closed &closed, const Quantity &q, const std::vector<Parameter> &parameters,
+                 const std::vector<double> &direction, const NodeField &motion, bool smooth,
+                 double slack) {
+  if (fastest_of(motion) == 0) return {smooth, 0, 0};  // all chordae are slack: nothing to compare
+  const auto at = [&](double distance) {
+    return compared_at(closed, q, parameters, direction, motion, smooth, distance);
+  };
+  const Compared found = at(0.5 * slack);
+  // a derivative that changes by 2 % within the slack differs by 1e-4 from a central difference
+  // over half of it, and by 4e-6 over a tenth
+  return smooth && found.motion_error > most_error ? at(0.1 * slack) : found;
 }
 
 Compared along_a_parameter(const Closed &closed, const Quantity &q, const Parameter &p) {
@@ -288,7 +330,7 @@ Compared along_the_gradient(const Closed &closed, const Quantity &q) {
 TEST_CASE("derivatives_that_are_declared_smooth_match_central_differences") {
   const bool is_long = std::getenv("MVS_TEST_LONG") != nullptr;
   const int pairs = is_long ? 200 : 8;
-  int smooth = 0, wrong = 0, cases = 0, switching = 0, on_sides = 0;
+  int smooth = 0, wrong = 0, cases = 0, switching = 0, on_sides = 0, unexplained = 0;
   double worst = 0, worst_functional = 0;
   uint64_t seed = 100;
   for (int pair = 0; pair < pairs; ++pair) {
@@ -311,12 +353,12 @@ TEST_CASE("derivatives_that_are_declared_smooth_match_central_differences") {
       CAPTURE(gradient);
       ++cases;
       switching += found.notes != 0;
+      unexplained += found.notes == MVS_SENSITIVITY_NOTE_SWITCH;
       on_sides += (found.notes & MVS_SENSITIVITY_NOTE_SIDES) != 0;
       if (!found.smooth) continue;
       ++smooth;
-      // 1e-4: what the issue asks for; the displacement of 5e-8 m leaves rounding of about 1e-6
-      CHECK(found.motion_error < 1e-4);
-      wrong += found.motion_error >= 1e-4;
+      CHECK(found.motion_error < most_error);
+      wrong += found.motion_error >= most_error;
       worst = std::max(worst, found.motion_error);
       worst_functional = std::max(worst_functional, found.functional_error);
     }
@@ -325,8 +367,10 @@ TEST_CASE("derivatives_that_are_declared_smooth_match_central_differences") {
                  << " of them wrong; largest error " << worst << " of positions, "
                  << worst_functional << " of functionals; of " << switching
                  << " parameters with notes " << on_sides
-                 << " have confirmed values on both sides");
+                 << " have confirmed values on both sides, " << unexplained
+                 << " no switch that is listed");
   CHECK(smooth >= 0.8 * cases);
+  CHECK(unexplained <= 0.01 * cases);  // a curvature of 3 % within the slack
 }
 
 }  // namespace mvs::core::test
