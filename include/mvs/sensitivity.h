@@ -37,7 +37,11 @@ enum mvs_parameter_kind_e {
   MVS_PARAMETER_HEAD_POSITION = 11, /* m; index: papillary head; component: axis 0 to 2 */
   MVS_PARAMETER_ANNULUS_SCALE = 12, /* e: the annulus grows by 1 + e about its centroid; a ring
                                        changes its size by e times the size */
-  MVS_PARAMETER_BOUNDARY_MODE = 13  /* factor of a displacement field of the prescribed nodes */
+  MVS_PARAMETER_BOUNDARY_MODE = 13, /* factor of a displacement field of the prescribed nodes */
+  MVS_PARAMETER_CHORD_SITE = 14     /* m of unloaded tissue by which the insertion of a chord moves
+                                       along an edge; index: chord segment that ends on a leaflet;
+                                       component: the node at the other end of the edge. Holds for
+                                       motion to that node; away from it is another parameter */
 };
 typedef uint32_t mvs_parameter_kind;
 

@@ -46,7 +46,7 @@ std::vector<double> OneSides::rates_of(size_t p, const std::vector<double> &forc
   std::vector<double> rates;
   for (size_t i = 0; i < m; ++i) {
     double rate = response_.row(request_.quantities.size() + i, p) +
-                  own_rate(request_.model, switches_[i], request_.parameters[p]);
+                  own_rate(request_.model, request_.state.x, switches_[i], request_.parameters[p]);
     for (size_t j = 0; j < forces.size(); ++j) rate -= flexibility_[i * m + j] * forces[j];
     rates.push_back(rate);
   }
@@ -127,7 +127,7 @@ mvs_sensitivity_notes OneSides::notes_along(std::span<const ParameterStep> steps
   for (size_t j = 0; j < switches_.size(); ++j) {
     double rate = dot_of(response_.gradient(request_.quantities.size() + j).by_position, motion);
     for (const ParameterStep &step : steps) {
-      rate += step.by * own_rate(request_.model, switches_[j], *step.parameter);
+      rate += step.by * own_rate(request_.model, request_.state.x, switches_[j], *step.parameter);
     }
     rates.push_back(rate);
   }

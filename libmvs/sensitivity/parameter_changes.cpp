@@ -5,7 +5,7 @@
 #include "energy/follower_pressure.h"
 #include "energy/membrane.h"
 #include "energy/spring.h"
-#include "sensitivity/parameters.h"
+#include "sensitivity/chord_site.h"
 
 namespace mvs::core {
 namespace {
@@ -78,6 +78,7 @@ void apply(Model &model, const Parameter &p, double by) {
     case Kind::head_position:
     case Kind::annulus_scale:
     case Kind::boundary_mode:
+    case Kind::chord_site:
       break;
   }
 }
@@ -110,11 +111,12 @@ Model changed_model(const Model &model, std::span<const ParameterStep> steps) {
 
 void add_change(const Model &model, std::span<const ParameterStep> steps,
                 const std::vector<Vec3> &x, std::vector<Vec3> &g) {
-  bool chords = false, tissue = false, rest = false;
+  bool chords = false, tissue = false, rest = false, sites = false;
   double pressure = 0;
   for (const ParameterStep &step : steps) {
     chords = chords || is_of_chord(step.parameter->kind);
     tissue = tissue || is_of_tissue(step.parameter->kind);
+    sites = sites || step.parameter->kind == Kind::chord_site;
     rest = rest || step.parameter->kind == Kind::prestrain;
     if (step.parameter->kind == Kind::pressure) pressure += step.by;
   }
@@ -124,7 +126,7 @@ void add_change(const Model &model, std::span<const ParameterStep> steps,
     term.freeze(x);
     term.gradient(x, g);
   }
-  if (!chords && !tissue) return;
+  if (!chords && !tissue && !sites) return;
   const Model changed = changed_model(model, steps);
   if (tissue) {
     add_tissue(changed, rest, 1, x, g);
@@ -136,6 +138,7 @@ void add_change(const Model &model, std::span<const ParameterStep> steps,
     CableTerm(model).gradient(x, before);
     for (size_t i = 0; i < g.size(); ++i) g[i] -= before[i];
   }
+  if (sites) add_site_change(changed, steps, x, g);
 }
 
 }  // namespace mvs::core

@@ -1,6 +1,6 @@
 // Checks of parameters: whether the valve has them, and whether they have a derivative.
 #include "base/error.h"
-#include "sensitivity/parameters.h"
+#include "sensitivity/chord_site.h"
 
 namespace mvs::core {
 namespace {
@@ -22,6 +22,7 @@ Owner owner_of(const Model &model, Kind kind) {
     case Kind::chord_rest_length:
     case Kind::chord_young:
     case Kind::chord_area:
+    case Kind::chord_site:
       return {valve.chords.size(), "chord segments"};
     case Kind::leaflet_constant:
     case Kind::leaflet_thickness:
@@ -43,6 +44,7 @@ Owner owner_of(const Model &model, Kind kind) {
 }
 
 void check_component(const Model &model, const Parameter &p, size_t place) {
+  if (p.kind == Kind::chord_site) return check_chord_site(model, p, place);
   size_t count = 1;
   if (p.kind == Kind::node_position || p.kind == Kind::head_position) count = 3;
   if (p.kind == Kind::leaflet_constant || p.kind == Kind::scallop_constant) {
@@ -70,7 +72,7 @@ void check_mode(const Model &model, const Parameter &p, size_t place) {
 }  // namespace
 
 void check_parameter(const Model &model, const Parameter &p, size_t place) {
-  MVS_MUST(p.kind >= Kind::chord_rest_length && p.kind <= Kind::boundary_mode, MVS_E_ARGUMENT,
+  MVS_MUST(p.kind >= Kind::chord_rest_length && p.kind <= Kind::chord_site, MVS_E_ARGUMENT,
            "parameters", "parameters[%zu].kind is %u: it has to be one of MVS_PARAMETER_*", place,
            static_cast<uint32_t>(p.kind));
   const Owner owner = owner_of(model, p.kind);

@@ -8,6 +8,7 @@
 #include "energy/follower_pressure.h"
 #include "measure/annulus/frame.h"
 #include "model/chord_law.h"
+#include "sensitivity/chord_site.h"
 
 namespace mvs::core {
 namespace {
@@ -107,6 +108,8 @@ ParameterLoad parameter_load(const Model &model, const State &state, const Param
       return {{}, scale_motion(model, x)};
     case Kind::boundary_mode:
       return {{}, sparse(model, p.mode, true)};
+    case Kind::chord_site:
+      return {site_force(model, x, p), {}};
     default:
       return {sparse(model, tissue_difference(model, x, p), false), {}};
   }
@@ -133,6 +136,8 @@ double natural_scale(const Model &model, const State &state, const Parameter &p)
       return valve.leaflets[valve.scallops[p.index].leaflet].thickness;
     case Kind::pressure:
       return std::max(std::abs(state.load.pressure), 1.0);
+    case Kind::chord_site:
+      return chord_site(model, p).edge;
     default:
       return 1;
   }

@@ -1,10 +1,10 @@
 // Parameters of model and load: their checks, their changes, and the derivative of the gradient of
 // the energy with respect to them.
 //
-// The derivative is analytic for rest lengths, moduli and areas of chordae, pressure and positions.
-// For constants and thickness of leaflets and for prestrain it is a central difference of fourth
-// order of the elastic terms at fixed positions: exact for thickness, with a relative error of
-// about 1e-10 for the others (tests/sensitivity/parameters.cpp).
+// The derivative is analytic for rest lengths, moduli, areas and sites of chordae, pressure and
+// positions. For constants and thickness of leaflets and for prestrain it is a central difference
+// of fourth order of the elastic terms at fixed positions: exact for thickness, with a relative
+// error of about 1e-10 for the others (tests/sensitivity/parameters.cpp).
 #pragma once
 
 #include <mvs/sensitivity.h>
@@ -29,7 +29,8 @@ enum class ParameterKind : uint32_t {
   node_position = MVS_PARAMETER_NODE_POSITION,
   head_position = MVS_PARAMETER_HEAD_POSITION,
   annulus_scale = MVS_PARAMETER_ANNULUS_SCALE,
-  boundary_mode = MVS_PARAMETER_BOUNDARY_MODE
+  boundary_mode = MVS_PARAMETER_BOUNDARY_MODE,
+  chord_site = MVS_PARAMETER_CHORD_SITE
 };
 
 struct Parameter {
@@ -64,8 +65,8 @@ struct ParameterStep {
   double by;
 };
 
-// The model after changes; masses and the contact thickness keep their values. Pressure and
-// positions are not part of it.
+// The model after changes; masses and the contact thickness keep their values. Pressure,
+// positions and sites of chordae are not part of it.
 Model changed_model(const Model &model, std::span<const ParameterStep> steps);
 // Adds a multiple of dE/dx of the terms that parameters of the tissue change: the elastic ones of
 // the leaflets, and contact, whose weights and ranges follow the rest shape, if that changes.

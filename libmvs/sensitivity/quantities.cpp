@@ -10,6 +10,7 @@
 #include "base/struct_fields.h"
 #include "measure/fields.h"
 #include "model/chord_law.h"
+#include "sensitivity/chord_site.h"
 #include "sensitivity/coaptation_gradient.h"
 #include "sensitivity/orifice_gradient.h"
 #include "sensitivity/settings.h"
@@ -40,19 +41,24 @@ ChordState chord_state(const Model &model, uint32_t index, const std::vector<Vec
   return {d / length, length, strain, chord_response(model.valve, chord, strain)};
 }
 
-void add_length(const Model &model, uint32_t index, const ChordState &at, double times,
-                NodeField &g) {
+// A gradient with respect to the end b of a chord; that of the end a is opposite.
+void add_at_ends(const Model &model, uint32_t index, const Vec3 &by_b, QuantityGradient &q) {
   const Chord &chord = model.valve.chords[index];
-  g[chord.a] -= times * at.along;
-  g[chord.b] += times * at.along;
+  q.by_position[chord.a] -= by_b;
+  q.by_position[chord.b] += by_b;
+  q.by_end.push_back({index, by_b});
+}
+
+void add_length(const Model &model, uint32_t index, const ChordState &at, double times,
+                QuantityGradient &q) {
+  add_at_ends(model, index, times * at.along, q);
 }
 
 void add_tension(const Model &model, uint32_t index, const std::vector<Vec3> &x, double times,
                  QuantityGradient &q) {
   const ChordState at = chord_state(model, index, x);
   const Chord &chord = model.valve.chords[index];
-  add_length(model, index, at, times * chord.area * at.response.slope / chord.rest_length,
-             q.by_position);
+  add_length(model, index, at, times * chord.area * at.response.slope / chord.rest_length, q);
   q.tension.push_back({index, times});
 }
 
@@ -82,10 +88,8 @@ void head_force(const Model &model, const Quantity &quantity, const std::vector<
   q.value = direction.dot(force);
   for_each_chord([&](uint32_t c, const ChordState &at, const Vec3 &away, double tension) {
     add_tension(model, c, x, direction.dot(away), q);
-    const uint32_t other = model.valve.chords[c].other_end(node);
     const Vec3 turn = (tension / at.length) * (direction - direction.dot(away) * away);
-    q.by_position[other] += turn;
-    q.by_position[node] -= turn;
+    add_at_ends(model, c, model.valve.chords[c].a == node ? turn : Vec3(-turn), q);
   });
 }
 
@@ -119,7 +123,7 @@ void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_t
     add_tension(model, largest, x, 1, q);
   } else {
     const ChordState at = chord_state(model, largest, x);
-    add_length(model, largest, at, 1 / model.valve.chords[largest].rest_length, q.by_position);
+    add_length(model, largest, at, 1 / model.valve.chords[largest].rest_length, q);
     q.strain.push_back({largest, 1});
   }
 }
@@ -235,8 +239,7 @@ QuantityGradient quantity_gradient(const Model &model, const State &state,
       const ChordState at = chord_state(model, index, x);
       const bool is_strain = quantity.kind == QuantityKind::chord_strain;
       q.value = is_strain ? at.strain : at.length;
-      add_length(model, index, at, is_strain ? 1 / model.valve.chords[index].rest_length : 1.0,
-                 q.by_position);
+      add_length(model, index, at, is_strain ? 1 / model.valve.chords[index].rest_length : 1.0, q);
       if (is_strain) q.strain.push_back({index, 1});
       break;
     }
@@ -257,6 +260,15 @@ QuantityGradient quantity_gradient(const Model &model, const State &state,
 double explicit_derivative(const Model &model, const std::vector<Vec3> &x,
                            const QuantityGradient &gradient, const Parameter &parameter) {
   double sum = 0;
+  if (parameter.kind == ParameterKind::chord_site) {
+    const ChordSite site = chord_site(model, parameter);
+    const Vec3 motion = site_direction(site, x);
+    for (const ChordEnd &end : gradient.by_end) {
+      if (end.chord != site.chord) continue;
+      sum += (model.valve.chords[end.chord].b == site.node ? 1 : -1) * end.by_b.dot(motion);
+    }
+    return sum;
+  }
   for (const ChordShare &share : gradient.tension) {
     sum += share.factor * tension_derivative(model, share.chord, x, parameter);
   }

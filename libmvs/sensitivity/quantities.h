@@ -46,12 +46,19 @@ struct ChordShare {
   double factor;
 };
 
+// The gradient with respect to the end b of a chord alone.
+struct ChordEnd {
+  uint32_t chord;
+  Vec3 by_b;
+};
+
 // dq = by_position dx + sum of factors times the changes of tension and strain at fixed positions.
 struct QuantityGradient {
   double value = 0;
   bool by_differences = false;  // the gradient is not known: see measure_difference()
   NodeField by_position;
   std::vector<ChordShare> tension, strain;
+  std::vector<ChordEnd> by_end;  // part of by_position, for ends that leave their nodes
   mvs_sensitivity_notes notes = 0;
 };
 QuantityGradient quantity_gradient(const Model &model, const State &state,

@@ -53,7 +53,8 @@ double scale_of(const NodeField &motion, double fastest) {
 double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion) {
   double fastest = fastest_of(motion);
   for (const ParameterStep &step : steps) {
-    if (step.parameter->kind == ParameterKind::chord_rest_length) {
+    if (step.parameter->kind == ParameterKind::chord_rest_length ||
+        step.parameter->kind == ParameterKind::chord_site) {
       fastest = std::max(fastest, std::abs(step.by));
     }
   }

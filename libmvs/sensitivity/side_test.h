@@ -15,8 +15,8 @@
 
 namespace mvs::core {
 
-// The displacement of the fastest node, or the change of a chord's own length, by which it may
-// become taut alone.
+// The displacement of the fastest node, or the change of a chord's own length or site, by which it
+// may become taut alone.
 double fastest_along(std::span<const ParameterStep> steps, const NodeField &motion);
 
 // `motion` is dx for the change `steps` of the parameters. Takes two solutions, four

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/chord_law.h"
+#include "sensitivity/chord_site.h"
 
 namespace mvs::core {
 namespace {
@@ -73,9 +74,15 @@ NodeField field_of(const Model &model, const Switch &s) {
   return field;
 }
 
-double own_rate(const Model &model, const Switch &s, const Parameter &p) {
+double own_rate(const Model &model, const std::vector<Vec3> &x, const Switch &s,
+                const Parameter &p) {
   if (s.kind == SwitchKind::contact) return 0;
   if (s.is_chord) {
+    if (p.kind == ParameterKind::chord_site && p.index == s.index) {
+      const ChordSite site = chord_site(model, p);
+      const Vec3 u = (x[site.node] - x[site.other]).normalized();
+      return u.dot(site_direction(site, x));
+    }
     const bool own = p.kind == ParameterKind::chord_rest_length && p.index == s.index;
     return own ? -(1 + s.kink) : 0;
   }

@@ -44,6 +44,7 @@ void find_contact_switches(const Model &model, const std::vector<Vec3> &x, doubl
 NodeField field_of(const Model &model, const Switch &s);
 
 // du/dp at fixed positions.
-double own_rate(const Model &model, const Switch &s, const Parameter &parameter);
+double own_rate(const Model &model, const std::vector<Vec3> &x, const Switch &s,
+                const Parameter &parameter);
 
 }  // namespace mvs::core

@@ -206,6 +206,7 @@ static void bad_input_is_refused(void) {
           "chord segments");
   REFUSED(area, P(.kind = MVS_PARAMETER_LEAFLET_CONSTANT, .component = 7), MVS_E_ARGUMENT,
           "component is 7");
+  REFUSED(area, P(.kind = MVS_PARAMETER_CHORD_SITE, .component = 100000), MVS_E_ARGUMENT, "chord");
   REFUSED(area, P(.kind = MVS_PARAMETER_BOUNDARY_MODE), MVS_E_ARGUMENT, "mode has 0 rows");
   mvs_view fixed = {0};
   MUST(mvs_snapshot_get_array(closed, MVS_ARRAY_NODE_KIND, &fixed));

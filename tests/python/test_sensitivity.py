@@ -123,6 +123,27 @@ def test_a_table_is_sorted_by_influence(closed):
     assert table.units["d leaflet_area"] == "m2"
 
 
+def test_insertions_move_along_the_edges_of_their_leaflet(closed):
+    names = [part.name for part in closed.parts if part.kind == mvs.PartKind.CHORD]
+    on_leaflet = closed.node_kind[closed.chord_nodes] == mvs.NodeKind.LEAFLET
+    chord = int(np.argmax(closed.chord_tension * on_leaflet[:, 1]))
+    start, end = closed.chord_nodes[chord]
+    found = closed.sensitivity(of=f"tension {names[chord]}", to=f"sites {names[chord]}", motion=True)
+    around = np.setdiff1d(closed.triangle_nodes[(closed.triangle_nodes == end).any(axis=1)], [end])
+    assert found.to == tuple(f"site {names[chord]} to {j}" for j in around)
+    assert set(found.to_units) == {"m"} and found.smooth
+    # its tension changes by one stiffness times the change of its length, whichever way its end moves
+    x = closed.node_position
+    rest = np.linalg.norm(closed.node_rest[around] - closed.node_rest[end], axis=1)
+    moved = found.motion[:, end] + (x[around] - x[end]) / rest[:, None] - found.motion[:, start]
+    stiffness = found.derivative[0] / (moved @ (x[end] - x[start]) / np.linalg.norm(x[end] - x[start]))
+    assert stiffness.mean() > 0 and np.ptp(stiffness) < 1e-6 * stiffness.mean()
+    inner = names[int(np.argmin(on_leaflet.any(axis=1)))]
+    with pytest.raises(mvs.ArgumentError, match=f"{inner} does not end on a leaflet"):
+        closed.sensitivity(of="coaptation", to=f"sites {inner}")
+    assert len(closed.sensitivity(of="coaptation", to="sites", test=False).to) > 4 * on_leaflet.sum()
+
+
 def test_the_simulator_differentiates_its_present_snapshot(sim, closed):
     sim.restore(closed)
     found = sim.sensitivity(of="coaptation", to="pressure")

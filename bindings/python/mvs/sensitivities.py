@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from . import _core
 from .drawing.snapshots import Picture, need
 from .errors import ArgumentError
-from .kinds import PartKind
+from .kinds import NodeKind, PartKind
 from .laws import leaflet_law
 from .tables import Table
 from .values import Measures, unit_of
@@ -30,7 +30,7 @@ QUANTITY = {"position": 1, "linear": 2, "length": 4, "strain": 5, "tension": 6, 
 PARAMETER = {
     "length": 1, "young": 2, "area": 3, "constant": 4, "leaflet_thickness": 5,
     "scallop_constant": 6, "thickness": 7, "prestrain": 8, "pressure": 9, "node": 10, "head": 11,
-    "annulus_scale": 12, "mode": 13,
+    "annulus_scale": 12, "mode": 13, "site": 14,
 }
 SHOWN = {"m": (1e3, "mm"), "m2": (1e6, "mm2"), "m3": (1e6, "ml"), "N": (1.0, "N"), "Pa": (1e-3, "kPa")}
 """Scale and unit that pictures show."""
@@ -42,7 +42,7 @@ NOTES = {
 OF_WORDS = ("measures", "tension", "strain", "length", "force")
 TO_WORDS = (
     "chords", "areas", "moduli", "tissue", "thickness", "scallops", "pressure", "prestrain", "heads",
-    "annulus", "annulus_scale",
+    "annulus", "annulus_scale", "sites",
 )
 
 
@@ -154,7 +154,9 @@ def sensitivity(
         ("tension P2/3"), "force" (on every head) or one ("force PM1"), an array (n, 3) of weights of
         the positions, a pair (label, array) or a mapping of labels to arrays
     to: parameters, one or several of
-        "chords" (rest lengths), "areas", "moduli" (of every chord) or one ("chords P2/3"), "tissue"
+        "chords" (rest lengths), "areas", "moduli" (of every chord) or one ("chords P2/3"), "sites"
+        or one ("sites P2/3": metres of unloaded tissue by which its insertion moves along each edge
+        of the leaflet, "site P2/3 to 57" is that to node 57), "tissue"
         (every constant of every leaflet), "thickness" (by leaflet), "scallops" (thickness by
         scallop), "pressure", "prestrain", "heads" (their coordinates), "annulus" (coordinates of its
         nodes), "annulus_scale" (also of a ring: its size times this), an array (n, 3) that moves
@@ -270,6 +272,9 @@ def parameters(snapshot: _core.Snapshot, item: Asked) -> list[Labelled]:
             (f"{word} {n}", unit, (PARAMETER[what], k, 0, None))
             for k, n in _parts(snapshot, kind, part)
         ]
+    if word == "sites":
+        return [row for k, n in _parts(snapshot, PartKind.CHORD, part)
+                for row in _sites(snapshot, k, n, bool(part))]
     if word == "tissue":
         return [row for k, n in _parts(snapshot, PartKind.LEAFLET, part)
                 for row in _constants(snapshot, k, n)]
@@ -295,6 +300,18 @@ def _parts(snapshot: _core.Snapshot, kind: PartKind, name: str) -> list[tuple[in
         part = snapshot.find(kind, name)
         return [(part.index, part.name)]
     return [(part.index, part.name) for part in snapshot.parts if part.kind == kind]
+
+
+def _sites(snapshot: _core.Snapshot, chord: int, name: str, alone: bool) -> list[Labelled]:
+    """The insertion of a chord along each edge of the leaflet; none for a chord that ends on no leaflet."""
+    on_leaflet = [int(i) for i in snapshot.chord_nodes[chord] if snapshot.node_kind[i] == NodeKind.LEAFLET]
+    if len(on_leaflet) != 1:
+        if alone:
+            raise ArgumentError(f"to: chord {name} does not end on a leaflet", "to")
+        return []
+    around = snapshot.triangle_nodes[(snapshot.triangle_nodes == on_leaflet[0]).any(axis=1)]
+    return [(f"site {name} to {j}", "m", (PARAMETER["site"], chord, int(j), None))
+            for j in np.unique(around) if j != on_leaflet[0]]
 
 
 def _constants(snapshot: _core.Snapshot, leaflet: int, name: str) -> list[Labelled]:

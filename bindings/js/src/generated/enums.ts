@@ -687,6 +687,12 @@ export const ParameterKind = {
   annulus_scale: 12,
   /** factor of a displacement field of the prescribed nodes */
   boundary_mode: 13,
+  /**
+   * m of unloaded tissue by which the insertion of a chord moves along an edge; index: chord
+   * segment that ends on a leaflet; component: the node at the other end of the edge. Holds for
+   * motion to that node; away from it is another parameter
+   */
+  chord_site: 14,
 } as const;
 export type ParameterKind = keyof typeof ParameterKind;
 
