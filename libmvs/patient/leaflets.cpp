@@ -9,6 +9,7 @@
 #include "measure/annulus/landmarks.h"
 #include "model/sides.h"
 #include "patient/findings.h"
+#include "patient/leaflet_labels.h"
 #include "patient/leaflet_odds.h"
 
 namespace mvs::core {
@@ -24,6 +25,8 @@ constexpr double least_guessed_share = 0.28;
 // m: a landmark farther from the surface is of another frame or patient. Landmarks of commissures
 // are placed by hand on images of 0.7 mm; networks err by up to 3.6 mm.
 constexpr double farthest_landmark = 8e-3;
+// Odds of the leaflet that is said to be the anterior one, below which this is doubted.
+constexpr double doubtful_odds = 0.1;
 // Shares of an arc at which A2 and P2 begin and end: their widths in the parametric valve.
 constexpr double a2_begin = 0.22, p2_begin = 0.27;
 
@@ -125,66 +128,39 @@ std::array<double, 2> guessed_commissures(const AnnulusSamples &annulus,
   return {(static_cast<double>(i) + 0.5) * width, (static_cast<double>(j) + 0.5) * width};
 }
 
-// Labelled area around the annulus: that of the anterior leaflet positive, of the posterior one
-// negative.
-struct LabelledArea {
-  std::vector<double> balance = std::vector<double>(samples, 0);
-  double anterior = 0, posterior = 0;  // m2
-};
-
-LabelledArea labelled_area(const LeafletSheet &sheet, const SheetCoordinates &c) {
-  LabelledArea area;
-  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
-    if (t >= sheet.label.size() || sheet.label[t] == LeafletLabel::unknown) continue;
-    const Tri &tri = sheet.triangles[t];
-    const double part = triangle_area(sheet.x, tri);
-    const double foot = triangle_foot(c, tri);
-    const bool anterior = sheet.label[t] == LeafletLabel::anterior;
-    (anterior ? area.anterior : area.posterior) += part;
-    const size_t cell = static_cast<size_t>(foot / c.annulus_length * samples);
-    area.balance[std::min(samples - 1, cell)] += anterior ? part : -part;
-  }
-  return area;
-}
-
-// The arc of samples with the largest sum.
-std::array<size_t, 2> heaviest_arc(const std::vector<double> &balance) {
-  const size_t n = balance.size();
-  std::array<size_t, 2> best = {0, 0};
-  double most = 0;
-  for (size_t first = 0; first < n; ++first) {
-    double sum = 0;
-    for (size_t count = 1; count < n; ++count) {
-      sum += balance[(first + count - 1) % n];
-      if (sum > most) {
-        most = sum;
-        best = {first, first + count};
-      }
-    }
-  }
-  return best;
-}
-
-std::array<double, 2> commissures_of_labels(const LabelledArea &area, double length,
-                                            Findings &findings) {
-  const double total = area.anterior + area.posterior;
-  MVS_MUST(std::min(area.anterior, area.posterior) > 0.02 * total, MVS_E_OP, "triangle_leaflet",
-           "the labels show one leaflet only: the anterior one has %.0f mm2, the posterior one "
-           "%.0f mm2; label both, or leave the labels out and give the commissures",
-           area.anterior * 1e6, area.posterior * 1e6);
-  const auto [first, last] = heaviest_arc(area.balance);
-  double right = area.posterior;  // agreement: posterior tissue outside and anterior inside the arc
-  for (size_t k = first; k < last; ++k) right += area.balance[k % samples];
-  const double width = length / samples;
-  add(findings, "commissures", FindingSource::measured, std::clamp(right / total, 0.0, 1.0),
-      format("where the labels of the leaflets meet; %.0f %% of the labelled area agree with this "
-             "border",
-             100 * right / total));
-  return {static_cast<double>(first) * width, static_cast<double>(last) * width};
-}
-
 bool contains(double from, double to, double foot, double length) {
   return wrapped(foot - from, length) < to - from;
+}
+
+// The odds that the leaflet along an arc is the anterior one, and by what they were found.
+struct AnteriorOdds {
+  double odds;
+  std::string cues;
+};
+
+AnteriorOdds anterior_odds(const AnnulusSamples &annulus, const LeafletArcs &arcs, double length) {
+  const auto sample = [&](double foot) {
+    return static_cast<size_t>(wrapped(foot, length) / length * samples) % samples;
+  };
+  size_t first = sample(arcs.from), last = sample(arcs.to);
+  if (last <= first) last += samples;
+  return {ArcOdds(annulus).is_anterior(first, last),
+          std::string("its height and the share and flatness of its annulus") +
+              (annulus.tips.empty() ? "" : ", and by the papillary tips")};
+}
+
+// Adds what is said of the anterior leaflet, with a doubt if its shape speaks against it.
+void add_anterior(FindingSource source, const char *sentence, const AnteriorOdds &shape,
+                  bool anterior, Findings &findings) {
+  const double odds = anterior ? shape.odds : 1 - shape.odds;
+  if (odds >= doubtful_odds) {
+    add(findings, "anterior", source, 1, sentence);
+    return;
+  }
+  add(findings, "anterior", source, odds,
+      format("%s; but the other one is %.0f %% likely to be the anterior one by %s: are both "
+             "leaflets swapped?",
+             sentence, 100 * (1 - odds), shape.cues.c_str()));
 }
 
 // Whether the leaflet along an arc is the anterior one.
@@ -193,14 +169,17 @@ bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
                  const AnnulusSamples &annulus, const LeafletArcs &arcs, Findings &findings) {
   const double length = c.annulus_length;
   const auto [from, to] = arcs;
+  const AnteriorOdds shape = anterior_odds(annulus, arcs, length);
   if (!landmarks.anterior.empty()) {
     const SheetPlace place = place_on(sheet, c, landmarks.anterior[0]);
     MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "anterior",
              "the anterior point lies %.1f mm from the surface, at most %.0f mm are accepted: are "
              "both in one frame (LPS or RAS)?",
              place.distance * 1e3, farthest_landmark * 1e3);
-    add(findings, "anterior", FindingSource::given, 1, "the leaflet with the given point");
-    return contains(from, to, place.foot, length);
+    const bool anterior = contains(from, to, place.foot, length);
+    add_anterior(FindingSource::given, "the leaflet with the given point", shape, anterior,
+                 findings);
+    return anterior;
   }
   double labelled = 0;
   for (size_t k = 0; k < samples; ++k) {
@@ -208,21 +187,15 @@ bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
     labelled += contains(from, to, foot, length) ? area.balance[k] : -area.balance[k];
   }
   if (labelled != 0) {
-    add(findings, "anterior", FindingSource::measured, 1, "the leaflet that is labelled so");
+    add_anterior(FindingSource::measured, "the leaflet that is labelled so", shape, labelled > 0,
+                 findings);
     return labelled > 0;
   }
-  const auto sample = [&](double foot) {
-    return static_cast<size_t>(wrapped(foot, length) / length * samples) % samples;
-  };
-  size_t first = sample(from), last = sample(to);
-  if (last <= first) last += samples;
-  const double odds = ArcOdds(annulus).is_anterior(first, last);
+  const double odds = shape.odds;
   add(findings, "anterior", FindingSource::guessed, std::min(0.95, std::abs(2 * odds - 1)),
-      format("the leaflet that is more like a normal anterior one by its height and the share and "
-             "flatness of its annulus%s: %.0f %% likely; give a point of the anterior leaflet if "
-             "this is wrong",
-             annulus.tips.empty() ? "" : ", and by the papillary tips",
-             100 * std::max(odds, 1 - odds)));
+      format("the leaflet that is more like a normal anterior one by %s: %.0f %% likely; give a "
+             "point of the anterior leaflet if this is wrong",
+             shape.cues.c_str(), 100 * std::max(odds, 1 - odds)));
   return odds >= 0.5;
 }
 
@@ -239,7 +212,7 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
   const double length = coordinates.annulus_length;
   const std::vector<double> heights = height_profile(rims, coordinates, samples);
   const AnnulusSamples annulus = annulus_samples(sheet, rims, heights, landmarks.tips);
-  const LabelledArea area = labelled_area(sheet, coordinates);
+  const LabelledArea area = labelled_area(sheet, coordinates, samples);
   const size_t at = findings.size();
   std::vector<Vec3> commissures = landmarks.commissures;
   if (!commissures.empty()) {

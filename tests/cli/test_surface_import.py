@@ -135,6 +135,44 @@ class SurfaceImport(unittest.TestCase):
         self.assertEqual(same[0]["frame"], "LPS")
         self.assertEqual(same[0]["hash"], same[1]["hash"])
 
+    def test_a_valve_from_a_surface_in_RAS_is_written_in_LPS(self):
+        def negated(points):
+            return [(-x, -y, z) for x, y, z in points]
+
+        write_ply(self.dir / "in_lps.ply", self.points, self.triangles, "LPS")
+        write_ply(self.dir / "in_ras.ply", negated(self.points), self.triangles, "RAS")
+        write_stl(self.dir / "in_ras.stl", negated(self.points), self.triangles)
+        made = self.imported("in_lps.ply", "lps.obj")
+        stated = self.imported("in_ras.ply", "ras.obj")
+        given = self.imported("in_ras.stl", "given.obj", "--frame", "RAS")
+        self.assertEqual((made["frame"], stated["frame"], given["frame"]), ("LPS", "LPS", "LPS"))
+        written = (self.dir / "given.obj").read_text(encoding="utf-8")
+        self.assertIn("# SPACE=LPS", written)
+        made, stated, given = (
+            {row["name"]: row["values"] for row in printed["findings"]}["papillary_tips"]
+            for printed in (made, stated, given))
+        self.assertEqual(stated, made)
+        for a, b in zip(made, given):  # from points in single precision
+            self.assertAlmostEqual(a, b, delta=1e-6)
+
+    def test_landmarks_in_two_frames_need_that_of_the_surface(self):
+        found = {row["name"]: row["values"]
+                 for row in self.imported("open.stl", "two.h5")["findings"]}
+
+        def points(name):
+            return [found[name][k:k + 3] for k in range(0, len(found[name]), 3)]
+
+        write_markups(self.dir / "tips_ras.mrk.json",
+                      [(-x, -y, z) for x, y, z in points("papillary_tips")], "RAS")
+        write_markups(self.dir / "ends_lps.mrk.json", points("commissures"), "LPS")
+        both = ["--tips", self.dir / "tips_ras.mrk.json",
+                "--commissures", self.dir / "ends_lps.mrk.json"]
+        self.fails(1, "give the frame of the surface by --frame", "import", self.dir / "open.stl",
+                   "-o", self.dir / "two.h5", *both)
+        turned = self.imported("open.stl", "two.h5", "--frame", "LPS", *both)
+        rows = {row["name"]: row["values"] for row in turned["findings"]}
+        self.assertEqual(rows["papillary_tips"], found["papillary_tips"])
+
     def test_bad_input_is_refused_with_a_sentence_and_leaves_files_alone(self):
         out = self.dir / "kept.h5"
         out.write_bytes(b"kept")

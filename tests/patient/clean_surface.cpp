@@ -238,7 +238,10 @@ TEST_CASE("clean_surface_names_the_unit_of_surfaces_that_are_not_in_metres") {
       "this surface is 32 m wide: its lengths seem to be in mm; divide by 1000 or give --unit mm",
       Error);
   CHECK_THROWS_WITH_AS(cleaned(scaled(1e2)), doctest::Contains("give --unit cm"), Error);
-  CHECK_THROWS_WITH_AS(cleaned(scaled(1e-3)), doctest::Contains("10 to 150 mm wide"), Error);
+  // read as mm: the widths are those of a valve in m and in cm
+  CHECK_THROWS_WITH_AS(cleaned(scaled(1e-3)), doctest::Contains("give --unit m"), Error);
+  CHECK_THROWS_WITH_AS(cleaned(scaled(1e-1)), doctest::Contains("give --unit cm"), Error);
+  CHECK_THROWS_WITH_AS(cleaned(scaled(30)), doctest::Contains("10 to 150 mm wide"), Error);
 }
 
 TEST_CASE("clean_surface_refuses_arrays_that_do_not_fit") {

@@ -149,6 +149,27 @@ TEST_CASE("labels_give_the_commissures_also_if_some_are_wrong") {
   }
 }
 
+TEST_CASE("leaflets_that_are_said_to_be_swapped_are_doubted") {
+  ParametricSheet p = parametric_sheet(1600);
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  const Valve &valve = p.model->valve;
+  std::vector<Vec3> tips;
+  for (const Head &head : valve.heads) tips.push_back(valve.rest[head.node]);
+  for (const bool swapped : {false, true}) {
+    for (size_t t = 0; t < p.sheet.label.size(); ++t) {
+      p.sheet.label[t] = (valve.triangle_leaflet[t] == 0) != swapped ? LeafletLabel::anterior
+                                                                     : LeafletLabel::posterior;
+    }
+    Findings findings;
+    find_leaflets(p.sheet, p.rims, c, {{}, {}, tips}, findings);
+    CAPTURE(findings[1].sentence);
+    CHECK(findings[1].source == FindingSource::measured);
+    CHECK((findings[1].confidence < 0.1) == swapped);
+    CHECK((findings[1].sentence.find("are both leaflets swapped?") != std::string::npos) ==
+          swapped);
+  }
+}
+
 TEST_CASE("leaflets_that_cannot_be_told_apart_are_refused") {
   ParametricSheet p = parametric_sheet(430);
   const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
@@ -156,6 +177,11 @@ TEST_CASE("leaflets_that_cannot_be_told_apart_are_refused") {
   p.sheet.label.assign(p.sheet.triangles.size(), LeafletLabel::anterior);
   CHECK_THROWS_WITH_AS(find_leaflets(p.sheet, p.rims, c, {}, findings),
                        doctest::Contains("one leaflet only"), Error);
+  for (size_t t = 0; t < p.sheet.label.size(); ++t) {  // no pattern that follows the sheet
+    p.sheet.label[t] = (t * t + t / 7) % 3 == 0 ? LeafletLabel::anterior : LeafletLabel::posterior;
+  }
+  CHECK_THROWS_WITH_AS(find_leaflets(p.sheet, p.rims, c, {}, findings),
+                       doctest::Contains("do not show two leaflets"), Error);
   p.sheet.label.assign(p.sheet.triangles.size(), LeafletLabel::unknown);
   // LPS for RAS: x and y negated about an origin that is not the valve
   LeafletLandmarks far = {{Vec3(-0.12, 0.1, 0), Vec3(0.1, 0.1, 0)}, {}, {}};

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/math.h"
 #include "geometry/intersect.h"
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
@@ -78,6 +79,25 @@ TEST_CASE("notches_are_filled_and_clefts_and_straight_edges_are_kept") {
   const std::vector<uint32_t> edge = rims.free_edge;
   fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 1));
   CHECK(rims.free_edge == edge);
+}
+
+TEST_CASE("a_valley_of_the_edge_that_is_wider_than_a_notch_is_kept") {
+  // V-shaped, 8 mm deep with sides at 30 degrees to its middle, as at a commissure: a straight line
+  // over it has 1.5 of its length along the edge, and where it is 4 mm deep it is no wider than a
+  // notch
+  constexpr uint32_t round = 80, bottom = 30;
+  LeafletSheet valley = band(round, [](uint32_t, uint32_t) { return false; });
+  const double angle_of_step = 6.283185307179586 / round;
+  for (Vec3 &x : valley.x) {
+    double off = math::atan2(x.y(), x.x()) / angle_of_step - bottom;
+    off = std::abs(off - round * std::round(off / round));
+    const double depth = std::max(0.0, 8e-3 - 1e-3 * off / 0.5773502691896258);
+    x.z() *= (10e-3 - depth) / 10e-3;
+  }
+  LeafletSheet sheet = valley;
+  SheetRims rims = rims_of(sheet);
+  CHECK(fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0)).last.empty());
+  CHECK(sheet.triangles == valley.triangles);
 }
 
 TEST_CASE("notches_whose_filling_crosses_are_marked") {

@@ -7,6 +7,7 @@
 #include "base/math.h"
 #include "geometry/bvh.h"
 #include "geometry/intersect.h"
+#include "measure/annulus/landmarks.h"
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
@@ -333,4 +334,23 @@ TEST_CASE("mid_of_skin_refuses_surfaces_that_are_no_skin_of_a_ring") {
   }
   CHECK_THROWS_WITH_AS(mid_of(ring, findings), doctest::Contains("does not split into two sides"),
                        Error);
+}
+
+TEST_CASE("a_smooth_thick_skin_with_flat_rims_keeps_its_annulus") {
+  const Tissue &tissue = fine_tissue();
+  const auto thick = [](const Vec3 &) { return 3e-3; };
+  Findings findings;
+  LeafletSheet mid = mid_of(skin_of(tissue, 1, thick), findings);
+  CHECK(!find(findings, "smoothed_skin"));
+  CHECK(find(findings, "thickness")->value[1] == doctest::Approx(3e-3).epsilon(0.02));
+  const MidError e = error_of(mid, tissue.sheet, thick);
+  CHECK(e.covered > 0.98);
+  Findings unused;
+  const SheetRims rims = find_rims(mid, {}, unused);
+  const auto length = [](const LeafletSheet &sheet, const std::vector<uint32_t> &loop) {
+    return Loop(loop, sheet.x).length();
+  };
+  // a filter that rounds the rims off makes it 4 % shorter
+  CHECK(length(mid, rims.annulus) ==
+        doctest::Approx(length(tissue.sheet, tissue.rims.annulus)).epsilon(0.005));
 }

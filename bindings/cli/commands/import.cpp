@@ -3,7 +3,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <optional>
 
 #include "commands/commands.h"
 #include "import/findings_file.h"
@@ -61,10 +60,9 @@ std::vector<uint32_t> labels_of(const mvs::SurfaceFile &file, const std::string 
 
 // Input of a build, with the memory that the description points to.
 struct Input {
-  mvs::SurfaceFile surface;
-  std::vector<double> annulus, commissures, anterior, tips, thickness;
+  PatientFiles files;
+  std::vector<double> points, annulus, commissures, anterior, tips, thickness, closed;
   std::vector<uint32_t> labels;
-  std::optional<mvs::SurfaceFile> closed;
 };
 
 mvs_array array_of(const mvs_view &view) {
@@ -79,11 +77,10 @@ mvs_array points_of(const std::vector<double> &values) {
 mvs_surface_desc desc_of(const Input &input, const ImportOptions &options,
                          const std::string &name) {
   mvs_surface_desc desc = {};
-  const mvs_surface_file_info info = input.surface.info();
   desc.kind = kind_number(options.kind);
   desc.name = name.c_str();
-  desc.points = array_of(info.points);
-  desc.triangles = array_of(info.triangles);
+  desc.points = points_of(input.points);
+  desc.triangles = array_of(input.files.file(options.surface).info().triangles);
   if (!input.labels.empty()) {
     desc.triangle_leaflet = {input.labels.data(), input.labels.size(), 1, MVS_TYPE_U32, 0};
   }
@@ -94,32 +91,37 @@ mvs_surface_desc desc_of(const Input &input, const ImportOptions &options,
   desc.commissures = points_of(input.commissures);
   desc.anterior = points_of(input.anterior);
   desc.papillary_tips = points_of(input.tips);
-  if (input.closed) {
-    const mvs_surface_file_info closed = input.closed->info();
-    desc.closed_points = array_of(closed.points);
-    desc.closed_triangles = array_of(closed.triangles);
+  if (!options.closed.empty()) {
+    desc.closed_points = points_of(input.closed);
+    desc.closed_triangles = array_of(input.files.file(options.closed).info().triangles);
   }
   return desc;
 }
 
-// Landmarks of a file if one is given, else those of the findings.
-std::vector<double> landmarks(const std::string &path, const FileOptions &files,
-                              mvs_patient_frame frame, const std::vector<double> &known) {
-  return path.empty() ? known : read_landmarks(path, files, frame);
-}
-
 Input read_input(const ImportOptions &options, ImportOptions &with_known) {
   const KnownValues known = options.with.empty() ? KnownValues{} : read_findings(options.with);
-  Input input{read_surface(options.surface, options.files), {}, {}, {}, {}, {}, {}, {}};
-  const mvs_patient_frame frame = input.surface.info().frame;
-  input.annulus = landmarks(options.annulus, options.files, frame, known.annulus);
-  input.commissures = landmarks(options.commissures, options.files, frame, known.commissures);
-  input.anterior = landmarks(options.anterior, options.files, frame, known.anterior);
-  input.tips = landmarks(options.tips, options.files, frame, known.papillary_tips);
-  if (!options.label_array.empty()) input.labels = labels_of(input.surface, options.label_array);
+  Input input{PatientFiles(options.files, options.surface), {}, {}, {}, {}, {}, {}, {}, {}};
+  PatientFiles &files = input.files;
+  for (const std::string *path :
+       {&options.annulus, &options.commissures, &options.anterior, &options.tips}) {
+    files.add_landmarks(*path);
+  }
+  files.add_surface(options.closed);
+  files.settle_frames();
+  const auto landmarks = [&](const std::string &path, const std::vector<double> &else_known) {
+    return path.empty() ? else_known : files.points(path);
+  };
+  input.points = files.points(options.surface);
+  input.annulus = landmarks(options.annulus, known.annulus);
+  input.commissures = landmarks(options.commissures, known.commissures);
+  input.anterior = landmarks(options.anterior, known.anterior);
+  input.tips = landmarks(options.tips, known.papillary_tips);
+  input.closed = files.points(options.closed);
+  const mvs::SurfaceFile &surface = files.file(options.surface);
+  if (!options.label_array.empty()) input.labels = labels_of(surface, options.label_array);
   if (!options.thickness_array.empty()) {
-    const double metre = metres(input.surface.info().unit);
-    input.thickness = array_values(input.surface, options.thickness_array, MVS_SURFACE_PLACE_POINT);
+    const double metre = metres(surface.info().unit);
+    input.thickness = array_values(surface, options.thickness_array, MVS_SURFACE_PLACE_POINT);
     for (double &value : input.thickness) value *= metre;
   }
   if (options.thickness == 0 && !known.thickness.empty()) {
@@ -133,9 +135,6 @@ Input read_input(const ImportOptions &options, ImportOptions &with_known) {
   }
   if (options.thickness_error == 0 && !known.thickness_error.empty()) {
     with_known.build.thickness_error = known.thickness_error[0];
-  }
-  if (!options.closed.empty()) {
-    input.closed.emplace(read_surface(options.closed, options.files, frame));
   }
   return input;
 }
@@ -190,7 +189,7 @@ void run_import(const ImportOptions &given, Console &console) {
        {"faces", size.faces},
        {"chords", size.chords},
        {"heads", size.heads},
-       {"frame", frame_name(input.surface.info().frame)},
+       {"frame", frame_name(input.files.frame())},
        {"hash", hash_of(valve)},
        {"findings_file", path},
        {"findings", findings_json(findings)}},

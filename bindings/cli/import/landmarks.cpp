@@ -22,40 +22,82 @@ void add_file_options(CLI::App &command, FileOptions &options) {
       ->capture_default_str()
       ->check(one_of({"mm", "cm", "m"}));
   command
-      .add_option("--frame", options.frame,
-                  "frame of the valve, LPS or RAS [that of the surface]; files that state theirs "
-                  "are turned to it")
+      .add_option(
+          "--frame", options.frame,
+          "frame of files that state none, LPS or RAS [that of the surface, else that of the "
+          "landmarks]; the valve is in LPS")
       ->check(one_of({"LPS", "RAS"}));
 }
 
-mvs::SurfaceFile read_surface(const std::string &path, const FileOptions &options,
-                              mvs_patient_frame wanted) {
+PatientFiles::PatientFiles(const FileOptions &options, const std::string &surface)
+    : options_(options), surface_(surface) {
+  add_surface(surface);
+}
+
+void PatientFiles::add_surface(const std::string &path) {
+  if (path.empty() || files_.contains(path)) return;
   mvs_surface_file_options how = {};
-  how.unit = unit_number(options.unit);
-  how.frame = wanted != MVS_PATIENT_FRAME_UNKNOWN ? wanted : frame_number(options.frame);
+  how.unit = unit_number(options_.unit);
+  how.frame = MVS_PATIENT_FRAME_LPS;
   mvs::SurfaceFile file(path, how);
   if (file.info().triangles.count == 0) {
     fail(MVS_E_FORMAT, path, path + ": has points and no triangles: a surface is needed here");
   }
-  return file;
+  files_.emplace(path, std::move(file));
 }
 
-std::vector<double> read_landmarks(const std::string &path, const FileOptions &options,
-                                   mvs_patient_frame surface) {
+void PatientFiles::add_landmarks(const std::string &path) {
+  if (path.empty() || files_.contains(path)) return;
   mvs_surface_file_options how = {};
   const bool states_unit = path.size() > 5 && path.substr(path.size() - 5) == ".json";
-  how.unit = states_unit ? 0 : unit_number(options.unit);
-  how.frame = surface;
-  const mvs::SurfaceFile file(path, how);
-  const mvs_surface_file_info info = file.info();
-  if (surface == MVS_PATIENT_FRAME_UNKNOWN && info.frame != MVS_PATIENT_FRAME_UNKNOWN) {
-    log_to_stderr(nullptr, MVS_LOG_WARNING,
-                  (path + ": is in the frame " + frame_name(info.frame) +
-                   ", the surface states none: both are taken for the same frame")
-                      .c_str());
+  how.unit = states_unit ? 0 : unit_number(options_.unit);
+  how.frame = MVS_PATIENT_FRAME_LPS;
+  files_.emplace(path, mvs::SurfaceFile(path, how));
+}
+
+void PatientFiles::settle_frames() {
+  unstated_ = frame_number(options_.frame);
+  if (unstated_ != MVS_PATIENT_FRAME_UNKNOWN) return;
+  unstated_ = file(surface_).info().file_frame;
+  if (unstated_ != MVS_PATIENT_FRAME_UNKNOWN) return;
+  std::string first;
+  for (const auto &[path, file] : files_) {
+    const mvs_patient_frame stated = file.info().file_frame;
+    if (stated == MVS_PATIENT_FRAME_UNKNOWN) continue;
+    if (unstated_ != MVS_PATIENT_FRAME_UNKNOWN && stated != unstated_) {
+      fail(MVS_E_ARGUMENT, path,
+           first + " is in the frame " + frame_name(unstated_) + ", " + path + " in " +
+               frame_name(stated) + ", and " + surface_ +
+               " states none: give the frame of the surface by --frame");
+    }
+    unstated_ = stated;
+    if (first.empty()) first = path;
   }
-  const mvs::View<double> points(info.points);
-  return {points.begin(), points.end()};
+  if (first.empty()) return;
+  log_to_stderr(nullptr, MVS_LOG_WARNING,
+                (first + ": is in the frame " + frame_name(unstated_) +
+                 ", the surface states none: both are taken for the same frame; if the surface is "
+                 "in the other one, say so by --frame")
+                    .c_str());
+}
+
+std::vector<double> PatientFiles::points(const std::string &path) const {
+  if (path.empty()) return {};
+  const mvs_surface_file_info info = file(path).info();
+  const mvs::View<double> view(info.points);
+  std::vector<double> points(view.begin(), view.end());
+  if (info.file_frame == MVS_PATIENT_FRAME_UNKNOWN && unstated_ == MVS_PATIENT_FRAME_RAS) {
+    for (size_t k = 0; k < points.size(); ++k) {
+      if (k % 3 != 2) points[k] = -points[k];
+    }
+  }
+  return points;
+}
+
+mvs_patient_frame PatientFiles::frame() const {
+  const bool known = file(surface_).info().file_frame != MVS_PATIENT_FRAME_UNKNOWN ||
+                     unstated_ != MVS_PATIENT_FRAME_UNKNOWN;
+  return known ? MVS_PATIENT_FRAME_LPS : MVS_PATIENT_FRAME_UNKNOWN;
 }
 
 double metres(mvs_length_unit unit) {

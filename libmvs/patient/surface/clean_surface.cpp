@@ -66,14 +66,20 @@ double extent_of(const LeafletSheet &sheet, const std::vector<uint8_t> &marks) {
 void check_extent(double extent) {
   if (extent >= least_extent && extent <= most_extent) return;
   struct Unit {
-    double metres;
-    const char *name;
+    double factor;
+    const char *sentence;
   };
-  for (const auto &[metres, name] : {Unit{1e-3, "mm"}, {1e-2, "cm"}, {1e-6, "um"}}) {
-    MVS_MUST(extent * metres < least_extent || extent * metres > most_extent, MVS_E_OP, "points",
-             "this surface is %.4g m wide: its lengths seem to be in %s; divide by %.0f or give "
-             "--unit %s",
-             extent, name, 1 / metres, name);
+  constexpr Unit units[] = {
+      {1e-3, "its lengths seem to be in mm; divide by 1000 or give --unit mm"},
+      {1e-2, "its lengths seem to be in cm; divide by 100 or give --unit cm"},
+      {1e3, "its lengths seem to be in m and taken for mm; multiply by 1000 or give --unit m"},
+      {10, "its lengths seem to be in cm and taken for mm; multiply by 10 or give --unit cm"},
+      {1e2, "its lengths seem to be in m and taken for cm; multiply by 100 or give --unit m"},
+      {1e-6, "its lengths seem to be in um; divide by 1000000"},
+  };
+  for (const auto &[factor, sentence] : units) {
+    MVS_MUST(extent * factor < least_extent || extent * factor > most_extent, MVS_E_OP, "points",
+             "this surface is %.4g m wide: %s", extent, sentence);
   }
   fail(MVS_E_OP, "points",
        "this surface is %.4g m wide; a mitral valve is %.0f to %.0f mm wide: give lengths in m, of "

@@ -16,10 +16,14 @@ namespace {
 // The way along the edge over the chord from which on it is a notch: a missing triangle has 2, a
 // missing square 3. The dip of a normal free edge at a commissure has 1.4 and stays, unless the
 // edge is torn, with three sharp notches or more: then what is between tears is no shape of the
-// leaflet.
+// leaflet, and valleys may be tears as well.
 constexpr double sharp_detour = 1.5, gentle_detour = 1.2;
 constexpr size_t sharp_of_torn = 3;
-constexpr double bottom = 0.3e-3;     // m: vertices of a cleft less above its deepest one
+constexpr double bottom = 0.3e-3;  // m: vertices of a cleft less above its deepest one
+// A valley of the edge is seen by chords up to this length, half as long again as the mouth of a
+// notch: a notch is no deeper there. Straight sides with the detour of a notch are 0.56 of the
+// chord deep.
+constexpr double widest_valley = 1.5 * widest_notch, valley_depth = 0.5;
 constexpr size_t most_vertices = 60;  // of a notch; three voxels a mm over 20 mm
 
 struct Notch {
@@ -128,20 +132,27 @@ class FreeEdge {
     return (off - share * along).norm();
   }
 
-  // Marks the bottoms of clefts, which are narrow and too deep to be notches, so that no notch has
+  // Whether a stretch of the edge is deeper than wide, or a valley: beyond the widest notch it goes
+  // on as steep as the sides of one. A torn edge has no valleys.
+  bool is_cleft(const Notch &cleft, double way) const {
+    if (cleft.width <= widest_notch) return cleft.depth > std::max(deepest_notch, cleft.width);
+    return detour_ >= sharp_detour && way >= sharp_detour * cleft.width &&
+           cleft.depth > std::max(deepest_notch, valley_depth * cleft.width);
+  }
+
+  // Marks the bottoms of clefts and valleys, which are too deep to be notches, so that no notch has
   // such a bottom. The corner of the orifice at a commissure is one as well.
   void keep_clefts() {
     std::vector<uint8_t> is_bottom(sheet_.x.size(), 0);
     for (size_t first = 0; first < loop_.size(); ++first) {
+      double way = 0;
       Vec3 normal = normal_[vertex(first)];
       for (size_t step = 1; step <= std::min(most_vertices, loop_.size() - 3); ++step) {
+        way += (at(first + step) - at(first + step - 1)).norm();
         normal += normal_[vertex(first + step)];
         Notch cleft{first, step + 1, 0, (at(first + step) - at(first)).norm(), 0};
-        // a cleft is deeper than wide
-        if (step < 2 || cleft.width > widest_notch) continue;
-        if (!is_inward(cleft, normal) || cleft.depth <= std::max(deepest_notch, cleft.width)) {
-          continue;
-        }
+        if (step < 2 || cleft.width > widest_valley) continue;
+        if (!is_inward(cleft, normal) || !is_cleft(cleft, way)) continue;
         for (size_t k = 1; k < step; ++k) {
           if (depth_of(cleft, k) > cleft.depth - bottom) is_bottom[vertex(first + k)] = 1;
         }

@@ -9,6 +9,7 @@
 #include "model/sides.h"
 #include "patient/findings.h"
 #include "patient/surface/boundary.h"
+#include "patient/surface/manifold.h"
 #include "patient/surface/weld.h"
 
 namespace mvs::core {
@@ -30,6 +31,22 @@ bool may_move(const LeafletSheet &sheet, std::span<const uint32_t> star, uint32_
   });
 }
 
+// The share of the edges at which the skin turns by more than 15 degrees.
+double share_of_bends(const LeafletSheet &skin) {
+  constexpr double bend = 0.966;
+  const std::vector<uint32_t> across = join_sides(skin.x, skin.triangles).across;
+  std::vector<Vec3> normal;
+  for (const Tri &t : skin.triangles)
+    normal.push_back(area_at(skin, t, none, Vec3::Zero()).normalized());
+  size_t bends = 0, all = 0;
+  for (size_t side = 0; side < across.size(); ++side) {
+    if (across[side] == none) continue;
+    ++all;
+    bends += normal[side / 3].dot(normal[across[side] / 3]) < bend;
+  }
+  return all == 0 ? 0 : static_cast<double>(bends) / static_cast<double>(all);
+}
+
 }  // namespace
 
 int smooth_skin(LeafletSheet &skin, double thickness, Findings &findings) {
@@ -37,6 +54,10 @@ int smooth_skin(LeafletSheet &skin, double thickness, Findings &findings) {
   const double fineness = thickness / median_edge(skin.x, skin.triangles);
   const int rounds = static_cast<int>(std::min(most_rounds, 4 * fineness * fineness));
   if (rounds == 0) return 0;
+  // Rims of a smooth skin bend at a few edges, and filters would round them off; steps of voxels
+  // bend at a quarter of all.
+  constexpr double rough = 0.12;
+  if (share_of_bends(skin) < rough) return 0;
   std::vector<std::vector<uint32_t>> around(skin.x.size());
   const Rows stars = rows_of(skin.x.size(), skin.triangles);
   for (uint32_t i = 0; i < around.size(); ++i)

@@ -7,7 +7,8 @@ namespace mvs::core {
 
 // Removes the steps and the noise of a closed skin whose triangles are smaller than the tissue is
 // thick, by Taubin's filter (1995), which keeps the volume. Waves shorter than about one and a half
-// thicknesses go. Returns the number of its rounds, 0 for a coarse skin.
+// thicknesses go. Returns the number of its rounds, 0 for a coarse or
+// smooth skin, whose rims it would only round off.
 int smooth_skin(LeafletSheet &skin, double thickness, Findings &findings);
 
 // Moves vertices of the boundary towards the middle of their neighbours along it, `rounds` times,
