@@ -126,7 +126,7 @@ class TrianglePlane {
 };
 
 // Whether the corners of `other` that it does not share with the triangle of the plane are all
-// surely on one side. Then the two do not cross: what `other` has of the plane is what they share.
+// surely on one side. Then the two do not cross: only the shared corners are in the plane.
 bool is_beside(const TrianglePlane &plane, const Tri &of_plane, const Tri &other,
                const std::vector<Vec3> &x) {
   int side = 0;
