@@ -49,11 +49,15 @@ class BendingTerm {
     double rest_angle;             // rad
   };
   static double energy_of(const Hinge &h, const std::vector<Vec3> &x);  // J
+  static double energy_at(const Hinge &h, double angle);
   template <typename Gradient>
   void add_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
                  Gradient &to) const;
   template <typename System>
   void add_exact(const std::vector<Vec3> &x, System &system) const;
+  template <typename System>
+  void add_exact_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
+                       System &system) const;
   template <typename System>
   void add_projected(const std::vector<Vec3> &x, System &system) const;
 

@@ -100,6 +100,45 @@ bool is_folded_flat(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) 
   return false;
 }
 
+// The plane of a triangle for many points: the sign of orient3d_sign() where its filter decides.
+class TrianglePlane {
+ public:
+  TrianglePlane(const Vec3 &a, const Vec3 &b, const Vec3 &c) : a_(a) {
+    const Vec3 u = b - a, v = c - a;
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      const double left = u[i] * v[j], right = u[j] * v[i];
+      minor_[k] = left - right;
+      permanent_[k] = std::abs(left) + std::abs(right);
+    }
+  }
+  // 0 where the point is on the plane, or rounding might have put it on this side.
+  int sure_side_of(const Vec3 &p) const {
+    const Vec3 w = p - a_;
+    const double det = minor_[2] * w[2] + minor_[0] * w[0] + minor_[1] * w[1];
+    const double permanent = permanent_[2] * std::abs(w[2]) + permanent_[0] * std::abs(w[0]) +
+                             permanent_[1] * std::abs(w[1]);
+    return std::abs(det) > orient3d_bound * permanent ? sign_of(det) : 0;
+  }
+
+ private:
+  Vec3 a_, minor_, permanent_;
+};
+
+// Whether the corners of `other` that it does not share with the triangle of the plane are all
+// surely on one side. Then the two do not cross: only the shared corners are in the plane.
+bool is_beside(const TrianglePlane &plane, const Tri &of_plane, const Tri &other,
+               const std::vector<Vec3> &x) {
+  int side = 0;
+  for (const uint32_t node : other) {
+    if (node == of_plane[0] || node == of_plane[1] || node == of_plane[2]) continue;
+    const int of_node = plane.sure_side_of(x[node]);
+    if (of_node == 0 || of_node == -side) return false;
+    side = of_node;
+  }
+  return side != 0;
+}
+
 // Reorders the corners of both triangles, the shared ones first and in the same order. Returns how
 // many are shared.
 uint32_t shared_first(Tri &s, Tri &t) {
@@ -169,9 +208,14 @@ bool triangles_cross(const std::vector<Vec3> &x, const Tri &first, const Tri &se
 std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
                                      const std::vector<Tri> &triangles) {
   const TriangleBvh bvh(triangles, x);
+  std::vector<TrianglePlane> plane;
+  plane.reserve(triangles.size());
+  for (const Tri &t : triangles) plane.emplace_back(x[t[0]], x[t[1]], x[t[2]]);
   std::vector<Edge> crossing;
   bvh.for_near_pairs(0, [&](uint32_t a, uint32_t b) {
     if (!bvh.box_of(a).overlaps(bvh.box_of(b))) return;
+    if (is_beside(plane[a], triangles[a], triangles[b], x)) return;
+    if (is_beside(plane[b], triangles[b], triangles[a], x)) return;
     const uint32_t s = std::min(a, b), t = std::max(a, b);
     if (triangles_cross(x, triangles[s], triangles[t])) crossing.push_back({s, t});
   });

@@ -14,6 +14,9 @@ class Settling {
   // To be called once, after the end: moves the result to `state`, which holds the state that the
   // settle began with.
   virtual SolveStats finish(State &state) = 0;
+  // Before the first advance(): whether more nodes are far from rest than a local subproblem may
+  // have. Only Newton's method looks.
+  virtual bool begins_far_from_rest() const { return false; }
 };
 
 // Advances to the end.

@@ -83,6 +83,7 @@ class ValveSettling final : public Settling {
       : loop_(std::move(loop)), tolerance_(tolerance) {}
 
   bool advance() override { return loop_->advance(); }
+  bool begins_far_from_rest() const override { return loop_->begins_far_from_rest(); }
 
   SolveStats finish(State &state) override {
     State nodes = ToolPoints::extended(state);

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <random>
@@ -238,6 +239,36 @@ TEST_CASE("crossing_pairs_are_those_of_brute_force") {
     found += expected.size();
   }
   CHECK(found > 400);
+}
+
+TEST_CASE("pairs_that_share_nodes_cross_as_each_pair_alone") {
+  std::mt19937 random(5);
+  std::uniform_int_distribution<uint32_t> node(0, 8);
+  size_t found = 0, shared = 0;
+  for (int round = 0; round < 400; ++round) {
+    std::vector<Vec3> x;
+    // small lattices have many coplanar and flat triangles
+    for (int k = 0; k < 9; ++k) x.push_back(real(random_point(random, 1 + round % 3)));
+    std::vector<Tri> triangles;
+    while (triangles.size() < 12) {
+      const Tri t = {node(random), node(random), node(random)};
+      if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
+    }
+    std::vector<Edge> expected;
+    for (uint32_t s = 0; s < triangles.size(); ++s) {
+      for (uint32_t t = s + 1; t < triangles.size(); ++t) {
+        if (!triangles_cross(x, triangles[s], triangles[t])) continue;
+        expected.push_back({s, t});
+        shared += std::any_of(triangles[s].begin(), triangles[s].end(), [&](uint32_t node) {
+          return std::find(triangles[t].begin(), triangles[t].end(), node) != triangles[t].end();
+        });
+      }
+    }
+    CHECK(find_intersections(x, triangles) == expected);
+    found += expected.size();
+  }
+  CHECK(shared > 1000);
+  CHECK(found - shared > 1000);
 }
 
 TEST_CASE("a_sheet_does_not_cross_itself") {

@@ -67,12 +67,41 @@ TEST_CASE("a_small_valve_and_one_near_rest_are_settled_without_a_hierarchy") {
       solver.settle(*model, plain, {}, {});
       plain.load.pressure *= 1.02;
       CHECK_FALSE(far_from_rest(*model, plain));
+      CHECK_FALSE(solver.begin_settle(*model, plain, {}, {})->begins_far_from_rest());
     }
     State levels = plain;
     solver.settle(*model, plain, {}, {});
     settle_with_mesh_hierarchy(solver, *model, levels, {}, {});
     CHECK(hash_of(*model, plain) == hash_of(*model, levels));
   }
+}
+
+TEST_CASE("a_settle_knows_whether_it_begins_far_from_rest") {
+  const ModelPtr model = valve_of(500);
+  Solver solver(Backend::fastest);
+  State state = loaded(*model);
+  const auto begins_far = [&] {
+    return solver.begin_settle(*model, state, {}, {})->begins_far_from_rest();
+  };
+  CHECK(begins_far());  // open under the full load
+  solver.settle(*model, state, {}, {});
+  CHECK_FALSE(begins_far());
+  state.load.boundary_fraction = 0.5;  // the annulus is to move
+  CHECK(begins_far() == far_from_rest(*model, state));
+}
+
+TEST_CASE("a_coarse_mesh_leads_away_from_nodes_in_one_place") {
+  const ModelPtr model = valve_of(500);
+  Solver solver(Backend::fastest);
+  State state = loaded(*model);
+  std::vector<Vec3> x = state.x;
+  const Tri &t = model->valve.triangles[0];
+  x[t[0]] = x[t[1]];
+  state.x = x;
+  State plain = state;
+  // the triangle is flat and the angles of its hinges are not defined
+  CHECK_THROWS_AS(solver.settle(*model, plain, {}, {}), Error);
+  CHECK(settle_with_mesh_hierarchy(solver, *model, state, {}, {}).converged);
 }
 
 TEST_CASE("exponential_tissue_closes_over_a_bilinear_surrogate_in_fewer_iterations") {

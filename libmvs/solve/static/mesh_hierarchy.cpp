@@ -34,10 +34,11 @@ struct Level {
   bool has_coarser = false;
 };
 
+// Whether the level may have a coarser one if it is far from rest.
 bool may_coarsen(const Level &level) {
   return level.options.solver <= SolverKind::newton &&
          sheet_vertices(*level.model) >= extent_for(*level.model).min_vertices &&
-         level.state.tools.empty() && far_from_rest(*level.model, level.state);
+         level.state.tools.empty();
 }
 
 Progress part_of(const Progress &whole, double from, double to) {
@@ -159,11 +160,11 @@ class HierarchySettling final : public Settling {
                     const SolveOptions &options, const Progress &progress)
       : solver_(&solver) {
     levels_.push_back({&model, nullptr, nullptr, state, options, progress});
-    if (may_coarsen(levels_.back()) && has_tissue_with_surrogate(model)) {
+    if (has_tissue_with_surrogate(model) && is_to_coarsen()) {
       levels_.back().has_coarser = true;
       levels_.push_back(surrogate_of(levels_.back(), solver.coarse_levels()));
     }
-    while (may_coarsen(levels_.back())) {
+    while (is_to_coarsen()) {
       std::optional<Level> next = coarser(levels_.back(), solver.coarse_levels());
       if (!next) break;
       levels_.back().has_coarser = true;
@@ -178,6 +179,7 @@ class HierarchySettling final : public Settling {
     Level coarse = std::move(levels_.back());
     levels_.pop_back();
     spent_ = finish_level(coarse);
+    running_.reset();
     start_from(coarse, levels_.back(), spent_);
     begin_level();
     return true;
@@ -190,7 +192,28 @@ class HierarchySettling final : public Settling {
   }
 
  private:
+  // Whether the last level needs a coarser one: it is far from rest. If not, its settle has begun,
+  // since it is the settle that evaluates the forces.
+  bool is_to_coarsen() {
+    const Level &level = levels_.back();
+    if (running_ || !may_coarsen(level)) return false;
+    if (!boundary_is_there(*level.model, level.state.x, level.state.load.boundary_fraction, 0)) {
+      return true;
+    }
+    try {
+      begin_level();
+    } catch (const Error &error) {
+      // a coarser level may lead away from positions without finite forces
+      if (error.code != MVS_E_DIVERGED) throw;
+      return far_from_rest(*level.model, level.state);
+    }
+    if (!running_->begins_far_from_rest()) return false;
+    running_.reset();
+    return true;
+  }
+
   void begin_level() {
+    if (running_) return;
     const Level &level = levels_.back();
     const double before = level.has_coarser ? settings::mesh_hierarchy::coarse_progress : 0;
     running_ = solver_->begin_settle(*level.model, level.state, level.options,
@@ -208,7 +231,7 @@ class HierarchySettling final : public Settling {
 
   Solver *solver_;
   std::vector<Level> levels_;  // the finest first; the last one is being settled
-  std::unique_ptr<Settling> running_;
+  std::unique_ptr<Settling> running_;  // of the last level; null until it has begun
   SolveStats spent_;  // of the coarser levels
 };
 

@@ -90,6 +90,10 @@ SolveStats Newton::finish(State &state) {
   return stats_;
 }
 
+bool Newton::has_many_disturbed() const {
+  return are_many(disturbed_nodes(*model_, at_.gradient, forces_.rest), at_.x.size());
+}
+
 void Newton::presolve_locally(const Load &load) {
   const std::vector<uint32_t> disturbed = disturbed_nodes(*model_, at_.gradient, forces_.rest);
   const size_t nodes = at_.x.size();

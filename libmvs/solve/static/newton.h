@@ -64,6 +64,8 @@ class Newton {
   // Settles the neighbourhood of a few disturbed nodes, held by the remaining valve: many
   // iterations there cost less than one of the whole valve.
   void presolve_locally(const Load &load);
+  // Whether more nodes are disturbed than a local subproblem may have.
+  bool has_many_disturbed() const;
   void iterate(PolishSchedule &polish);
   void move_boundary(BoundaryRamp &ramp);
   // Whether the present positions, which are in equilibrium, are a stable one. If not, the valve

@@ -19,6 +19,7 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
     : tolerance_(options.tolerance()),
       most_(max_iterations(options)),
       checks_stability_(options.checks_stability),
+      load_(state.load),
       newton_(model, factor),
       ramp_(model, state.load.boundary_fraction),
       polish_{},
@@ -28,13 +29,17 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
   newton_.begin(state, max_displacement);
   polish_.best_residual = newton_.rest_force();
   // a local subproblem has no tools
-  if (state.tools.empty() && max_displacement == 0 && ramp_.is_there(newton_.x())) {
-    newton_.presolve_locally(state.load);
-  }
+  may_presolve_ = state.tools.empty() && max_displacement == 0 && ramp_.is_there(newton_.x());
+}
+
+bool NewtonSettling::begins_far_from_rest() const {
+  return !ramp_.is_there(newton_.x()) || newton_.has_many_disturbed();
 }
 
 bool NewtonSettling::advance() {
   const AddedTime timer(seconds_);
+  if (may_presolve_) newton_.presolve_locally(load_);
+  may_presolve_ = false;
   const bool arrived = ramp_.is_there(newton_.x());
   const bool balanced = arrived && newton_.residual() <= tolerance_;
   converged_ = balanced && (!checks_stability_ || newton_.is_stable());

@@ -19,13 +19,16 @@ class NewtonSettling final : public Settling {
   bool advance() override;
   // Sets velocities to zero.
   SolveStats finish(State &state) override;
+  bool begins_far_from_rest() const override;
 
  private:
   double seconds_ = 0;
   double tolerance_;  // N
   uint32_t most_;     // iterations
   bool checks_stability_;
+  bool may_presolve_;  // a local subproblem, in the first iteration
   bool converged_ = false;
+  Load load_;
   Newton newton_;
   BoundaryRamp ramp_;
   PolishSchedule polish_;

@@ -21,9 +21,7 @@ void NewtonSystem::assemble(Curvature curvature, Profile &profile) {
   curvature_ = curvature;
   if (total_energy_->hessian(*x_, curvature, assembler_, profile)) {
     assembler_.keep_order(++patterns_ % settings::newton::patterns_per_order != 0);
-    poll_();
-    const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
-    factor_->analyse(assembler_.matrix);
+    is_analysed_ = false;
   }
   diagonal_.resize(assembler_.node_of.size());
   for (size_t r = 0; r < diagonal_.size(); ++r) {
@@ -38,6 +36,15 @@ void NewtonSystem::assemble(Curvature curvature, const std::vector<Vec3> &bounda
   assembler_.boundary_step = nullptr;
 }
 
+// Where only the stability is checked the matrix is never factorised here.
+void NewtonSystem::analyse(Profile &profile) {
+  if (is_analysed_) return;
+  poll_();
+  const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
+  factor_->analyse(assembler_.matrix);
+  is_analysed_ = true;
+}
+
 void NewtonSystem::add_lambda(double lambda) {
   applied_lambda_ = std::max(lambda, settings::newton::min_lambda);
   for (size_t r = 0; r < diagonal_.size(); ++r) {
@@ -49,6 +56,7 @@ void NewtonSystem::add_lambda(double lambda) {
 }
 
 bool NewtonSystem::try_factorise(double lambda, SolveStats &stats) {
+  analyse(stats.work);
   const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
   add_lambda(lambda);
   poll_();

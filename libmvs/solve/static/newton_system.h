@@ -59,6 +59,7 @@ class NewtonSystem {
   void release() { hold_.clear(); }
 
  private:
+  void analyse(Profile &profile);
   void add_lambda(double lambda);
   void solve_rows(std::vector<Vec3> &rows, SolveStats &stats);
   void solve_exactly(bool with_lambda, SolveStats &stats);
@@ -79,6 +80,7 @@ class NewtonSystem {
   BlockSpmv product_;
   double applied_lambda_ = 0;  // in the factor
   uint32_t patterns_ = 0;      // of the matrix so far
+  bool is_analysed_ = false;   // the present one, by the factor
 };
 
 }  // namespace mvs::core
