@@ -24,7 +24,8 @@ constexpr double bottom = 0.3e-3;  // m: vertices of a cleft less above its deep
 // notch: a notch is no deeper there. Straight sides with the detour of a notch are 0.56 of the
 // chord deep.
 constexpr double widest_valley = 1.5 * widest_notch, valley_depth = 0.5;
-constexpr size_t most_vertices = 60;  // of a notch; three voxels a mm over 20 mm
+constexpr size_t most_vertices = 60;                  // of a notch; three voxels a mm over 20 mm
+constexpr double longest_valley = 3 * widest_valley;  // along the edge: 13 mm deep
 
 struct Notch {
   size_t first = 0, count = 0;  // in the loop: the ends and the vertices between
@@ -147,8 +148,9 @@ class FreeEdge {
     for (size_t first = 0; first < loop_.size(); ++first) {
       double way = 0;
       Vec3 normal = normal_[vertex(first)];
-      for (size_t step = 1; step <= std::min(most_vertices, loop_.size() - 3); ++step) {
+      for (size_t step = 1; step <= loop_.size() - 3; ++step) {
         way += (at(first + step) - at(first + step - 1)).norm();
+        if (way > longest_valley) break;
         normal += normal_[vertex(first + step)];
         Notch cleft{first, step + 1, 0, (at(first + step) - at(first)).norm(), 0};
         if (step < 2 || cleft.width > widest_valley) continue;
