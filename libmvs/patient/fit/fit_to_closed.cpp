@@ -20,7 +20,7 @@ constexpr double difference = 0.01;
 // Fits are as good as the best one if their distance is at most this much larger: less than two
 // segmentations of one valve differ by.
 constexpr double as_good_share = 1.1, as_good_distance = 0.05e-3;  // m
-// m, RMS: leaflets move by 5 mm and more when they close; the sides of thick ones lie 1 mm off.
+// m, RMS: leaflets move by 3 to 5 mm as they close (median); the sides of thick ones lie 1 mm off.
 constexpr double nearest_open = 1e-3;
 constexpr uint64_t start_seed = 22;  // of the other starts
 
