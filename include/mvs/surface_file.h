@@ -1,8 +1,8 @@
 /* Reads a patient's surface, or landmarks, from a file of another program: points, triangles, named
  * arrays and names of points, in m and in a known frame. Experimental (experimental.h).
  *
- * Surfaces: STL, PLY, OBJ, OFF, VTK legacy PolyData (.vtk) and VTK XML PolyData (.vtp,
- * uncompressed). Polygons of more than three corners are cut into fans of triangles. Landmarks and
+ * Surfaces: STL, PLY, OBJ, OFF, VTK legacy PolyData (.vtk) and VTK XML PolyData (.vtp, uncompressed
+ * or by zlib). Polygons of more than three corners are cut into fans of triangles. Landmarks and
  * curves: 3D Slicer's .mrk.json and .fcsv, .csv tables, and .vtk, .vtp, .ply, .obj without
  * triangles; points of curves are in their order. formats/FORMAT.md has the details. */
 #ifndef MVS_SURFACE_FILE_H

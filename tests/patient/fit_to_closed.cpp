@@ -175,6 +175,15 @@ TEST_CASE("closed_surfaces_of_another_frame_are_refused") {
                        doctest::Contains("9999"), Error);
 }
 
+TEST_CASE("the_open_surface_is_refused_as_the_closed_one") {
+  Valve valve = patient_valve(200);
+  Findings findings;
+  ClosedSurface surface{valve.rest, valve.triangles};
+  for (Vec3 &p : surface.points) p += Vec3(0, 0, 0.3 * mm);
+  CHECK_THROWS_WITH_AS(fit_to_closed(valve, surface, {}, findings),
+                       doctest::Contains("lies on the open one"), Error);
+}
+
 TEST_CASE("a_leak_comes_with_those_of_shorter_and_longer_chordae") {
   Valve valve = patient_valve(200);
   // chordae that are a quarter too short hold the leaflets apart

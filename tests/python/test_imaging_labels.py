@@ -1,6 +1,7 @@
 """mvs.imaging: label maps become mid-surfaces of leaflets; faults are refused with a sentence."""
 
 import json
+import types
 
 import mvs
 import numpy as np
@@ -14,8 +15,9 @@ from mvs import imaging  # noqa: E402
 from mvs.imaging import mesh  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
 from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
+from mvs.imaging.page import distance_histogram  # noqa: E402
 from mvs.imaging.requests import edge_of_labels, thickness_of_labels  # noqa: E402
-from mvs.imaging.valve import check_closed  # noqa: E402
+from mvs.imaging.valve import check_closed, distance_from_image  # noqa: E402
 
 VOXEL = 0.7  # mm, of ultrasound
 
@@ -185,6 +187,21 @@ def test_the_open_image_given_as_the_loaded_one_is_refused():
         imaging.build(leaflets, {}, same)
     moved = mesh.Sheet(same.points + [0, 0, 3e-3], same.triangles)
     check_closed(moved, same)
+
+
+def test_the_histogram_of_the_page_shows_the_distance_of_the_table(monkeypatch):
+    """Both count the points of both surfaces, each surface by a half."""
+    axes = pytest.importorskip("matplotlib.axes")
+    with mvs.Simulator() as sim:
+        sim.generate()
+        closed = sim.snapshot()
+    part = np.asarray(closed.triangle_nodes)[::7]  # the other way leads to the gaps as well
+    loaded = mesh.Sheet(np.asarray(closed.node_position) + [0, 0, 1e-3], part)
+    drawn, axvline = [], axes.Axes.axvline
+    monkeypatch.setattr(axes.Axes, "axvline",
+                        lambda self, x, **how: (drawn.append(x), axvline(self, x, **how)))
+    distance_histogram(types.SimpleNamespace(closed=closed, loaded=loaded))
+    assert drawn == [pytest.approx(1e3 * distance_from_image(closed, loaded).values[0])]
 
 
 def test_spacing_in_metres_or_cm_and_other_files_are_refused(tmp_path):

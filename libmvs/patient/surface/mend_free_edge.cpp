@@ -25,6 +25,9 @@ constexpr double bottom = 0.3e-3;  // m: vertices of a cleft less above its deep
 // chord deep.
 constexpr double widest_valley = 1.5 * widest_notch, valley_depth = 0.5;
 constexpr size_t most_vertices = 60;  // of a notch; three voxels a mm over 20 mm
+// Along the edge: 13 mm deep. A cleft of a coarse edge may be longer, so that the corner of a
+// narrow orifice is one.
+constexpr double longest_valley = 3 * widest_valley;
 
 struct Notch {
   size_t first = 0, count = 0;  // in the loop: the ends and the vertices between
@@ -147,8 +150,9 @@ class FreeEdge {
     for (size_t first = 0; first < loop_.size(); ++first) {
       double way = 0;
       Vec3 normal = normal_[vertex(first)];
-      for (size_t step = 1; step <= std::min(most_vertices, loop_.size() - 3); ++step) {
+      for (size_t step = 1; step <= loop_.size() - 3; ++step) {
         way += (at(first + step) - at(first + step - 1)).norm();
+        if (step > most_vertices && way > longest_valley) break;
         normal += normal_[vertex(first + step)];
         Notch cleft{first, step + 1, 0, (at(first + step) - at(first)).norm(), 0};
         if (step < 2 || cleft.width > widest_valley) continue;

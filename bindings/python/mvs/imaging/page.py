@@ -136,18 +136,20 @@ def _loaded(made: ImageValve) -> str:
 
 
 def distance_histogram(made: ImageValve) -> bytes:
-    """Distances of the loaded surface from the simulated closed valve."""
-    from .valve import distances
+    """Distances between the loaded surface and the simulated closed valve, from the points of both."""
+    from .valve import distances_from_image
 
     assert made.loaded is not None
     drawing = need("mvs.drawing.pictures")
-    away = distances(made.loaded.points, *leaflet_mesh(made.closed)) * 1e3
+    away, weights = distances_from_image(made.closed, made.loaded)
+    away = away * 1e3
     shown = drawing.new_figure(8, 4)
     ax = shown.add_axes((0.1, 0.16, 0.86, 0.8))
-    ax.hist(away, np.linspace(0, max(2.0, float(np.percentile(away, 99.5))), 41), color="#8d99ae")
-    ax.axvline(float(np.sqrt((away ** 2).mean())), color=COLOURS["mesh"], label="RMS")
+    ax.hist(away, np.linspace(0, max(2.0, float(np.percentile(away, 99.5))), 41), weights=100 * weights,
+            color="#8d99ae")
+    ax.axvline(float(np.sqrt((weights * away ** 2).sum())), color=COLOURS["mesh"], label="RMS")
     ax.set_xlabel("distance, mm")
-    ax.set_ylabel("points in the loaded image")
+    ax.set_ylabel("share of both surfaces, %")
     ax.legend(frameon=False)
     return bytes(drawing.to_png(shown))
 

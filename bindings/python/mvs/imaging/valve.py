@@ -147,13 +147,21 @@ def _distance_of_meshes(opened: mvs.Snapshot, sheet: Sheet) -> mvs.Finding:
                    f"{high * 1e3:.2f} mm, from the mesh", [rms, high], "m")
 
 
-def distance_from_image(closed: mvs.Snapshot, loaded: Sheet) -> mvs.Finding:
-    """How far the simulated closed valve lies from the leaflets in the loaded image, both ways."""
+def distances_from_image(closed: mvs.Snapshot, loaded: Sheet) -> tuple[Points, Points]:
+    """Distances, m, between the simulated closed leaflets and those in the loaded image, from the points
+    of both, and their weights: each surface has a half."""
     points, triangles = leaflet_mesh(closed)
     back = distances(loaded.points, points, triangles)
     there = distances(points[np.unique(triangles)], loaded.points, loaded.triangles)
-    rms = float(np.sqrt(((back ** 2).mean() + (there ** 2).mean()) / 2))
-    high = float(np.percentile(np.concatenate([back, there]), 95))
+    weights = [np.full(len(one), 0.5 / len(one)) for one in (back, there)]
+    return np.concatenate([back, there]), np.concatenate(weights)
+
+
+def distance_from_image(closed: mvs.Snapshot, loaded: Sheet) -> mvs.Finding:
+    """How far the simulated closed valve lies from the leaflets in the loaded image, both ways."""
+    away, weights = distances_from_image(closed, loaded)
+    rms = float(np.sqrt((weights * away ** 2).sum()))
+    high = float(np.percentile(away, 95))
     return finding("closed_distance", mvs.FindingSource.MEASURED, 1.0,
                    f"under load the simulated valve lies {rms * 1e3:.2f} mm RMS from the leaflets in the "
                    f"loaded image, 95 % of it within {high * 1e3:.2f} mm", [rms, high], "m")

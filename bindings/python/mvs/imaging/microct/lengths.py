@@ -24,6 +24,11 @@ SAME_CHORD = 4e-3
 """m: an insertion in the loaded image this near to a simulated one may be the same"""
 MOST_CHANGE = 0.25
 """A way that differs by more between the images is of two different chordae."""
+SAME_CHANGE = 0.1
+"""Changes of lengths that differ by more from their median are of ways that were paired wrongly, or lead over
+chordae that touch in one image."""
+LEAST_PAIRS = 5
+"""Of so many pairs and more the median is that of all chordae."""
 LEAST_SEGMENT = 0.3
 """The last segment of a way keeps at least this share of its length in the open image."""
 
@@ -57,7 +62,8 @@ def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNe
 
     Fixed-point iteration on the closed valve: the loaded length over the stretch that the law of the
     chords has under the simulated tension, 1 for slack chordae, whose arcs are as long as at rest.
-    Chords that are found in one image only keep the length of the open image.
+    Chords whose change is not known get the median one (`agreed_changes`): lengths in the open image have
+    an error in common, as paths cut slack arcs short where these touch, and end before the heads do.
     """
     rest = np.array(valve.chord_rest_length)
     open_rest = rest.copy()
@@ -66,13 +72,19 @@ def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNe
     pairs = paired_ways(closed, network, loaded, valve)
     stats = None
     opened = closed
+    ways = ways_of(network)
+    loaded_length = {way: length for way, length in pairs}
     for _ in range(2):
         stretched = np.maximum(_lengths(closed, valve), rest)
-        for way, length in pairs:
+        before = np.array([open_rest[list(way.segments)].sum() for way in ways])
+        change = np.full(len(ways), np.nan)
+        for k, way in enumerate(ways):
             chain = list(way.segments)
-            before = open_rest[chain].sum()
-            wanted = (length + moved[chain].sum()) * rest[chain].sum() / stretched[chain].sum()
-            wanted = np.clip(wanted, (1 - MOST_CHANGE) * before, (1 + MOST_CHANGE) * before)
+            if way in loaded_length:
+                wanted = (loaded_length[way] + moved[chain].sum()) * rest[chain].sum() / stretched[chain].sum()
+                change[k] = np.clip(wanted / before[k], 1 - MOST_CHANGE, 1 + MOST_CHANGE)
+        for way, wanted in zip(ways, before * agreed_changes(change)):
+            chain = list(way.segments)
             last = chain[-1]
             rest[last] = max(wanted - rest[chain[:-1]].sum(), LEAST_SEGMENT * open_rest[last])
         valve.chord_rest_length = rest.copy()
@@ -85,13 +97,27 @@ def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNe
         _sentence_of(found, len(ways_of(network))), rest / open_rest - 1, "")
 
 
+def agreed_changes(change: Points) -> Points:
+    """Factors on the lengths of all chordae from those of the paired ones, which are numbers; others are nan.
+
+    The median for chordae without a number, and for those whose number is far from it. With few pairs each
+    number is its own, and 1 where there is none.
+    """
+    known = np.isfinite(change)
+    if known.sum() < LEAST_PAIRS:
+        return np.where(known, change, 1.0)
+    median = float(np.median(change[known]))
+    near = known & (np.abs(np.where(known, change, median) / median - 1) <= SAME_CHANGE)
+    return np.where(near, change, median)
+
+
 def _sentence_of(change: Points, count: int) -> str:
     if not len(change):
         return ("no chord of the open image was found in the loaded one: all keep the length that they have "
                 "in the open image, and nothing shows whether they are as long under load")
     return (f"{len(change)} of {count} chordae were found in the loaded image, too; their rest lengths "
             f"changed by {100 * np.median(change):.1f} % in the median, so that they are as long under load "
-            "as there")
+            "as there" + ("; those of the others by as much" if len(change) >= LEAST_PAIRS else ""))
 
 
 def _lengths(closed: mvs.Snapshot, valve: mvs.Valve) -> Points:
