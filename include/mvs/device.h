@@ -233,7 +233,7 @@ typedef struct mvs_device_report {
   double angular_stiffness; /* N m/rad, largest one of that model; 0 if it has no torque */
 } mvs_device_report;
 
-/* Exchanges hand and tissue data between device and valve; to be called before each mvs_step.
+/* Exchanges hand and tissue data before each mvs_step; no tool is added before the first sample.
  * `report` is nullable. A hand whose tool an undo or a new valve removed continues without it. */
 MVS_API mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_report *report);
 

@@ -101,8 +101,10 @@ class Device {
   }
   mvs_device_view view() const { return filled<mvs_device_view>(mvs_device_get_view, device_); }
 
+  // Sets the stride of the bodies as well.
   void set_hand(mvs_device_hand hand) {
     hand.struct_size = sizeof hand;
+    hand.body_stride = sizeof(mvs_body_desc);
     must(mvs_device_set_hand(device_, &hand));
   }
   mvs_device_hand hand() const { return filled<mvs_device_hand>(mvs_device_get_hand, device_); }

@@ -149,8 +149,10 @@ class Simulator {
     return apply(&op.op);
   }
 
+  // Sets the stride of the bodies of a convex tool as well.
   mvs_id add_tool(mvs_tool_desc desc) {
     desc.struct_size = sizeof desc;
+    desc.body_stride = sizeof(mvs_body_desc);
     mvs_id tool = 0;
     must(mvs_add_tool(sim_, &desc, &tool));
     return tool;
@@ -162,6 +164,11 @@ class Simulator {
   void move_tool(mvs_id tool, const std::array<double, 3> &position,
                  const std::array<double, 3> &axis) {
     must(mvs_move_tool(sim_, tool, position.data(), axis.data()));
+  }
+  // The same with an orientation, w x y z of a quaternion.
+  void move_tool_pose(mvs_id tool, const std::array<double, 3> &position,
+                      const std::array<double, 4> &orientation) {
+    must(mvs_move_tool_pose(sim_, tool, position.data(), orientation.data()));
   }
   void remove_tool(mvs_id tool) { must(mvs_remove_tool(sim_, tool)); }
   mvs_tool_state tool(mvs_id tool) const {

@@ -113,8 +113,8 @@ MVS_API mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id 
 MVS_API mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
                                  const double axis[3]);
 
-/* The same with an orientation, w x y z of a quaternion of any length, of a convex tool; a rod
- * takes the z axis that it turns to, others have none. `orientation` is nullable: unchanged. */
+/* The same with an orientation, w x y z of a quaternion of any length but 0, of a convex tool; a
+ * rod takes the z axis that it turns to, others have none. `orientation` is nullable: unchanged. */
 MVS_API mvs_result mvs_move_tool_pose(mvs_sim *sim, mvs_id tool, const double position[3],
                                       const double orientation[4]);
 

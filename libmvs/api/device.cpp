@@ -93,7 +93,9 @@ mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
 }
 
 // Applies the buttons and the position of the hand to the simulator, then posts the tissue model to
-// the servo loop. The part that the hand points at is searched only for a report.
+// the servo loop. Before the first sample of the device the hand is nowhere: a tool at the centre
+// of the workspace could lie on the other side of a leaflet. The part that the hand points at is
+// searched only for a report.
 void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   const ServoStatus now = d.device.status();
   ServoLinks &links = d.device.links();
@@ -102,11 +104,14 @@ void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   while (links.buttons.pop(event)) d.hand.take_button(event, sim);
   if (now.phase == DevicePhase::stopped) {
     d.hand.let_go(sim);
-  } else {
+  } else if (now.has_pose) {
     d.hand.follow(sim);
   }
-  const TissueModel tissue = d.hand.tissue(sim);
-  links.tissue.post(tissue);
+  TissueModel tissue;
+  if (now.has_pose) {
+    tissue = d.hand.tissue(sim);
+    links.tissue.post(tissue);
+  }
   const bool is_latched = now.phase == DevicePhase::latched, was_latched = d.latched;
   d.latched = is_latched;
   if (report)

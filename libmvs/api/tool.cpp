@@ -1,6 +1,8 @@
 // Instruments: adds, moves, removes and enumerates them.
 #include <mvs/tool.h>
 
+#include <algorithm>
+
 #include "api/sim_call.h"
 #include "session/tool_bodies.h"
 #include "session/tools.h"
@@ -111,6 +113,12 @@ mvs_result mvs_move_tool_pose(mvs_sim *sim, mvs_id tool, const double position[3
     moved.position = read_place(position, "position");
     const bool turns = moved.kind == ToolKind::convex || moved.kind == ToolKind::rod;
     if (orientation) {
+      const bool is_null =
+          std::all_of(orientation, orientation + 4, [](double q) { return q == 0; });
+      MVS_MUST(
+          !is_null, MVS_E_ARGUMENT, "orientation",
+          "orientation is (0, 0, 0, 0): it has to be a quaternion w x y z, or a null pointer to "
+          "keep the present one");
       const Vec3 turn = read_orientation(orientation, "orientation");
       if (moved.kind == ToolKind::convex) moved.axis = turn;
       if (moved.kind == ToolKind::rod) moved.axis = rotation_of(turn).col(2);

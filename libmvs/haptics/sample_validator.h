@@ -16,6 +16,7 @@ class SampleValidator {
 
   // The pose of the last valid sample.
   const HandPose &pose() const { return pose_; }
+  bool has_pose() const { return has_pose_; }
   // Time since the last new sample, s; 0 if this sample is not new.
   double dt() const { return dt_; }
   // Time since the last sample, new or not, s.

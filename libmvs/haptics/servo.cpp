@@ -182,6 +182,7 @@ void Servo::publish(const mvs_driver_state &sample) {
   if (validator_.faults() != 0) ++status_.bad_samples;
   status_.flags = validator_.flags();
   status_.limited = bits_;
+  status_.has_pose = validator_.has_pose();
   status_.pose = validator_.pose();
   status_.force = sent_.force;
   status_.torque = sent_.torque;

@@ -75,6 +75,7 @@ struct ServoStatus {
   DevicePhase phase = DevicePhase::stopped;
   Cause cause = Cause::nothing, device_cause = Cause::nothing;
   uint32_t flags = 0, limited = 0, buttons = 0;
+  bool has_pose = false;  // a valid sample was read since the start: `pose` is its
   HandPose pose;
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
   double time = 0, rate = 0, worst_period = 0, model_age = 0, energy = 0, heat = 0;

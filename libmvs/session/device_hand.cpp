@@ -56,6 +56,7 @@ const Chord *Hand::chord(const mvs_sim &sim) const {
 void Hand::begin(const ServoStatus &current, const StiffnessLimits &most) {
   events_ = 0;
   most_ = most;
+  has_pose_ = current.has_pose;
   place_ = view_.to_scene(current.pose.position);
   turn_ = view_.turned(current.pose.orientation);
 }
@@ -213,10 +214,11 @@ mvs_device_report Hand::report(const mvs_sim &sim, const TissueModel &tissue, bo
   if (latched) out.events |= MVS_EVENT_LATCHED;
   out.tool = tool_;
   out.chord = chord_;
-  const NearChord near_chord = nearest_chord(now, place_);
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const NearChord near_chord = has_pose_ ? nearest_chord(now, place_) : NearChord{0, far};
   out.near_chord = near_chord.id;
   out.near_chord_distance = near_chord.distance;
-  const NearNode near_node = nearest_node(now, place_);
+  const NearNode near_node = has_pose_ ? nearest_node(now, place_) : NearNode{none, far};
   out.near_node = near_node.node;
   out.near_node_distance = near_node.distance;
   const Tool *const held = tool(sim);

@@ -61,6 +61,7 @@ class Hand {
   mvs_device_hand hand_ = {};
   ToolShapePtr shape_;  // of a convex tool
   TissueModelBuilder builder_;
+  bool has_pose_ = false;      // the device has reported a pose since it was started
   Vec3 place_ = Vec3::Zero();  // of the hand, in the scene
   Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
   StiffnessLimits most_;

@@ -111,6 +111,9 @@ inline constexpr double max_removed_lambda = 1, polish_lambda_share = 0.1;
 // after a failed polish step, iterations.
 inline constexpr double polish_progress = 0.5;
 inline constexpr int max_polish_pause = 64;
+// Iterations in a row without motion after which a settle ends: more than the longest pause, so
+// that each kind of step was tried.
+inline constexpr uint32_t most_still = max_polish_pause + 6;
 // Backtracking on the norm of the force: trials, factor, sufficient decrease (Armijo). Shares below
 // a half are left to the trust region: where the whole step crosses kinks of stiff springs, shares
 // of 1/8 lowered the norm by a twentieth, ten times in a row. With 2 trials for 5, springs of
@@ -260,6 +263,12 @@ inline constexpr double slow_displacement = 0.02;
 inline constexpr int trials = 8;
 inline constexpr double min_share = 0.1, max_share = 0.5;
 inline constexpr int quarterings = 12;
+// Kinks of the energy: the least share that a quarter of a step makes of the energy that the whole
+// one makes, 1/4 at a kink and at most 1/16 elsewhere; rounds, each with the force of one more
+// side; trials of a round and the factor between them.
+inline constexpr double kink_ratio = 0.2;
+inline constexpr int kink_rounds = 6, kink_trials = 4;
+inline constexpr double kink_shortening = 0.125;
 // Energy that rounding makes, as a share of the energy of the step's start.
 inline constexpr double energy_rounding = 1e-12;
 // Passes that the budget keeps for after the linear solve: one trial, and the forces where the

@@ -71,8 +71,8 @@ void step_alone(Stepper &stepper, State &state, const StepOptions &how, SolveSta
 uint32_t points_for(const std::vector<Tool> &tools, const SolveOptions &options) {
   const uint32_t points = tool_points(tools);
   MVS_MUST(points == 0 || options.solver != SolverKind::explicit_euler, MVS_E_UNSUPPORTED, "tool",
-           "the explicit solver does not prevent penetration and cannot push with a ball or rod: "
-           "remove the tool, or use another solver");
+           "the explicit solver does not prevent penetration and cannot push with a tool: remove "
+           "it, or use another solver");
   return points;
 }
 

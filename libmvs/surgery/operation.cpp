@@ -33,9 +33,10 @@ void check_number(const OpKind &kind, const OpField &f, double value) {
 
 void check_count(const OpKind &kind, const OpField &f, uint32_t value) {
   if (value == 0 && !f.required) return;
+  const std::string most =
+      *f.choices ? format("one of %s", f.choices) : format("%.0f to %.0f", f.low, f.high);
   MVS_MUST(value >= f.low && value <= f.high, MVS_E_ARGUMENT, name_of(kind, f),
-           "%s: %s is %u, it has to be %s%.0f to %.0f", kind.name, f.name, value,
-           *f.choices ? f.choices : "", f.low, f.high);
+           "%s: %s is %u, it has to be %s", kind.name, f.name, value, most.c_str());
 }
 
 void check_site(const OpKind &kind, const OpField &f, const mvs_site &site) {

@@ -229,8 +229,10 @@ static void a_wrong_tool_changes_nothing(void) {
 static void a_wrong_pose_changes_nothing(void) {
   const mvs_id tool = make_work();
   const hash128 before = sim_hash(sim);
-  const double at[3] = {0, 0, 0.02}, wild[4] = {1, NAN, 0, 0}, nowhere[3] = {NAN, 0, 0};
+  const double at[3] = {0, 0, 0.02}, wild[4] = {1, NAN, 0, 0}, zero[4] = {0, 0, 0, 0},
+               nowhere[3] = {NAN, 0, 0};
   MUST_FAIL(mvs_move_tool_pose(sim, tool, at, wild), MVS_E_ARGUMENT, "quaternion");
+  MUST_FAIL(mvs_move_tool_pose(sim, tool, at, zero), MVS_E_ARGUMENT, "orientation is (0, 0, 0, 0)");
   MUST_FAIL(mvs_move_tool_pose(sim, tool, nowhere, NULL), MVS_E_ARGUMENT, "within 10");
   MUST_FAIL(mvs_move_tool_pose(sim, tool, NULL, NULL), MVS_E_ARGUMENT, "null");
   MUST_FAIL(mvs_move_tool_pose(sim, tool + 1, at, NULL), MVS_E_ID, "does not exist");

@@ -189,6 +189,26 @@ static void a_convex_tool_pushes_in_the_hand(void) {
   mvs_device_close(device);
 }
 
+/* A tool at the centre of the workspace could lie on the other side of a leaflet. */
+static void a_tool_waits_for_the_first_sample(void) {
+  mvs_device *device = opened("push_p2.txt", MVS_HAND_MODE_BALL);
+  mvs_device_report report = {.struct_size = sizeof report};
+  mvs_tool_state tool = {.struct_size = sizeof tool};
+  MUST(mvs_device_stop(device));
+  MUST(mvs_device_start(device));
+  MUST(mvs_device_sync(device, sim, &report));
+  CHECK(report.tool == 0 && report.events == 0);
+  CHECK(report.near_node == UINT32_MAX && report.near_chord == 0);
+  CHECK(isinf(report.near_node_distance) && isinf(report.near_chord_distance));
+  MUST(mvs_device_advance(device, 0.001));
+  MUST(mvs_device_sync(device, sim, &report));
+  CHECK(report.tool != 0 && report.near_node != UINT32_MAX);
+  CHECK(length(report.position) > 0);
+  MUST(mvs_get_tool(sim, report.tool, &tool));
+  for (int k = 0; k < 3; ++k) CHECK(tool.position[k] == report.position[k]);
+  mvs_device_close(device);
+}
+
 static void a_stopped_device_lets_go(void) {
   mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
   turn_until(device, MVS_EVENT_GRASPED, 400);
@@ -410,6 +430,7 @@ int main(void) {
   another_valve_under_the_hand_is_another_hand();
   a_ball_pushes_and_is_taken_away_with_its_mode();
   a_convex_tool_pushes_in_the_hand();
+  a_tool_waits_for_the_first_sample();
   a_stopped_device_lets_go();
   a_chord_is_felt_as_it_pulls();
   a_chord_is_dragged_to_a_new_length();

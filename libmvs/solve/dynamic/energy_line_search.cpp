@@ -19,6 +19,9 @@ EnergyLineSearch::EnergyLineSearch(const Model &model, TotalEnergy &total_energy
   // a step allocates nothing once warm, also if the boundary moves only then
   boundary_x_.reserve(model.node_count());
   boundary_gradient_.reserve(model.node_count());
+  kink_.reserve(model.node_count());
+  for (std::vector<Vec3> *rows : {&other_gradient_, &other_force_, &other_rows_})
+    rows->reserve(model.node_count());
 }
 
 bool EnergyLineSearch::run(const StepStart &start, ProposedStep &step, StepWork &work) {
@@ -46,14 +49,73 @@ bool EnergyLineSearch::search_shorter_step(const StepStart &start, ProposedStep 
   double farthest = set::max_displacement;
   for (const Vec3 &row : step.rows) farthest = std::max(farthest, row.norm());
   double share = set::max_displacement / farthest;
+  double before = 0;  // J, made by the trial before, if it led downhill by the force at the start
+  bool is_kink_tried = false;
   for (int k = 0; k < set::quarterings && work.left >= set::reserved_passes; ++k) {
     share *= 0.25;
     scatter_step(step.matrix, step.rows, step.boundary, step.displacement, share);
     total_energy_->limit_step(start.x, step.slack, step.displacement, work.stats.work);
-    if (try_share(1, start, step, work) <= 0) return true;
+    const double made = try_share(1, start, step, work);
+    if (made <= 0) return true;
+    double slope = 0;
+    for (size_t i = 0; i < start.x.size(); ++i)
+      slope += start.gradient[i].dot(step.displacement[i]);
+    // where the energy is smooth, a quarter of such a step makes at most a sixteenth of the energy
+    const bool is_kink = slope < 0 && before > 0 && made > set::kink_ratio * before;
+    before = slope < 0 ? made : 0;
+    if (!is_kink || is_kink_tried) continue;
+    is_kink_tried = true;
+    if (search_along_kink(start, step, work)) return true;
   }
   // the last trial hardly differs from the step of the boundary alone
   return step.boundary.moves;
+}
+
+// Each round adds the force at the last trial, which lies on the other side of the kink.
+bool EnergyLineSearch::search_along_kink(const StepStart &start, ProposedStep &step,
+                                         StepWork &work) {
+  namespace set = settings::implicit;
+  const double dt = work.how.dt;
+  take_force(start.gradient, start, step, dt, other_force_);
+  kink_.begin(other_force_, step.rows);
+  for (int k = 0; k < set::kink_rounds; ++k) {
+    other_gradient_ = trial.sheet_gradient;
+    total_energy_->add_hands(trial.x, other_gradient_);
+    take_force(other_gradient_, start, step, dt, other_force_);
+    other_rows_ = other_force_;
+    if (!step.solve(other_rows_)) return false;
+    kink_.add(other_force_, other_rows_);
+    if (try_rows(kink_.rows(), start, step, work)) return true;
+  }
+  return false;
+}
+
+// The right-hand side of the linear system of the step for a gradient.
+void EnergyLineSearch::take_force(const std::vector<Vec3> &gradient, const StepStart &start,
+                                  const ProposedStep &step, double dt,
+                                  std::vector<Vec3> &force) const {
+  force.resize(step.matrix.size());
+  for (uint32_t r = 0; r < step.matrix.size(); ++r) {
+    const uint32_t i = step.matrix.node(r);
+    force[r] =
+        step.matrix.boundary_force()[r] - gradient[i] + (model_->node_mass[i] / dt) * start.v[i];
+  }
+}
+
+// Tries ever shorter steps along rows.
+bool EnergyLineSearch::try_rows(const std::vector<Vec3> &rows, const StepStart &start,
+                                ProposedStep &step, StepWork &work) {
+  namespace set = settings::implicit;
+  double farthest = set::max_displacement;
+  for (const Vec3 &row : rows) farthest = std::max(farthest, row.norm());
+  double share = set::max_displacement / farthest;
+  for (int k = 0; k < set::kink_trials && work.left >= set::reserved_passes; ++k) {
+    scatter_step(step.matrix, rows, step.boundary, step.displacement, share);
+    total_energy_->limit_step(start.x, step.slack, step.displacement, work.stats.work);
+    if (try_share(1, start, step, work) <= 0) return true;
+    share *= set::kink_shortening;
+  }
+  return false;
 }
 
 // Sets the trial at a share of the step and returns the energy that it makes beyond rounding and

@@ -1,6 +1,7 @@
 // The loop of a static closure.
 #include "solve/static/newton_settling.h"
 
+#include "solve/nodes.h"
 #include "solve/settings.h"
 
 namespace mvs::core {
@@ -44,12 +45,15 @@ bool NewtonSettling::advance() {
   const bool balanced = arrived && newton_.residual() <= tolerance_;
   converged_ = balanced && (!checks_stability_ || newton_.is_stable());
   if (converged_ || newton_.stats().iterations == most_ || newton_.reached_limit()) return false;
+  if (still_ > settings::newton::most_still) return false;
   watch_.look(newton_.x(), newton_.residual());
   ++newton_.stats().iterations;
   if (!arrived && ramp_.may_move(newton_.residual(), newton_.rest_force())) {
     newton_.move_boundary(ramp_);
   }
+  before_ = newton_.x();
   newton_.iterate(polish_);
+  still_ = same_bits(before_, newton_.x()) ? still_ + 1 : 0;
   return true;
 }
 

@@ -1,5 +1,6 @@
 // The loop of a static closure: Newton iterations until the boundary is at its target and the valve
-// at rest, a limit of iterations, or the limit of a local subproblem.
+// at rest, a limit of iterations, the limit of a local subproblem, or iterations that move nothing:
+// at a kink of the energy (energy/README.md) no step leads downhill, and all that follow are alike.
 #pragma once
 
 #include "solve/settle_watch.h"
@@ -29,6 +30,8 @@ class NewtonSettling final : public Settling {
   bool may_presolve_;  // a local subproblem, in the first iteration
   bool converged_ = false;
   Load load_;
+  std::vector<Vec3> before_;  // m, positions before the last iteration
+  uint32_t still_ = 0;        // iterations in a row that moved no node
   Newton newton_;
   BoundaryRamp ramp_;
   PolishSchedule polish_;

@@ -1462,8 +1462,8 @@ export class Functions extends Calls {
   }
 
   /**
-   * The same with an orientation, w x y z of a quaternion of any length, of a convex tool; a rod
-   * takes the z axis that it turns to, others have none. `orientation` is nullable: unchanged.
+   * The same with an orientation, w x y z of a quaternion of any length but 0, of a convex tool; a
+   * rod takes the z axis that it turns to, others have none. `orientation` is nullable: unchanged.
    */
   mvs_move_tool_pose(sim: SimHandle, tool: bigint | number, position: ArrayLike<number>, orientation?: ArrayLike<number> | null): void {
     return this.invoke(signatures.mvs_move_tool_pose!, [sim, tool, position, orientation]) as never;
