@@ -259,8 +259,8 @@ TEST_CASE("pairs_that_share_nodes_cross_as_each_pair_alone") {
       for (uint32_t t = s + 1; t < triangles.size(); ++t) {
         if (!triangles_cross(x, triangles[s], triangles[t])) continue;
         expected.push_back({s, t});
-        shared += std::any_of(triangles[s].begin(), triangles[s].end(), [&](uint32_t node) {
-          return std::find(triangles[t].begin(), triangles[t].end(), node) != triangles[t].end();
+        shared += std::any_of(triangles[s].begin(), triangles[s].end(), [&](uint32_t corner) {
+          return std::find(triangles[t].begin(), triangles[t].end(), corner) != triangles[t].end();
         });
       }
     }
