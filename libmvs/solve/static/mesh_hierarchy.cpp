@@ -230,9 +230,9 @@ class HierarchySettling final : public Settling {
   }
 
   Solver *solver_;
-  std::vector<Level> levels_;  // the finest first; the last one is being settled
+  std::vector<Level> levels_;          // the finest first; the last one is being settled
   std::unique_ptr<Settling> running_;  // of the last level; null until it has begun
-  SolveStats spent_;  // of the coarser levels
+  SolveStats spent_;                   // of the coarser levels
 };
 
 }  // namespace
