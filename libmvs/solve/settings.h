@@ -263,12 +263,6 @@ inline constexpr double slow_displacement = 0.02;
 inline constexpr int trials = 8;
 inline constexpr double min_share = 0.1, max_share = 0.5;
 inline constexpr int quarterings = 12;
-// Kinks of the energy: the least share that a quarter of a step makes of the energy that the whole
-// one makes, 1/4 at a kink and at most 1/16 elsewhere; rounds, each with the force of one more
-// side; trials of a round and the factor between them.
-inline constexpr double kink_ratio = 0.2;
-inline constexpr int kink_rounds = 6, kink_trials = 4;
-inline constexpr double kink_shortening = 0.125;
 // Energy that rounding makes, as a share of the energy of the step's start.
 inline constexpr double energy_rounding = 1e-12;
 // Passes that the budget keeps for after the linear solve: one trial, and the forces where the
@@ -276,6 +270,22 @@ inline constexpr double energy_rounding = 1e-12;
 inline constexpr uint32_t reserved_passes = 2;
 
 }  // namespace implicit
+
+// Kinks of the energy, as the contact of convex tools has.
+namespace kink {
+
+// The least share that a quarter of a step makes of the energy that the whole one makes: 1/4 at a
+// kink and at most 1/16 elsewhere.
+inline constexpr double ratio = 0.2;
+// Rounds, each with the force of one more side, and trials of a round, of an implicit step and of
+// an iteration of a static closure; factor between trials.
+inline constexpr int rounds = 6, trials = 4, static_rounds = 20, static_trials = 6;
+inline constexpr double shortening = 0.125;
+// N, of a step of a static closure: the least fall of the energy over the way of the farthest node,
+// the default residual. Without it a settle creeps along kinks for hundreds of iterations.
+inline constexpr double least_slope = defaults::residual;
+
+}  // namespace kink
 
 // The linear system of an implicit step: conjugate gradients with the factor of an earlier step as
 // preconditioner. One iteration costs about a tenth of a factorisation with its ordering.

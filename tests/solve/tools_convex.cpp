@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <span>
 
+#include "energy/forces.h"
 #include "energy/instrument.h"
 #include "geometry/convex_hull.h"
 #include "geometry/intersect.h"
@@ -268,12 +269,29 @@ TEST_CASE("a_tool_of_200_vertices_that_is_drawn_back_does_not_stick") {
   add_tool(*model, state, tool);
   steps_without_motion(*model, state, -2e-5 * at.normal, 500);
   CHECK(force_of(state, state.tools[0]).force.norm() > 1);
-  const State pressed = state;
   CHECK(steps_without_motion(*model, state, 1e-5 * at.normal, 200) <= 5);
-  // a settle stops at a kink: it took 1000 iterations to say so
-  const Settled settled = settle(*model, pressed);
-  CHECK((settled.stats.converged || settled.stats.iterations < 300));
-  MESSAGE(settled.stats.iterations << " iterations, " << settled.stats.residual << " N");
+}
+
+// Without steps along the kink the valve stood still after 84 to 88 iterations, 7 to 12 % off.
+TEST_CASE("a_settle_that_ends_at_a_kink_meets_the_balance_of_forces") {
+  const ModelPtr model = make_model(small_valve());
+  State state = initial_state(*model);
+  const Place at = place_above(*model, state.x, 40, 4e-3);
+  Tool tool = convex_at(at.point, {polyhedral_ball(3e-3, 200)});
+  tool.stiffness = 500;
+  add_tool(*model, state, tool);
+  for (int k = 0; k < 3; ++k) {
+    steps_without_motion(*model, state, -2e-5 * at.normal, k == 0 ? 240 : 30);
+    const Settled settled = settle(*model, state);
+    const Vec3 hand = force_of(settled.state, settled.state.tools[0]).force;
+    const Positions forces = evaluate_forces(*model, settled.state).total;
+    Vec3 held = Vec3::Zero();
+    for (uint32_t i = 0; i < forces.size(); ++i) {
+      if (model->topology.fixed[i]) held += forces[i];
+    }
+    // it ends where a step wins less than the residual of 1e-5 N over its way; 0.6 % were left
+    CHECK((held + hand).norm() <= 0.01 * hand.norm());
+  }
 }
 
 TEST_CASE("a_convex_tool_is_refused_where_tissue_leaves_no_room") {

@@ -61,7 +61,7 @@ bool EnergyLineSearch::search_shorter_step(const StepStart &start, ProposedStep 
     for (size_t i = 0; i < start.x.size(); ++i)
       slope += start.gradient[i].dot(step.displacement[i]);
     // where the energy is smooth, a quarter of such a step makes at most a sixteenth of the energy
-    const bool is_kink = slope < 0 && before > 0 && made > set::kink_ratio * before;
+    const bool is_kink = slope < 0 && before > 0 && made > settings::kink::ratio * before;
     before = slope < 0 ? made : 0;
     if (!is_kink || is_kink_tried) continue;
     is_kink_tried = true;
@@ -78,7 +78,7 @@ bool EnergyLineSearch::search_along_kink(const StepStart &start, ProposedStep &s
   const double dt = work.how.dt;
   take_force(start.gradient, start, step, dt, other_force_);
   kink_.begin(other_force_, step.rows);
-  for (int k = 0; k < set::kink_rounds; ++k) {
+  for (int k = 0; k < settings::kink::rounds; ++k) {
     other_gradient_ = trial.sheet_gradient;
     total_energy_->add_hands(trial.x, other_gradient_);
     take_force(other_gradient_, start, step, dt, other_force_);
@@ -109,11 +109,11 @@ bool EnergyLineSearch::try_rows(const std::vector<Vec3> &rows, const StepStart &
   double farthest = set::max_displacement;
   for (const Vec3 &row : rows) farthest = std::max(farthest, row.norm());
   double share = set::max_displacement / farthest;
-  for (int k = 0; k < set::kink_trials && work.left >= set::reserved_passes; ++k) {
+  for (int k = 0; k < settings::kink::trials && work.left >= set::reserved_passes; ++k) {
     scatter_step(step.matrix, rows, step.boundary, step.displacement, share);
     total_energy_->limit_step(start.x, step.slack, step.displacement, work.stats.work);
     if (try_share(1, start, step, work) <= 0) return true;
-    share *= set::kink_shortening;
+    share *= settings::kink::shortening;
   }
   return false;
 }

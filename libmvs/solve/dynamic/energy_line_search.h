@@ -12,9 +12,9 @@
 #include <functional>
 
 #include "energy/total_energy.h"
-#include "solve/dynamic/kink_direction.h"
 #include "solve/dynamic/step_matrix.h"
 #include "solve/dynamic/step_start.h"
+#include "solve/kink_direction.h"
 #include "solve/static/boundary_ramp.h"
 
 namespace mvs::core {

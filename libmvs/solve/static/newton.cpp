@@ -134,6 +134,7 @@ void Newton::iterate(PolishSchedule &polish) {
   bool has_exact = false;
   if (at_.residual < forces_.polish_below && polish.wait == 0) {
     if (newton_polish_step(polish)) {
+      is_kink_tried_ = false;
       // polish steps and trust-region steps may undo each other: only a smaller force than ever
       // before shows that rest is near
       if (at_.residual < settings::newton::polish_progress * polish.best_residual) {
@@ -259,6 +260,7 @@ void Newton::move_boundary(BoundaryRamp &ramp) {
   for (uint32_t i = 0; i < at_.x.size(); ++i) {
     at_.x[i] = ramp.moved(i, at_.x[i], step_.limited[i]);
   }
+  is_kink_tried_ = false;
   evaluate();
 }
 

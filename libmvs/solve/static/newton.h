@@ -103,6 +103,8 @@ class Newton {
   // `has_exact`: the system holds the exact Hessian of the present positions.
   void trust_region_step(bool has_exact);
   double try_step(double &predicted_reduction);
+  bool step_along_kink();
+  bool fall_along(const std::vector<Vec3> &rows);
   double gain_ratio(double reduction, double predicted_reduction) const;
   void adapt_lambda(double gain);
   void shorten();
@@ -124,6 +126,7 @@ class Newton {
   Step step_;
   std::vector<Vec3> trial_;  // m, positions
   DisplacementLimit limit_;
+  bool is_kink_tried_ = false;  // at the present positions
 };
 
 }  // namespace mvs::core

@@ -46,7 +46,13 @@ void Newton::trust_region_step(bool has_exact) {
   }
   system_.release();
   const double before = at_.energy;
-  if (lower) at_.x.swap(trial_);
+  if (lower) {
+    at_.x.swap(trial_);
+    is_kink_tried_ = false;
+  } else if (!is_kink_tried_ && !total_energy_.instrument().bodies().convex().all().empty()) {
+    is_kink_tried_ = !step_along_kink();
+    return;
+  }
   evaluate();
   // the load at the free edge differs from the load that the step was computed for
   if (lower && at_.energy >= before) {

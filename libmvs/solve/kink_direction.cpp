@@ -1,5 +1,5 @@
 // The mean of two forces with the shortest step.
-#include "solve/dynamic/kink_direction.h"
+#include "solve/kink_direction.h"
 
 #include <algorithm>
 
