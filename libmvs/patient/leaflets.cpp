@@ -132,7 +132,7 @@ bool contains(double from, double to, double foot, double length) {
   return wrapped(foot - from, length) < to - from;
 }
 
-// The odds that the leaflet along an arc is the anterior one, and by what they were found.
+// The odds that the leaflet along an arc is the anterior one, and their cues in words.
 struct AnteriorOdds {
   double odds;
   std::string cues;
@@ -149,7 +149,8 @@ AnteriorOdds anterior_odds(const AnnulusSamples &annulus, const LeafletArcs &arc
               (annulus.tips.empty() ? "" : ", and by the papillary tips")};
 }
 
-// Adds what is said of the anterior leaflet, with a doubt if its shape speaks against it.
+// Adds the finding of an anterior leaflet that was given or labelled, with a doubt if the odds of
+// its shape are low.
 void add_anterior(FindingSource source, const char *sentence, const AnteriorOdds &shape,
                   bool anterior, Findings &findings) {
   const double odds = anterior ? shape.odds : 1 - shape.odds;
