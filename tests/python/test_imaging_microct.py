@@ -129,6 +129,9 @@ def test_the_valve_has_the_chords_of_the_image_and_comes_to_rest(run, volume):
     assert len(made.opened.chord_kind) == len(INSERTIONS)
     named = {one.name: one for one in made.findings}
     assert named["chordae"].source == mvs.FindingSource.MEASURED
+    least, most = named["leak_interval"].values
+    assert least <= made.closed.measures.regurgitant_orifice_area <= most
+    assert (min(named["leak"].values), max(named["leak"].values)) == pytest.approx((least, most), abs=5e-5)
     nodes = np.asarray(made.opened.node_rest)[np.asarray(made.opened.chord_nodes)]
     straight = np.linalg.norm(nodes[:, 0] - nodes[:, 1], axis=1)
     # the chords of the image are straight; the skeleton is smoothed, and ends move to vertices
@@ -149,7 +152,7 @@ def test_a_loaded_volume_gives_places_and_lengths(run, volume):
     assert made.converged and made.loaded is not None
     named = {one.name: one for one in made.findings}
     assert {"registration", "head_motion", "annulus_motion", "loaded_chordae",
-            "closed_distance"} <= set(named)
+            "closed_distance", "leak_interval"} <= set(named)
     heads = np.asarray(made.opened.head_nodes)
     assert np.asarray(made.opened.node_loaded)[heads] * 1e3 == pytest.approx(MUSCLES, abs=1e-9)
     # the rim of the remeshed leaflets lies on the rim in the image

@@ -18,6 +18,7 @@ from ..open_valve import check_open_valve
 from ..pipeline import Pipeline, Run
 from ..valve import ImageValve, build, distance_from_image, scanned
 from .chords import ChordNetwork
+from .leak import leak_over_lengths
 from .lengths import with_loaded_lengths
 from .loaded import Loaded, loaded_of, settled, with_loaded_boundary
 from .muscles import muscle_groups
@@ -92,6 +93,7 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     if loaded is not None and stats.converged:
         opened, closed, stats, more = with_loaded_lengths(valve, closed, network, loaded)
         found.append(more)
+    found += leak_over_lengths(mvs.valve_of(opened), (opened, closed, stats))
     assumed = ("chordae", "leak", "leak_interval", "edge_error", "edge_lost", "thickness_error", "papillary_tips")
     kept = [one for one in made.findings if one.name not in assumed]
     return dataclasses.replace(made, opened=opened, closed=closed, converged=stats.converged,
