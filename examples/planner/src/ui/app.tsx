@@ -231,8 +231,11 @@ function onDragEnd(event: DragEvent): void {
 function onDrop(event: DragEvent): void {
   event.preventDefault();
   state.dropping.value = false;
-  const file = event.dataTransfer?.files[0];
-  if (file && !state.dialog.value) void openFile(file);
+  const files = event.dataTransfer?.files;
+  if (!files?.length || state.dialog.value) return;
+  void openFile(files[0]).then(() => {
+    if (files.length > 1) state.notice.value ??= { kind: 'info', text: t.severalFiles(files[0].name) };
+  });
 }
 
 export function App() {

@@ -65,7 +65,7 @@ function Beyond({ figures }: { figures: Figures }) {
             {words.chordOver(chord.name, percentOfLimit(shareOfLimit(chord)))}
           </button>
         ))}
-        {beyond.length > named && words.chordsMore(beyond.length - named)}
+        {beyond.length > named && '…'}
       </div>
     </div>
   );

@@ -40,24 +40,35 @@ export class Planner {
     this.second = mvs.simulator();
   }
 
-  /** Takes over a valve file as the start of a plan, closes it, and begins a history. */
+  /** Closes a valve file beside the plan, of which nothing changes where that fails or is cancelled; then begins a plan with it. */
   async openBytes(
     bytes: Uint8Array | string,
     signal: AbortSignal,
     report: (share: number) => void,
   ): Promise<Shown> {
+    this.discard();
     this.second.load(bytes, 'obj');
     const start = this.second.read((snapshot) => snapshot.save('obj'));
-    this.main.load(start, 'obj');
-    this.start = start;
+    this.second.load(start, 'obj');
+    this.second.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
+    await this.settle(this.second, signal, report);
     this.forget();
-    return this.close(signal, report);
+    this.first = this.second.snapshot();
+    this.main.restore(this.first);
+    this.start = start;
+    return this.shown();
   }
 
   /** Takes over an opened session. */
-  take(start: Uint8Array, snapshot: Snapshot, checkpoints: (readonly [string, Snapshot])[]): void {
+  take(
+    start: Uint8Array,
+    snapshot: Snapshot,
+    first: Snapshot,
+    checkpoints: (readonly [string, Snapshot])[],
+  ): void {
     this.forget();
     this.main.restore(snapshot);
+    this.first = first;
     this.start = start.slice();
     for (const [name, kept] of checkpoints) this.checkpoints.set(name, kept);
   }
@@ -70,16 +81,9 @@ export class Planner {
     this.discard();
   }
 
-  /** The picture of the valve as it is, without figures. */
+  /** The picture of the valve that is being opened, as it is, without figures. */
   motion(share: number): Motion {
-    return this.main.read((snapshot) => motionOf(snapshot, share));
-  }
-
-  private async close(signal: AbortSignal, report: (share: number) => void): Promise<Shown> {
-    this.main.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
-    await this.settle(this.main, signal, report);
-    this.first = this.main.snapshot();
-    return this.shown();
+    return this.second.read((snapshot) => motionOf(snapshot, share));
   }
 
   private async settle(sim: Simulator, signal: AbortSignal, report: (share: number) => void): Promise<void> {
@@ -88,6 +92,11 @@ export class Planner {
 
   shown(): Shown {
     return this.main.read((snapshot) => this.shownOf(snapshot));
+  }
+
+  /** The closed valve before the first operation. */
+  shownFirst(): Shown {
+    return this.first ? this.shownOf(this.first) : this.shown();
   }
 
   shownOf(snapshot: Snapshot, known: Known = 'all'): Shown {
