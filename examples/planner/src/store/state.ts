@@ -139,10 +139,12 @@ export const earlier = computed<Shown | null>(() => {
   const begin = first.value;
   return begin && begin.figures.hash !== main.value?.figures.hash ? begin : null;
 });
-export const inPast = computed(() => past.value && !!earlier.value && !motion.value);
+/** The valve that one press shows in place of the present one: that of a plan that is compared, or the valve before. */
+export const other = computed<Shown | null>(() => (preview.value ? null : compared.value) ?? earlier.value);
+export const inPast = computed(() => past.value && !!other.value && !motion.value);
 /** The valve of picture and figures: the preview if there is one, or the valve before. */
 export const shown = computed<Shown | null>(() =>
-  inPast.value ? earlier.value : (preview.value ?? main.value),
+  inPast.value ? other.value : (preview.value ?? main.value),
 );
 export const figures = computed<Figures | null>(() => (coming.value ? null : (shown.value?.figures ?? null)));
 /** The figures to compare with. */

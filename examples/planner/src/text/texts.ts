@@ -747,6 +747,9 @@ export const dialogTexts = {
 export const sectionTexts = {
   label: 'Section through the leaflets',
   posterior: 'posterior',
+  atrium: 'atrium',
+  ventricle: 'ventricle',
+  annulus: 'annulus',
   anterior: 'anterior',
   scale: '10 mm',
   healthy: 'before its illness',

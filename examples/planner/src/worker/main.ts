@@ -89,7 +89,7 @@ const handlers: Handlers = {
     opening = true;
     return planner.openTo(share, fresh, signal);
   },
-  cost: ({ which, flow }) => planner.cost(which, flow),
+  cost: (request) => planner.cost(request),
   section: (request) => planner.section(request),
   hand_begin: (argument, { id }) => {
     const sim = planner.beside();

@@ -1,6 +1,7 @@
 // The valve of the page: one simulator that holds the plan, and a second one for everything that must not
 // change it: previews, the opening slider, a hand in the valve.
 import { DIASTOLE_PA, MvsError, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
+import type { CostRequest } from '../calls';
 import type { Cost, Known, Motion, Operation, Section, SectionRequest, Shown, Spread } from '../protocol';
 import { refusals } from '../text/texts';
 import { Checkpoints } from './checkpoints';
@@ -210,11 +211,16 @@ export class Planner {
   }
 
   /** The valve opened in diastole; the gradient of a flow in ml/s, if one is given. */
-  cost(which: 'main' | 'preview', flow: number): Cost {
-    const held = which === 'preview' && this.preview ? null : this.main.snapshot();
+  cost({ which, flow }: CostRequest): Cost {
+    const kept = which.startsWith('checkpoint ')
+      ? this.checkpoints.of(which.replace(/^checkpoint /, ''))
+      : which === 'preview'
+        ? this.preview
+        : null;
+    const held = kept ? null : this.main.snapshot();
     try {
       const asked = flow > 0 ? { residual: 1e-4, flow: flow / ml } : { residual: 1e-4 };
-      const { cost, opened } = (held ?? this.preview!).cost(asked);
+      const { cost, opened } = (kept ?? held!).cost(asked);
       opened.dispose();
       return {
         openArea: cost.open_area * mm2,
