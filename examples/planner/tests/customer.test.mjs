@@ -91,7 +91,11 @@ describe('planner as a customer judges it', () => {
         return count / (data.length / 4);
       });
     const share = await blue();
+    const chordae = () => page.locator('summary', { hasText: /^Chordae \(/ }).innerText();
+    await openPanel(page, 'Valve');
+    const counted = await chordae();
     await undo(page);
+    assert.equal(counted, await chordae(), 'stitches are no chordae');
     await page.waitForTimeout(250);
     const bare = await blue();
     assert.ok(share > bare + 0.005, `blue with the clip ${share}, without it ${bare}`);
