@@ -1,4 +1,4 @@
-// What a surgeon missed who tried every panel: a typed number that is tried by itself, the field that a form is for, the
+// Wishes of a surgeon who tried every panel: a typed number that is tried by itself, the field that a form is for, the
 // open areas of two plans, a clip that is seen from the atrium, a report that prints on one page.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';

@@ -1,4 +1,4 @@
-// What is opened: sessions with the valve before their plan, valves that are still closing, surfaces, wrong files.
+// Files and valves that are opened: sessions with the valve before their plan, valves that are still closing, surfaces, wrong files.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';

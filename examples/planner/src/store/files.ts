@@ -120,7 +120,7 @@ export async function openShipped(
 }
 
 export async function openFile(file: File): Promise<void> {
-  // what was said of another file is over
+  // a notice about another file is over
   state.notice.value = null;
   const left = await leave();
   const bytes = new Uint8Array(await file.arrayBuffer());
