@@ -18,6 +18,12 @@ import type {
   Surface,
 } from './protocol';
 
+/** How far a valve opens; the gradient of a flow in ml/s, where it is not 0. */
+export interface CostRequest {
+  which: 'main' | 'preview' | `checkpoint ${string}`;
+  flow: number;
+}
+
 /** Requests of the page: name, argument, result. */
 export interface Calls {
   start: { argument: { library: string }; result: { version: string; operations: OperationInfo[] } };
@@ -31,7 +37,7 @@ export interface Calls {
   undo: { argument: null; result: Shown };
   redo: { argument: null; result: Shown };
   open_to: { argument: { share: number }; result: Motion };
-  cost: { argument: { which: 'main' | 'preview'; flow: number }; result: Cost };
+  cost: { argument: CostRequest; result: Cost };
   section: { argument: SectionRequest; result: Section };
   hand_begin: { argument: Hand; result: null };
   hand_move: { argument: { position: number[] }; result: null };

@@ -33,3 +33,6 @@ export function leakPlaces(parts: OrificePart[]): OrificePart[] {
   const largest = Math.max(0, ...parts.map((part) => part.area));
   return parts.filter((part) => part.area >= Math.min(smallLeak, largest));
 }
+
+/** The clip that a stitch belongs to: its stitches are chordae "clip", "clip/2", "clip/3"; empty for other names. */
+export const clipOf = (name: string): string => (/^clip/.test(name) ? name.replace(/\/\d+$/, '') : '');

@@ -231,6 +231,8 @@ export interface Cost {
 
 export interface SessionOpened {
   shown: Shown;
+  /** The closed valve before the first operation. */
+  first: Shown;
   checkpoints: string[];
   notes: string;
   title: string;

@@ -65,9 +65,15 @@ async function comeBack(left: Left): Promise<void> {
   state.changed.value = true;
 }
 
+/** Leaves a surface, and its panel, for a valve. */
+function leaveSurface(): void {
+  state.imported.value = null;
+  if (state.panel.value === 'import') state.panel.value = 'valve';
+}
+
 function begun(shown: Shown | null, title: string, left: Left | null): void {
   if (!shown) return;
-  state.imported.value = null;
+  leaveSurface();
   show(shown, true);
   state.title.value = title;
   state.notes.value = '';
@@ -81,6 +87,7 @@ export async function openShipped(
   tour: typeof state.tour.value = null,
 ): Promise<void> {
   const left = await leave();
+  const was = state.tour.value;
   // goals are judged as soon as there is something to compare with: not on the valve that is still shown
   state.tour.value = tour && { ...tour, founding: null };
   const shown = await run(
@@ -90,22 +97,34 @@ export async function openShipped(
     {
       motion: (motion) => {
         state.receive(motion.picture);
-        state.motion.value = motion;
+        batch(() => {
+          state.motion.value = motion;
+          state.coming.value = true;
+          state.choice.value = null;
+        });
       },
     },
   );
   batch(() => {
+    state.coming.value = false;
+    if (!shown) {
+      // the valve of the plan is shown again
+      state.motion.value = null;
+      state.tour.value = was;
+      return;
+    }
     begun(shown, title, left);
-    if (!shown) return;
     state.tour.value = tour;
     if (tour) offerRepair(tour.number, left);
   });
 }
 
 export async function openFile(file: File): Promise<void> {
+  // a notice about another file is over
+  state.notice.value = null;
   const left = await leave();
   const bytes = new Uint8Array(await file.arrayBuffer());
-  if (/\.mvsplan$|\.zip$/i.test(file.name)) return openSession(bytes, left);
+  if (/\.mvsplan$|\.zip$/i.test(file.name)) return openSession(bytes, left, file.name);
   const head = new TextDecoder().decode(bytes.subarray(0, 4000));
   if (/\.obj$/i.test(file.name) && /^#mvs|^# ?mvs|mvs:/m.test(head)) {
     const shown = await run(t.closing, 'open_file', { name: file.name, bytes });
@@ -116,9 +135,37 @@ export async function openFile(file: File): Promise<void> {
   state.notice.value = { kind: 'error', text: t.unknownFile(file.name) };
 }
 
-/** Shows a surface to build a valve from. The unit is asked for because most files do not state it. */
-export async function beginImport(name: string, bytes: Uint8Array, unit = 'mm'): Promise<void> {
-  const surface = await run(t.reading, 'read_surface', { name, bytes: bytes.slice(), unit });
+/** Width of a surface in mm: the distance of two points far from each other, in whatever way it lies. */
+export function widthOf(points: Float32Array): number {
+  const farthest = ([x, y, z]: number[]): [number, number[]] => {
+    let [range, at] = [0, [x, y, z]];
+    for (let i = 0; i < points.length; i += 3) {
+      const far = Math.hypot(points[i] - x, points[i + 1] - y, points[i + 2] - z);
+      if (far > range) [range, at] = [far, [...points.subarray(i, i + 3)]];
+    }
+    return [range, at];
+  };
+  const [, end] = farthest([...points.subarray(0, 3)]);
+  return farthest(end)[0];
+}
+
+/** mm: widths of surfaces that are taken for valves, from an infant's annulus to a ventricle around a dilated one. */
+const plausible = [10, 200];
+
+/** The unit in which a surface that was read as mm has the width of a valve; mm where none has. */
+function guessedUnit(points: Float32Array): string {
+  const width = widthOf(points);
+  const fits = ([, mm]: [string, number]) => width * mm >= plausible[0] && width * mm <= plausible[1];
+  return (Object.entries({ mm: 1, cm: 10, m: 1000 }).find(fits) ?? ['mm'])[0];
+}
+
+/** Shows a surface to build a valve from. Most files do not state their unit: it is guessed, and can be chosen. */
+export async function beginImport(name: string, bytes: Uint8Array, unit?: string): Promise<void> {
+  const read = (as: string) => run(t.reading, 'read_surface', { name, bytes: bytes.slice(), unit: as });
+  const asMm = unit ? null : await read('mm');
+  if (!unit && !asMm) return;
+  unit ??= guessedUnit(asMm!.points);
+  const surface = unit === 'mm' && asMm ? asMm : await read(unit);
   if (!surface) return;
   discard();
   batch(() => {
@@ -150,12 +197,19 @@ export async function buildValve(): Promise<void> {
   state.panel.value = 'import';
 }
 
-export async function openSession(bytes: Uint8Array, left: Left | null = null): Promise<void> {
+export async function openSession(bytes: Uint8Array, left: Left | null = null, name = ''): Promise<void> {
   const opened = await run(t.replaying, 'open_session', { bytes });
-  if (!opened) return;
+  if (!opened) {
+    const { value } = state.notice;
+    if (value?.kind === 'error' && name)
+      state.notice.value = { ...value, text: t.refusedFile(name, value.text) };
+    return;
+  }
+  leaveSurface();
   show(opened.shown, true);
   state.tour.value = null;
-  state.first.value = null;
+  state.receive(opened.first.picture);
+  state.first.value = opened.first;
   state.checkpoints.value = opened.checkpoints;
   state.title.value = opened.title;
   state.notes.value = opened.notes;

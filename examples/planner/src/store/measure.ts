@@ -1,6 +1,7 @@
 // Checkpoints, and figures that are calculated on request.
 import { batch } from '@preact/signals';
 import { change, run } from './requests';
+import { keepOpening } from './opening';
 import * as state from './state';
 import { planTexts, t } from '../text/texts';
 
@@ -50,7 +51,9 @@ export async function measureCost(): Promise<void> {
     which: state.preview.value ? 'preview' : 'main',
     flow: state.flow.value ?? 0,
   });
-  if (value) state.cost.value = { hash: figures.hash, value };
+  if (!value) return;
+  state.cost.value = { hash: figures.hash, value };
+  keepOpening(figures.hash, value);
 }
 
 export async function measureSpread(): Promise<void> {

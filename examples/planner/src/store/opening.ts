@@ -1,7 +1,8 @@
 // How far the valve would open: measured by itself while an operation that narrows it is chosen, after the figures of
 // the closed valve.
-import { effect } from '@preact/signals';
-import type { Cost } from '../protocol';
+import { effect, untracked } from '@preact/signals';
+import type { CostRequest } from '../calls';
+import type { Cost, Shown } from '../protocol';
 import { fail, request } from './requests';
 import * as state from './state';
 
@@ -19,11 +20,31 @@ export function openingOf(hash: string | undefined): Cost | null {
   return state.openings.value.get(hash) ?? null;
 }
 
-async function measure(which: 'main' | 'preview', hash: string): Promise<void> {
+/** Remembers the opening of a closed valve, among the last ones. */
+export function keepOpening(hash: string, found: Cost): void {
+  state.openings.value = new Map([...[...state.openings.value].slice(-20), [hash, found]]);
+}
+
+async function measure(which: CostRequest['which'], hash: string): Promise<void> {
   const { value: flow } = state.flow;
-  const found = await request('cost', { which, flow: flow ?? 0 });
-  const kept = [...state.openings.value].slice(-20);
-  state.openings.value = new Map([...kept, [hash, found]]);
+  keepOpening(hash, await request('cost', { which, flow: flow ?? 0 }));
+}
+
+/** True while two plans that are compared are measured. */
+let comparing = false;
+
+/** Measures the openings of the present plan and of the one that it is compared with, unless they take too long. */
+async function measureCompared(name: string, other: Shown, main: Shown): Promise<void> {
+  if (comparing || main.picture.positions.length > 3 * most) return;
+  comparing = true;
+  try {
+    if (!openingOf(other.figures.hash)) await measure(`checkpoint ${name}`, other.figures.hash);
+    if (!openingOf(main.figures.hash) && state.main.value === main) await measure('main', main.figures.hash);
+  } catch (error) {
+    fail(error);
+  } finally {
+    comparing = false;
+  }
 }
 
 /** Measures the preview, then the valve before it. */
@@ -39,7 +60,17 @@ async function measureBoth(): Promise<void> {
   }
 }
 
+/** Measures two plans that are compared as soon as all figures are known and nothing else is under way. */
+function watchCompared(): void {
+  effect(() => {
+    const [name, other, main] = [state.compareWith.value, state.compared.value, state.main.value];
+    const idle = !state.busy.value && !state.draft.value && main?.figures.known === 'all';
+    if (name && other && main && idle) untracked(() => void measureCompared(name, other, main));
+  });
+}
+
 export function watchOpening(): void {
+  watchCompared();
   let timer = 0;
   effect(() => {
     const { draft, pending, busy, preview } = state;

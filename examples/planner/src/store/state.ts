@@ -42,6 +42,8 @@ export const preview = signal<Shown | null>(null);
 /** The form that the preview, or its refusal, belongs to. */
 export const previewed = signal<Draft | null>(null);
 export const motion = signal<Motion | null>(null);
+/** The moving picture is that of a valve that is being opened, and not of the valve of the plan. */
+export const coming = signal(false);
 /** Picture and figures show the valve before instead of the present one. */
 export const past = signal(false);
 /** The first closed valve of the plan, for "before". */
@@ -117,6 +119,9 @@ export const importing = signal<keyof Imported['points']>('commissures');
 export const dropping = signal(false);
 export const dialog = signal<'keys' | 'report' | 'about' | 'recover' | 'notes' | null>(null);
 
+/** The valve of the plan whose picture moves. */
+export const resting = computed<Shown | null>(() => (coming.value ? null : main.value));
+
 const topologies = new Map<string, Topology>();
 
 /** Keeps the connectivity that comes with a picture. */
@@ -134,12 +139,14 @@ export const earlier = computed<Shown | null>(() => {
   const begin = first.value;
   return begin && begin.figures.hash !== main.value?.figures.hash ? begin : null;
 });
-export const inPast = computed(() => past.value && !!earlier.value && !motion.value);
+/** The valve that one press shows in place of the present one: that of a plan that is compared, or the valve before. */
+export const other = computed<Shown | null>(() => (preview.value ? null : compared.value) ?? earlier.value);
+export const inPast = computed(() => past.value && !!other.value && !motion.value);
 /** The valve of picture and figures: the preview if there is one, or the valve before. */
 export const shown = computed<Shown | null>(() =>
-  inPast.value ? earlier.value : (preview.value ?? main.value),
+  inPast.value ? other.value : (preview.value ?? main.value),
 );
-export const figures = computed<Figures | null>(() => shown.value?.figures ?? null);
+export const figures = computed<Figures | null>(() => (coming.value ? null : (shown.value?.figures ?? null)));
 /** The figures to compare with. */
 export const before = computed<Figures | null>(() =>
   inPast.value ? null : (earlier.value?.figures ?? null),

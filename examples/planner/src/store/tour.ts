@@ -71,6 +71,7 @@ export function flailHeight(): number | null {
 
 /** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */
 export function reached(): Record<'sealed' | 'chords' | 'open' | 'edge', boolean | null> {
+  if (state.coming.value) return { sealed: null, chords: null, open: null, edge: null };
   const height = flailHeight();
   const { hash, known, measures } = state.main.value!.figures;
   const cost = openingOf(hash);

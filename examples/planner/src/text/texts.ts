@@ -115,7 +115,7 @@ export const operationWords: Record<string, Words> = {
     fields: {
       anterior: 'Anterior scallop',
       posterior: 'Posterior scallop',
-      position: 'Position, −1 at A3–P3 to 1 at A1–P1 (A, D)',
+      position: 'Position: −1 posteromedial, 1 anterolateral (A, D)',
       angle: 'Turn, seen from the atrium (Q, E)',
       width: 'Width',
       reach: 'Depth of the grasp',
@@ -127,7 +127,7 @@ export const operationWords: Record<string, Words> = {
     short: 'Take out a piece of a leaflet and suture',
     fields: {
       scallop: 'Scallop',
-      position: 'Position in the scallop, −1 at A3–P3 to 1 at A1–P1',
+      position: 'Position: −1 posteromedial, 1 anterolateral',
       width: 'Width at the free edge',
       base_width: 'Width at the annulus',
       depth: 'Depth',
@@ -186,6 +186,8 @@ export const t = {
     'Session opened, but the repeated plan differs from the saved valve: it was saved by another version.',
   unknownFile: (name: string) =>
     `${name} is not a file this page can open: it takes a session (.mvsplan), a valve (.obj), or a surface (.stl, .ply, .obj).`,
+  refusedFile: (name: string, why: string) => `${name} was not opened: ${why}.`,
+  severalFiles: (name: string) => `One file at a time: ${name} was taken.`,
   importBegun: (triangles: number) =>
     `Surface with ${triangles} triangles. Mark both commissures, then build the valve.`,
   statusLine: (f: Figures) =>
@@ -274,8 +276,8 @@ export const tourTexts = {
     edge: (scallop: string, height: number | null) =>
       `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
     chords: (percent: number | null) =>
-      `No chord above ${percent ?? '…'} % of its working limit, a tenth more than before its illness`,
-    open: 'Opens to at least 90 % of its area before its illness',
+      `No chord above ${percent ?? '…'} % of its working limit, 10 % more than before the illness`,
+    open: 'Open area at least 90 % of that before the illness',
   },
   shortGoals: {
     sealed: 'No leak',
@@ -326,11 +328,11 @@ export const mapWords: Record<
   },
   height: {
     title: 'Height',
-    scale: 'Above (+) or below the flat plane of the annulus; prolapse counts from its saddle',
+    scale: 'Height over (+) or under (−) the mean plane of the annulus',
   },
   stretch: { title: 'Stretch', scale: 'Stretch of the leaflets' },
   load: { title: 'Chord load', scale: 'Load of the chordae; 100 % is their limit' },
-  distance: { title: 'Change', scale: 'Moved from the valve before' },
+  distance: { title: 'Change', scale: 'Moved by the repair, or from the plan that it is compared with' },
 };
 
 export const importTexts = {
@@ -401,7 +403,6 @@ export const verdictTexts = {
   ofClosed: 'when closed',
   chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
   chordOver: (name: string, percent: number) => `${name} ${percent} %`,
-  chordsMore: (count: number) => `and ${count} more`,
   limitHelp:
     'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it a chord may tear. A healthy valve may have one just at its limit.',
 };
@@ -484,7 +485,7 @@ export const valveTexts = {
     'Length over which the leaflets lie against each other. Surgeons aim at 8 mm or more at A2-P2.',
   coaptationHeight: 'Coaptation height, A2–P2',
   coaptationHeightHelp:
-    'How high the leaflets touch in the middle section, along the axis of the valve; the length along the leaflets is larger where they lie at a slant.',
+    'How high the leaflets touch in the middle section, along the axis of the valve. The table gives the coaptation of A2 and P2 along the leaflets, which is longer where they lie at a slant.',
   tenting: 'Tenting height',
   tentingHelp: 'Deepest point of the closed leaflets below the plane of the annulus',
   prolapse: 'Prolapse above annulus',
@@ -502,12 +503,12 @@ export const valveTexts = {
   prolapseVolume: 'Prolapse volume',
   saddle: 'Saddle height',
   angle: 'Non-planar angle',
-  stretch95: 'Leaflet stretch, 95 % below',
-  stress95: 'Leaflet stress, 95 % below',
+  stretch95: 'Leaflet stretch, 95th percentile',
+  stress95: 'Leaflet stress, 95th percentile',
   strongestPull: 'Strongest chord pull',
   pullOn: (head: string) => `Pull on ${head}`,
   head: (h: number) => `head ${h}`,
-  closedAt: 'Closed at 120 mmHg. The same letters stand for the same valve, to the last digit:',
+  closedAt: 'Closed at 120 mmHg. Fingerprint of the valve, the same only for a valve that is identical:',
   howCertain: 'How certain? Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
     `${converged} of ${members} closures came to rest, ${shapes === 1 ? 'all in one shape' : `in ${shapes} shapes of the folds`}, which differ by at most ${number(apart)} mm.`,
@@ -531,7 +532,7 @@ export const tableTexts = {
   coaptation: 'Coaptation, mm',
   leak: 'Leak, mm²',
   prolapse: 'Prolapse, mm',
-  commissure: (name: string) => `Commissure ${name}`,
+  commissure: (name: string) => `Commissure ${name.replace('-', '–')}`,
   was: (value: string) => ` was ${value}`,
   leakHint: 'A leak between two leaflets counts by half for the scallop on either side.',
   chordae: (count: number) => `Chordae (${count})`,
@@ -746,6 +747,9 @@ export const dialogTexts = {
 export const sectionTexts = {
   label: 'Section through the leaflets',
   posterior: 'posterior',
+  atrium: 'atrium',
+  ventricle: 'ventricle',
+  annulus: 'annulus',
   anterior: 'anterior',
   scale: '10 mm',
   healthy: 'before its illness',

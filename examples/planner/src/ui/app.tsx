@@ -5,7 +5,7 @@ import { openFile } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { appTexts, barTexts, help, importTexts, t } from '../text/texts';
+import { appTexts, barTexts, help, importTexts, planTexts, t } from '../text/texts';
 import { clipKey } from '../view/clip';
 import type { MapName } from '../view/colours';
 import { maps } from '../view/colours';
@@ -114,15 +114,16 @@ function Busy() {
 
 /** The valve before in picture and figures, to compare. */
 function Compare() {
-  if (!state.earlier.value || state.motion.value || state.surface.value) return null;
+  if (!state.other.value || state.motion.value || state.surface.value) return null;
   const past = state.inPast.value;
+  const compared = !state.preview.value && state.compared.value ? state.compareWith.value : null;
   return (
     <div class="compare group" role="group" aria-label={appTexts.compare}>
       <Button keys="W" pressed={past} onClick={() => (state.past.value = true)}>
-        {appTexts.before}
+        {compared ?? appTexts.before}
       </Button>
       <Button keys="W" pressed={!past} onClick={() => (state.past.value = false)}>
-        {state.preview.value ? appTexts.preview : appTexts.now}
+        {state.preview.value ? appTexts.preview : compared ? planTexts.present : appTexts.now}
       </Button>
     </div>
   );
@@ -231,8 +232,11 @@ function onDragEnd(event: DragEvent): void {
 function onDrop(event: DragEvent): void {
   event.preventDefault();
   state.dropping.value = false;
-  const file = event.dataTransfer?.files[0];
-  if (file && !state.dialog.value) void openFile(file);
+  const files = event.dataTransfer?.files;
+  if (!files?.length || state.dialog.value) return;
+  void openFile(files[0]).then(() => {
+    if (files.length > 1) state.notice.value ??= { kind: 'info', text: t.severalFiles(files[0].name) };
+  });
 }
 
 export function App() {

@@ -10,8 +10,8 @@ const facts: [string, (chord: Chord) => string, string][] = [
   [repairTexts.limit, (chord) => String(percentOfLimit(shareOfLimit(chord))), '%'],
 ];
 
-/** `after`: the chord in the preview of a change. */
-export function ChordFacts({ chord, after }: { chord: Chord; after?: Chord }) {
+/** `after`: the chord in the preview of a change; `brief`: in a form, which has no room for an explanation. */
+export function ChordFacts({ chord, after, brief }: { chord: Chord; after?: Chord; brief?: boolean }) {
   const fact = (of: (chord: Chord) => string, unit: string) => {
     const [was, now] = [of(chord), of(after ?? chord)];
     const value = was === now ? was : repairTexts.becomes(was, now);
@@ -26,11 +26,16 @@ export function ChordFacts({ chord, after }: { chord: Chord; after?: Chord }) {
         {facts.map(([label, of, unit]) => (
           <>
             <dt>{label}</dt>
-            <dd class={label === repairTexts.limit && over ? 'over' : undefined}>{fact(of, unit)}</dd>
+            <dd
+              class={label === repairTexts.limit && over ? 'over' : undefined}
+              title={label === repairTexts.limit ? verdictTexts.limitHelp : undefined}
+            >
+              {fact(of, unit)}
+            </dd>
           </>
         ))}
       </dl>
-      {over && <p class="beyond">{verdictTexts.limitHelp}</p>}
+      {over && !brief && <p class="beyond">{verdictTexts.limitHelp}</p>}
     </>
   );
 }

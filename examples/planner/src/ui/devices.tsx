@@ -1,5 +1,5 @@
 // Rings, bands, clips and artificial chordae as a table: the twin of what the picture shows of them.
-import { suture } from '../notable';
+import { clipOf, suture } from '../notable';
 import * as state from '../store/state';
 import { deviceTexts } from '../text/texts';
 import type { Figures, Picture, Topology } from '../protocol';
@@ -29,12 +29,12 @@ function ringFigures(picture: Picture, r: number, frame: number[]): string {
   return deviceTexts.ring(extent(2), extent(1), length + gap);
 }
 
-/** Stitches of one clip are chordae "clip", "clip/2", "clip/3". */
+/** The stitches of each clip. */
 function clips(figures: Figures): Device[] {
   const stitches = new Map<string, number[]>();
   for (const chord of figures.chords) {
-    if (chord.kind !== suture || !/^clip/.test(chord.name)) continue;
-    const name = chord.name.replace(/\/\d+$/, '');
+    const name = clipOf(chord.name);
+    if (chord.kind !== suture || !name) continue;
     stitches.set(name, [...(stitches.get(name) ?? []), chord.tension]);
   }
   return [...stitches].map(([name, pulls]) => ({

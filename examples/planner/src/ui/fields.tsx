@@ -68,6 +68,10 @@ function textOf(value: number | undefined, scale: number, present: number | null
   return value === present ? figure(value) : String(+(value * scale).toPrecision(6));
 }
 
+/** ms without a key after which a typed number is tried. */
+const pause = 700;
+let typing = 0;
+
 function NumberField(props: FieldProps) {
   const { kind, field } = props;
   const value = state.draft.value?.fields[field.name] as number | undefined;
@@ -120,6 +124,14 @@ function NumberField(props: FieldProps) {
                 ? formTexts.auto
                 : ''
           }
+          onInput={(event) => {
+            // a number that was typed to its end is tried without Enter; "19." goes on
+            const { currentTarget: box } = event;
+            const typed = box.value;
+            window.clearTimeout(typing);
+            if (typed === text || String(parseFloat(typed)) !== typed) return;
+            typing = window.setTimeout(() => box.isConnected && box.value === typed && set(typed), pause);
+          }}
           onChange={(event) => event.currentTarget.value !== text && set(event.currentTarget.value)}
           onKeyDown={(event) => {
             // Enter takes a number that was typed; once more, with its preview in sight, it applies

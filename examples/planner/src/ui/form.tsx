@@ -65,7 +65,7 @@ export function OperationForm() {
       )}
       {chord && (
         <div class="chosen-card" data-testid="chosen">
-          <ChordFacts chord={chord} after={changed} />
+          <ChordFacts chord={chord} after={changed} brief />
         </div>
       )}
       {shown.map((field) => (

@@ -1,6 +1,6 @@
 // Bringing in a patient's surface: unit, points that the surgeon knows, building, and the findings.
 import { Hammer } from 'lucide-preact';
-import { beginImport, buildValve } from '../store/files';
+import { beginImport, buildValve, widthOf } from '../store/files';
 import * as state from '../store/state';
 import type { SurfaceKind } from '../protocol';
 import { importTexts, say } from '../text/texts';
@@ -29,7 +29,7 @@ export function ImportPanel() {
           <option value="cm">cm</option>
           <option value="m">m</option>
         </select>
-        <small>{importTexts.size(extent(imported.surface.points))}</small>
+        <small>{importTexts.size(widthOf(imported.surface.points))}</small>
       </div>
       <div class="field">
         <label for="surface-kind">{importTexts.kind}</label>
@@ -78,18 +78,6 @@ export function ImportPanel() {
       </div>
     </div>
   );
-}
-
-/** Largest side of the box around points, mm. */
-function extent(points: Float32Array): number {
-  let largest = 0;
-  for (let c = 0; c < 3; ++c) {
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = c; i < points.length; i += 3)
-      [low, high] = [Math.min(low, points[i]), Math.max(high, points[i])];
-    largest = Math.max(largest, high - low);
-  }
-  return largest;
 }
 
 function Findings() {

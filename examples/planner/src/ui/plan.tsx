@@ -12,8 +12,9 @@ import {
   saveSession,
   storageWorks,
 } from '../store/keep';
+import { openingOf } from '../store/opening';
 import * as state from '../store/state';
-import { appTexts, barTexts, figure, figureNames, planTexts, say } from '../text/texts';
+import { appTexts, barTexts, figure, figureNames, planTexts, say, valveTexts } from '../text/texts';
 import type { Measures } from '../protocol';
 import { Checkpoints } from './checkpoints';
 import { Button, Section } from './parts';
@@ -113,6 +114,12 @@ const rows: [string, (m: Measures) => number, number, string][] = [
   [figureNames.maxChordTension, (m) => m.maxChordTension, 2, 'N'],
 ];
 
+/** The open area of a valve; dots until it is measured. */
+function openArea(hash: string): string {
+  const cost = openingOf(hash);
+  return cost ? `${figure(cost.openArea / 100, 2)} cm²` : '…';
+}
+
 function SideBySide() {
   const now = state.main.value!.figures;
   const other = state.compared.value!.figures;
@@ -137,6 +144,12 @@ function SideBySide() {
             </td>
           </tr>
         ))}
+        <tr>
+          <th scope="row">{valveTexts.openArea}</th>
+          {[other, now].map(({ hash }) => (
+            <td>{openArea(hash)}</td>
+          ))}
+        </tr>
         <tr class="wrap">
           <th scope="row">{planTexts.steps}</th>
           <td>

@@ -21,7 +21,7 @@ import { fail, request } from '../store/requests';
 import { view } from './app';
 import { Modal } from './dialogs';
 import { Button } from './parts';
-import { lines } from './section';
+import { boxOf, lines } from './section';
 
 interface Pictures {
   before: string[];
@@ -99,10 +99,12 @@ function openingRows(then: Figures, now: Figures): string {
   const row = (label: string, was: string, value: string) =>
     `<tr><th>${escape(label)}</th><td>${escape(was)}</td><td>${escape(value)}</td></tr>`;
   const area = (cost: Cost | null) => (cost ? `${figure(cost.openArea / 100, 2)} cm²` : '');
+  const gradient = (cost: Cost | null) =>
+    cost && Number.isFinite(cost.gradient) ? `${figure(cost.gradient)} mmHg` : '';
   return (
     row(valveTexts.openArea, area(before), area(after)) +
     (Number.isFinite(after.gradient)
-      ? row(reportTexts.gradient(state.flow.value ?? 0), '', `${figure(after.gradient)} mmHg`)
+      ? row(reportTexts.gradient(state.flow.value ?? 0), gradient(before), gradient(after))
       : '')
   );
 }
@@ -112,14 +114,17 @@ async function sectionPlot(): Promise<string> {
   const frame = state.main.value!.figures.frame;
   const ask = (which: 'first' | 'main') => request('section', { which, frame, offset: 0 });
   const [before, after] = [await ask('first'), await ask('main')];
+  const { x, y, width, height, text: size } = boxOf([before, after]);
+  const [left, right, bottom] = [x + size / 2, x + width - size / 2, y + height];
   const word = (x: number, y: number, anchor: string, text: string, colour = '#5a6a79') =>
-    `<text x="${x}" y="${y}" text-anchor="${anchor}" font-size="2.2" fill="${colour}">${escape(text)}</text>`;
-  return `<svg class="cut" viewBox="-26 -12 52 37" role="img" aria-label="${sectionTexts.label}"><g fill="none" stroke-linecap="round">
-<path d="M-24 0H24" stroke="#c4ced6" stroke-width=".2"/><path d="M-24 21h10" stroke="#1c2733" stroke-width=".4"/>
-<path d="${lines(before)}" stroke="#8795a1" stroke-width=".45" stroke-dasharray="1 .8"/>
-<path d="${lines(after)}" stroke="#b5493b" stroke-width=".6"/></g>
-${word(-25, -9, 'start', sectionTexts.anterior)}${word(25, -9, 'end', sectionTexts.posterior)}${word(-19, 23.5, 'middle', sectionTexts.scale)}
-${word(25, 20.5, 'end', reportTexts.dashed)}${word(25, 23.5, 'end', reportTexts.line, '#b5493b')}</svg>`;
+    `<text x="${x}" y="${y}" text-anchor="${anchor}" font-size="${size}" fill="${colour}">${escape(text)}</text>`;
+  return `<svg class="cut" viewBox="${x} ${y} ${width} ${height + 1.4 * size}" role="img" aria-label="${sectionTexts.label}"><g fill="none" stroke-linecap="round">
+<path d="M${left} 0H${right}" stroke="#c4ced6" stroke-width=".2"/><path d="M${left} ${bottom - 2 * size}h10" stroke="#1c2733" stroke-width=".3"/>
+<path d="${lines(before)}" stroke="#8795a1" stroke-width=".35" stroke-dasharray="1 .8"/>
+<path d="${lines(after)}" stroke="#b5493b" stroke-width=".45"/></g>
+${word(left, y + 1.3 * size, 'start', sectionTexts.anterior)}${word(right, y + 1.3 * size, 'end', sectionTexts.posterior)}${word(x + width / 2, y + 1.3 * size, 'middle', sectionTexts.atrium)}
+${word(left, -0.4 * size, 'start', sectionTexts.annulus)}${word(left + 5, bottom - 0.7 * size, 'middle', sectionTexts.scale)}
+${word(right, bottom - 0.7 * size, 'end', reportTexts.dashed)}${word(right, bottom + 0.6 * size, 'end', reportTexts.line, '#b5493b')}</svg>`;
 }
 
 /** The report as the body of an HTML page. */
@@ -156,7 +161,8 @@ ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.valu
 
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
-table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400;white-space:nowrap}`;
+table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400;white-space:nowrap}
+@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:58mm;object-fit:cover}svg.cut{max-height:60mm}}`;
 
 export function ReportDialog() {
   const html = useSignal('');

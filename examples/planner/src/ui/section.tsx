@@ -21,6 +21,26 @@ export function lines(points: Section): string {
   return path;
 }
 
+/** The part of the plane that holds all curves with a margin for the words, at least as large as a common valve, mm; size of the words. */
+export function boxOf(curves: Section[]): {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+  text: number;
+} {
+  let [wide, high, low] = [18, 5, 13];
+  for (const points of curves) {
+    for (let i = 0; i < points.length; i += 2) {
+      wide = Math.max(wide, Math.abs(points[i]) + 2);
+      high = Math.max(high, points[i + 1] + 2);
+      low = Math.max(low, 2 - points[i + 1]);
+    }
+  }
+  const text = 0.09 * wide;
+  return { x: -wide, y: -high - 1.5 * text, width: 2 * wide, height: high + low + 4 * text, text };
+}
+
 /** The scallops of the shown valve that the plane cuts. */
 function through(): string[] {
   const { picture, figures } = state.shown.value!;
@@ -72,22 +92,46 @@ export function SectionPlot() {
   const outdated = state.outdated.value || shown.value !== wanted().key;
   const limit = 0.5 * (state.figures.value?.measures.annulusCc ?? 40);
   if (!state.main.value) return null;
+  const box = boxOf(curves.value.map(({ points }) => points));
+  const text = { class: 'plot-text', style: { fontSize: `${box.text}px` } };
+  const [left, right] = [box.x + box.text / 2, box.x + box.width - box.text / 2];
+  const bottom = box.y + box.height;
   return (
     <div class={outdated ? 'outdated' : ''} aria-busy={outdated}>
-      <svg class="plot" viewBox="-26 -12 52 36" role="img" aria-label={sectionTexts.label}>
-        <line x1="-24" y1="0" x2="24" y2="0" class="plot-axis" />
-        <text x="-25" y="-9" class="plot-text">
+      <svg
+        class="plot"
+        viewBox={`${box.x} ${box.y} ${box.width} ${box.height}`}
+        role="img"
+        aria-label={sectionTexts.label}
+      >
+        <line x1={left} y1="0" x2={right} y2="0" class="plot-axis" />
+        <text x={left} y={-0.4 * box.text} {...text}>
+          {sectionTexts.annulus}
+        </text>
+        <text x={left} y={box.y + 1.3 * box.text} {...text}>
           {sectionTexts.anterior}
         </text>
-        <text x="25" y="-9" text-anchor="end" class="plot-text">
+        <text x={box.x + box.width / 2} y={box.y + 1.3 * box.text} text-anchor="middle" {...text}>
+          {sectionTexts.atrium}
+        </text>
+        <text x={right} y={box.y + 1.3 * box.text} text-anchor="end" {...text}>
           {sectionTexts.posterior}
         </text>
         {curves.value.map((curve) => (
           <path d={lines(curve.points)} class={`plot-${curve.style}`} />
         ))}
-        <line x1="-24" y1="21" x2="-14" y2="21" class="plot-scale" />
-        <text x="-19" y="23.5" text-anchor="middle" class="plot-text">
+        <line
+          x1={left}
+          y1={bottom - 2 * box.text}
+          x2={left + 10}
+          y2={bottom - 2 * box.text}
+          class="plot-scale"
+        />
+        <text x={left + 5} y={bottom - 0.7 * box.text} text-anchor="middle" {...text}>
           {sectionTexts.scale}
+        </text>
+        <text x={right} y={bottom - 0.7 * box.text} text-anchor="end" {...text}>
+          {sectionTexts.ventricle}
         </text>
       </svg>
       <div class="legend">

@@ -2,7 +2,7 @@
 import * as state from '../store/state';
 import { figure, kinds, tableTexts } from '../text/texts';
 import type { Figures } from '../protocol';
-import { percentOfLimit, shareOfLimit } from '../notable';
+import { percentOfLimit, shareOfLimit, suture } from '../notable';
 import { Section } from './parts';
 
 export function Scallops({ figures }: { figures: Figures }) {
@@ -48,11 +48,13 @@ export function Scallops({ figures }: { figures: Figures }) {
 
 export function Chordae({ figures }: { figures: Figures }) {
   const chosen = state.choice.value;
-  const rows = figures.chords
+  // the stitches of a clip or a suture are no chordae
+  const chordae = figures.chords.filter((chord) => chord.kind !== suture);
+  const rows = chordae
     .map((chord) => ({ chord, share: shareOfLimit(chord) }))
     .sort((a, b) => b.share - a.share);
   return (
-    <Section title={tableTexts.chordae(figures.chords.length)}>
+    <Section title={tableTexts.chordae(chordae.length)}>
       <p class="hint">{tableTexts.chordaeHint}</p>
       <div class="scroll">
         <table class="table" data-testid="chords">

@@ -41,7 +41,8 @@ export function Verdict() {
 /** Which valve the figures belong to, where it is not the one of the plan as the picture shows it. */
 function tagOf(): string {
   if (state.motion.value && state.openness.value < 1) return verdictTexts.ofClosed;
-  if (state.inPast.value) return verdictTexts.past;
+  if (state.inPast.value)
+    return (state.compared.value && !state.preview.value && state.compareWith.value) || verdictTexts.past;
   if (state.outdated.value) return verdictTexts.trying;
   return state.preview.value ? verdictTexts.preview : '';
 }
@@ -65,7 +66,7 @@ function Beyond({ figures }: { figures: Figures }) {
             {words.chordOver(chord.name, percentOfLimit(shareOfLimit(chord)))}
           </button>
         ))}
-        {beyond.length > named && words.chordsMore(beyond.length - named)}
+        {beyond.length > named && '…'}
       </div>
     </div>
   );

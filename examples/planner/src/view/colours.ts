@@ -1,5 +1,6 @@
-// Colours of tissue and devices, and colour maps that remain ordered for colour-blind people: cividis (Nunez
-// et al. 2018) for amounts, blue to orange through grey for heights above and below a plane.
+// Colours of tissue and devices, and colour maps that remain ordered for colour-blind people: viridis (van der Walt and
+// Smith 2015) for amounts, whose colours stay apart in the light of the scene, unlike the greys of cividis; blue to
+// orange through grey for heights above and below a plane.
 import type { Colour } from './mesh';
 
 export const tissue = {
@@ -23,16 +24,16 @@ export const tissue = {
   hand: [0.1, 0.45, 0.85] as Colour,
 };
 
-const cividis: Colour[] = [
-  [0.0, 0.135, 0.305],
-  [0.12, 0.22, 0.42],
-  [0.28, 0.31, 0.42],
-  [0.39, 0.4, 0.44],
-  [0.49, 0.49, 0.47],
-  [0.6, 0.58, 0.46],
-  [0.72, 0.68, 0.43],
-  [0.86, 0.79, 0.36],
-  [0.995, 0.91, 0.22],
+const viridis: Colour[] = [
+  [0.267, 0.005, 0.329],
+  [0.278, 0.173, 0.478],
+  [0.231, 0.318, 0.545],
+  [0.173, 0.443, 0.557],
+  [0.129, 0.565, 0.553],
+  [0.153, 0.678, 0.506],
+  [0.361, 0.784, 0.388],
+  [0.667, 0.863, 0.196],
+  [0.992, 0.906, 0.145],
 ];
 const diverging: Colour[] = [
   [0.03, 0.25, 0.55],
@@ -55,11 +56,11 @@ export interface ColourMap {
 
 /** Ranges in the unit that is written at the scale. */
 export const maps: Record<Exclude<MapName, 'tissue'>, ColourMap> = {
-  coaptation: { colours: [...cividis].reverse(), low: 0.5, high: 2.5, unit: 'mm' },
+  coaptation: { colours: [...viridis].reverse(), low: 0.5, high: 2.5, unit: 'mm' },
   height: { colours: diverging, low: -9, high: 9, unit: 'mm' },
-  stretch: { colours: cividis, low: 0, high: 40, unit: '%' },
-  load: { colours: cividis, low: 0, high: 100, unit: '%' },
-  distance: { colours: cividis, low: 0, high: 4, unit: 'mm' },
+  stretch: { colours: viridis, low: 0, high: 40, unit: '%' },
+  load: { colours: viridis, low: 0, high: 100, unit: '%' },
+  distance: { colours: viridis, low: 0, high: 4, unit: 'mm' },
 };
 
 /** Colour of a value; values out of the range take the end's colour, values without number grey. */

@@ -79,12 +79,13 @@ export class Shapes {
     }
   }
 
-  /** A tube along points, with round joints. */
+  /** A tube along points, with round joints and, where it is open, round ends. */
   path(points: number[][], radius: number, c: Colour, closed: boolean, sides = 8): void {
     for (let k = 0; k + (closed ? 0 : 1) < points.length; ++k) {
       this.tube(points[k], points[(k + 1) % points.length], radius, c, sides);
       this.sphere(points[k], radius, c, 4, sides);
     }
+    if (!closed) for (const end of [points[0], points[points.length - 1]]) this.sphere(end, radius, c, 8, 12);
   }
 
   sphere(at: ArrayLike<number>, radius: number, c: Colour, rings = 8, sides = 12): void {

@@ -1,6 +1,7 @@
 // Everything that is drawn of a valve, as meshes: leaflets and seams, what holds them, chordae, the leak, marks of chosen parts.
 import type { Fields, OrificePart, Picture, Topology } from '../protocol';
 import { chordae, throughAll } from './chordae';
+import { clips } from './clips';
 import { tissue, type MapName } from './colours';
 import { boundary } from './heart';
 import { atrialSide, leafletMesh } from './leaflets';
@@ -32,6 +33,8 @@ export function sceneMeshes(topology: Topology, middle: Picture, options: SceneO
   const leaflets = leafletMesh(topology, picture, options);
   const meshes = [leaflets, seams(topology, picture, leaflets), boundary(topology, picture, options)];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));
+  const bars = clips(topology, picture, options.frame);
+  if (bars) meshes.push(...throughTissue(bars));
   if (picture.orificeTriangles.length) meshes.push(...throughTissue(orifice(picture)));
   if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));
   if (options.chosenChord >= 0)

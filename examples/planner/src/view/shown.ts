@@ -9,7 +9,7 @@ import { sceneMeshes } from './scene';
 /** Rows: origin in mm, AP, CC, into the atrium. */
 export function shownFrame(): number[] {
   return (
-    (state.preview.value ?? state.main.value)?.figures.frame ?? state.motion.value?.frame ?? guessedFrame()
+    (state.preview.value ?? state.resting.value)?.figures.frame ?? state.motion.value?.frame ?? guessedFrame()
   );
 }
 
@@ -26,7 +26,7 @@ function guessedFrame(): number[] {
 
 /** Radius of the annulus about the origin of a frame, mm. */
 export function shownRadius(frame: number[]): number {
-  const picture = state.main.value?.picture ?? state.picture.value;
+  const picture = state.resting.value?.picture ?? state.picture.value;
   const topology = picture && state.topologyOf(picture);
   if (!picture || !topology) return 20;
   let largest = 5;
@@ -62,8 +62,8 @@ export function valveMeshes(frame: number[]): Mesh[] {
     chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
     chordsOn: state.chordsOn.value,
     jets: leakPlaces(figures?.orificeParts ?? []),
-    closed: state.motion.value ? (state.main.value?.picture ?? null) : null,
-    removed: state.chordsOn.value && shown === state.preview.value ? removedChords(topology) : [],
+    closed: state.motion.value ? (state.resting.value?.picture ?? null) : null,
+    removed: state.chordsOn.value && shown && shown === state.preview.value ? removedChords(topology) : [],
   });
 }
 

@@ -31,6 +31,12 @@ let hand: HandLoop | null = null;
 /** True while the slider of the opening moves the second simulator. */
 let opening = false;
 
+/** Ends a hand in the valve: it moves the simulator that works beside the plan. */
+function letGo(): void {
+  hand?.end();
+  hand = null;
+}
+
 function post(message: unknown): void {
   self.postMessage(message, [...buffersOf(message)]);
 }
@@ -61,13 +67,17 @@ type Handlers = {
 const handlers: Handlers = {
   start: ({ library }) => start(library),
   open_shipped: ({ name, vertices }, { id, signal, report }) => {
+    letGo();
     const bytes = shippedValve(mvs, name, vertices);
     const closed = planner.openBytes(bytes, signal, report);
     // the open valve is shown while it closes
     post({ id, motion: planner.motion(0) });
     return closed;
   },
-  open_file: ({ bytes }, { signal, report }) => planner.openBytes(bytes, signal, report),
+  open_file: ({ bytes }, { signal, report }) => {
+    letGo();
+    return planner.openBytes(bytes, signal, report);
+  },
   preview: (operation, { signal, report, stage }) => planner.previewOf(operation, signal, report, stage),
   accept: ({ has }, { stage }) => planner.accept(has, stage),
   discard: () => (planner.discard(), null),
@@ -79,12 +89,12 @@ const handlers: Handlers = {
     opening = true;
     return planner.openTo(share, fresh, signal);
   },
-  cost: ({ which, flow }) => planner.cost(which, flow),
+  cost: (request) => planner.cost(request),
   section: (request) => planner.section(request),
   hand_begin: (argument, { id }) => {
     const sim = planner.beside();
     sim.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
-    hand?.end();
+    letGo();
     hand = new HandLoop(
       sim,
       argument,
@@ -95,8 +105,7 @@ const handlers: Handlers = {
   },
   hand_move: ({ position }) => (hand?.move(position), null),
   hand_end: () => {
-    hand?.end();
-    hand = null;
+    letGo();
     return planner.shown();
   },
   checkpoint: ({ name }) => planner.checkpoint(name),
@@ -115,6 +124,7 @@ const handlers: Handlers = {
   spread: ({ members }, { report }) => planner.spread(members, report),
   read_surface: ({ name, bytes, unit }) => importer.read(name, bytes, unit),
   build: async (request, { signal, report }) => {
+    letGo();
     const { valve, findings } = importer.build(request, report);
     return { shown: await planner.openBytes(valve, signal, report), findings };
   },

@@ -1,6 +1,7 @@
 // The valve of the page: one simulator that holds the plan, and a second one for everything that must not
 // change it: previews, the opening slider, a hand in the valve.
 import { DIASTOLE_PA, MvsError, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
+import type { CostRequest } from '../calls';
 import type { Cost, Known, Motion, Operation, Section, SectionRequest, Shown, Spread } from '../protocol';
 import { refusals } from '../text/texts';
 import { Checkpoints } from './checkpoints';
@@ -40,24 +41,35 @@ export class Planner {
     this.second = mvs.simulator();
   }
 
-  /** Takes over a valve file as the start of a plan, closes it, and begins a history. */
+  /** Closes a valve file beside the plan, of which nothing changes where that fails or is cancelled; then begins a plan with it. */
   async openBytes(
     bytes: Uint8Array | string,
     signal: AbortSignal,
     report: (share: number) => void,
   ): Promise<Shown> {
+    this.discard();
     this.second.load(bytes, 'obj');
     const start = this.second.read((snapshot) => snapshot.save('obj'));
-    this.main.load(start, 'obj');
-    this.start = start;
+    this.second.load(start, 'obj');
+    this.second.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
+    await this.settle(this.second, signal, report);
     this.forget();
-    return this.close(signal, report);
+    this.first = this.second.snapshot();
+    this.main.restore(this.first);
+    this.start = start;
+    return this.shown();
   }
 
   /** Takes over an opened session. */
-  take(start: Uint8Array, snapshot: Snapshot, checkpoints: (readonly [string, Snapshot])[]): void {
+  take(
+    start: Uint8Array,
+    snapshot: Snapshot,
+    first: Snapshot,
+    checkpoints: (readonly [string, Snapshot])[],
+  ): void {
     this.forget();
     this.main.restore(snapshot);
+    this.first = first;
     this.start = start.slice();
     for (const [name, kept] of checkpoints) this.checkpoints.set(name, kept);
   }
@@ -70,16 +82,9 @@ export class Planner {
     this.discard();
   }
 
-  /** The picture of the valve as it is, without figures. */
+  /** The picture of the valve that is being opened, as it is, without figures. */
   motion(share: number): Motion {
-    return this.main.read((snapshot) => motionOf(snapshot, share));
-  }
-
-  private async close(signal: AbortSignal, report: (share: number) => void): Promise<Shown> {
-    this.main.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
-    await this.settle(this.main, signal, report);
-    this.first = this.main.snapshot();
-    return this.shown();
+    return this.second.read((snapshot) => motionOf(snapshot, share));
   }
 
   private async settle(sim: Simulator, signal: AbortSignal, report: (share: number) => void): Promise<void> {
@@ -88,6 +93,11 @@ export class Planner {
 
   shown(): Shown {
     return this.main.read((snapshot) => this.shownOf(snapshot));
+  }
+
+  /** The closed valve before the first operation. */
+  shownFirst(): Shown {
+    return this.first ? this.shownOf(this.first) : this.shown();
   }
 
   shownOf(snapshot: Snapshot, known: Known = 'all'): Shown {
@@ -201,11 +211,16 @@ export class Planner {
   }
 
   /** The valve opened in diastole; the gradient of a flow in ml/s, if one is given. */
-  cost(which: 'main' | 'preview', flow: number): Cost {
-    const held = which === 'preview' && this.preview ? null : this.main.snapshot();
+  cost({ which, flow }: CostRequest): Cost {
+    const kept = which.startsWith('checkpoint ')
+      ? this.checkpoints.of(which.replace(/^checkpoint /, ''))
+      : which === 'preview'
+        ? this.preview
+        : null;
+    const held = kept ? null : this.main.snapshot();
     try {
       const asked = flow > 0 ? { residual: 1e-4, flow: flow / ml } : { residual: 1e-4 };
-      const { cost, opened } = (held ?? this.preview!).cost(asked);
+      const { cost, opened } = (kept ?? held!).cost(asked);
       opened.dispose();
       return {
         openArea: cost.open_area * mm2,

@@ -95,13 +95,18 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
     );
     trial.load(valve, 'obj');
     trial.replayPlan(text('plan.json'));
-    trial.read((snapshot) => planner.take(valve, snapshot, checkpoints));
+    const repaired = trial.snapshot();
+    // undo gives the closed valve before the first operation back, without a settle
+    while (trial.read((snapshot) => snapshot.history().done.length)) trial.undo();
+    planner.take(valve, repaired, trial.snapshot(), checkpoints);
+    repaired.dispose();
   } finally {
     trial.dispose();
   }
   const shown = planner.shown();
   return {
     shown,
+    first: planner.shownFirst(),
     checkpoints: [...planner.checkpoints.keys()],
     notes: String(description.notes ?? ''),
     title: String(description.title ?? ''),
