@@ -110,9 +110,13 @@ MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &sett
     findings.push_back({"crossings",
                         FindingSource::measured,
                         0.9,
-                        format("%zu pairs of triangles crossed and were separated by moves of at "
-                               "most %.3g mm",
-                               crossings.before, 1e3 * crossings.largest_move),
+                        crossings.largest_move > 0
+                            ? format("%zu pairs of triangles crossed and were separated by moves "
+                                     "of at most %.3g mm",
+                                     crossings.before, 1e3 * crossings.largest_move)
+                            : format("%zu pairs of triangles crossed and were separated by edge "
+                                     "flips; no point moved",
+                                     crossings.before),
                         {crossings.largest_move},
                         "m"});
   }

@@ -64,6 +64,13 @@ LAYOUTS = {
 }
 
 
+def test_a_valve_says_how_large_it_is(opened, valve):
+    said = repr(valve)
+    assert said.startswith(f'<mvs.Valve "{valve.name}": {len(opened.node_position)} nodes, ')
+    assert f"{len(opened.chord_nodes)} chord segments" in said and len(said) < 150
+    assert repr(mvs.Valve(nodes=None, triangles=3, annulus=None)) == '<mvs.Valve "valve": empty>'
+
+
 @pytest.mark.parametrize("layout", LAYOUTS)
 def test_strides_do_not_matter(opened, valve, layout):
     for field in dataclasses.fields(valve):

@@ -154,7 +154,7 @@ TEST_CASE("the_remaining_tissue_is_unchanged") {
   CHECK(kept + sutures_of(now).size() == now.chords.size());
   CHECK(kept < old.chords.size());  // those of the resected piece are removed
   CHECK(done.title.ends_with(
-      format("mm deep, with %zu chordae and segments that end there", old.chords.size() - kept)));
+      format("mm deep, with the %zu chord segments that end there", old.chords.size() - kept)));
 }
 
 TEST_CASE("the_piece_has_the_requested_size") {

@@ -139,7 +139,7 @@ def _no_field(name: str) -> str:
 
 @_with_near_names
 @with_field_help
-@dataclasses.dataclass(eq=False)
+@dataclasses.dataclass(eq=False, repr=False)
 class Valve:
     """A valve as arrays: n nodes, m triangles, l leaflets, s scallops, c chord segments, h heads.
 
@@ -216,6 +216,12 @@ class Valve:
     orient: Annotated[
         bool, "bool", "reverse triangles where needed, so that normals point into the atrium"
     ] = False
+
+    def __repr__(self) -> str:
+        sizes = {"nodes": self.nodes, "triangles": self.triangles, "chord segments": self.chord_nodes,
+                 "heads": self.head_nodes, "rings": self.rings}
+        said = [f"{len(rows)} {what}" for what, rows in sizes.items() if hasattr(rows, "__len__") and len(rows)]
+        return f'<mvs.Valve "{self.name}": {", ".join(said) or "empty"}>'
 
     def __setattr__(self, name: str, value: object) -> None:
         if name not in self.__dataclass_fields__:

@@ -158,8 +158,8 @@ bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
   finding.confidence = std::min((odds - 1) / (odds + 1), 0.95);
   finding.sentence = format(
       "the boundary that is larger, rounder and smoother: it is %.0f mm long, spans %.0f mm2 and "
-      "turns %.1f times; the other one is %.0f mm long, spans %.0f mm2 and turns %.1f times; give "
-      "points of the annulus if this is wrong",
+      "has a total curvature of %.1f turns; the other one is %.0f mm long, spans %.0f mm2 and has "
+      "%.1f turns; give points of the annulus if this is wrong",
       annulus.length * 1e3, annulus.area.norm() * 1e6, annulus.turning, edge.length * 1e3,
       edge.area.norm() * 1e6, edge.turning);
   return a >= b;

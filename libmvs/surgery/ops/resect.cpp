@@ -84,7 +84,7 @@ void operate(Surgery &s, const mvs_op_resect &op) {
   prune_chords(s);
   s.title = title_of(s, op, plan);
   const size_t lost = s.before.valve.chords.size() + sutures - s.valve.chords.size();
-  if (lost > 0) s.title += format(", with %zu chordae and segments that end there", lost);
+  if (lost > 0) s.title += format(", with the %zu chord segments that end there", lost);
 }
 
 }  // namespace mvs::core
