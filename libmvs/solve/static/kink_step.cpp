@@ -11,7 +11,6 @@ namespace mvs::core {
 // false, and moves no node, if the energy falls along none of the directions.
 bool Newton::step_along_kink() {
   namespace set = settings::kink;
-  evaluate();
   system_.assemble(far_, stats_.work);
   double lambda = settings::newton::min_lambda;
   system_.factorise(lambda, stats_);

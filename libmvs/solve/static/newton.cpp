@@ -134,7 +134,7 @@ void Newton::iterate(PolishSchedule &polish) {
   bool has_exact = false;
   if (at_.residual < forces_.polish_below && polish.wait == 0) {
     if (newton_polish_step(polish)) {
-      is_kink_tried_ = false;
+      polish.is_kink_tried = false;
       // polish steps and trust-region steps may undo each other: only a smaller force than ever
       // before shows that rest is near
       if (at_.residual < settings::newton::polish_progress * polish.best_residual) {
@@ -148,7 +148,11 @@ void Newton::iterate(PolishSchedule &polish) {
     polish.pause = std::min(2 * polish.pause, settings::newton::max_polish_pause);
   }
   polish.wait = std::max(polish.wait - 1, 0);
-  trust_region_step(has_exact);
+  if (trust_region_step(has_exact)) {
+    polish.is_kink_tried = false;
+  } else if (!polish.is_kink_tried && !total_energy_.instrument().bodies().convex().all().empty()) {
+    polish.is_kink_tried = !step_along_kink();
+  }
 }
 
 // A Newton step on the out-of-balance force with the exact Hessian, or a step that leaves an
@@ -260,7 +264,6 @@ void Newton::move_boundary(BoundaryRamp &ramp) {
   for (uint32_t i = 0; i < at_.x.size(); ++i) {
     at_.x[i] = ramp.moved(i, at_.x[i], step_.limited[i]);
   }
-  is_kink_tried_ = false;
   evaluate();
 }
 

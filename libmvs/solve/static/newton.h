@@ -25,13 +25,14 @@
 
 namespace mvs::core {
 
-// When a polish step is tried, and with which lambda.
+// When a polish step is tried, and with which lambda; whether one along a kink was.
 struct PolishSchedule {
   double best_residual;  // N, the smallest that a polish step reached
   double lambda = 0;
   int wait = 0, pause = 1;  // iterations until the next attempt; after the next failure
   // N, of the last iterate with an indefinite Hessian whose equilibrium was found to be stable.
   double stable_residual = 0;
+  bool is_kink_tried = false;  // at the present positions
 };
 // A node that the step limiter stopped.
 struct StoppedNode {
@@ -101,7 +102,8 @@ class Newton {
   void leave(const Stability &unstable);
   bool search_on_force();
   // `has_exact`: the system holds the exact Hessian of the present positions.
-  void trust_region_step(bool has_exact);
+  // Returns false, and moves no node, if the energy does not fall.
+  bool trust_region_step(bool has_exact);
   double try_step(double &predicted_reduction);
   bool step_along_kink();
   bool fall_along(const std::vector<Vec3> &rows);
@@ -126,7 +128,6 @@ class Newton {
   Step step_;
   std::vector<Vec3> trial_;  // m, positions
   DisplacementLimit limit_;
-  bool is_kink_tried_ = false;  // at the present positions
 };
 
 }  // namespace mvs::core

@@ -12,7 +12,7 @@ namespace mvs::core {
 // shortens the Newton step instead, which takes no factorisation. If all trials fail and raise the
 // energy the valve stays where it is: such a step may bend stiff triangles so that all following
 // steps raise the energy as well.
-void Newton::trust_region_step(bool has_exact) {
+bool Newton::trust_region_step(bool has_exact) {
   namespace set = settings::trust_region;
   const bool exact = at_.residual < forces_.exact_below;
   if (!exact || !has_exact) {
@@ -46,18 +46,13 @@ void Newton::trust_region_step(bool has_exact) {
   }
   system_.release();
   const double before = at_.energy;
-  if (lower) {
-    at_.x.swap(trial_);
-    is_kink_tried_ = false;
-  } else if (!is_kink_tried_ && !total_energy_.instrument().bodies().convex().all().empty()) {
-    is_kink_tried_ = !step_along_kink();
-    return;
-  }
+  if (lower) at_.x.swap(trial_);
   evaluate();
   // the load at the free edge differs from the load that the step was computed for
   if (lower && at_.energy >= before) {
     lambda_ = std::max(set::raised_growth * lambda_, set::raised_lambda);
   }
+  return lower;
 }
 
 // Shortens the Newton step as a whole. A step that was limited node by node need not lead downhill:
