@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Sequence, Sized
 from typing import Annotated, Any, Optional, Union
 
 from numpy.typing import NDArray
@@ -220,7 +220,7 @@ class Valve:
     def __repr__(self) -> str:
         sizes = {"nodes": self.nodes, "triangles": self.triangles, "chord segments": self.chord_nodes,
                  "heads": self.head_nodes, "rings": self.rings}
-        said = [f"{len(rows)} {what}" for what, rows in sizes.items() if hasattr(rows, "__len__") and len(rows)]
+        said = [f"{len(rows)} {what}" for what, rows in sizes.items() if isinstance(rows, Sized) and len(rows)]
         return f'<mvs.Valve "{self.name}": {", ".join(said) or "empty"}>'
 
     def __setattr__(self, name: str, value: object) -> None:
