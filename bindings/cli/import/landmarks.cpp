@@ -65,10 +65,12 @@ void PatientFiles::settle_frames() {
     const mvs_patient_frame stated = file.info().file_frame;
     if (stated == MVS_PATIENT_FRAME_UNKNOWN) continue;
     if (unstated_ != MVS_PATIENT_FRAME_UNKNOWN && stated != unstated_) {
-      fail(MVS_E_ARGUMENT, path,
-           first + " is in the frame " + frame_name(unstated_) + ", " + path + " in " +
-               frame_name(stated) + ", and " + surface_ +
-               " states none: give the frame of the surface by --frame");
+      fail(
+          MVS_E_ARGUMENT, path,
+          text("%s is in the frame %s, %s in %s, and %s states none: give the frame of the surface "
+               "by --frame",
+               first.c_str(), frame_name(unstated_), path.c_str(), frame_name(stated),
+               surface_.c_str()));
     }
     unstated_ = stated;
     if (first.empty()) first = path;
