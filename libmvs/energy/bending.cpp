@@ -10,6 +10,23 @@ namespace mvs::core {
 namespace {
 
 constexpr size_t hinges_per_batch = 32;  // of atan2_batch()
+using Angles = std::array<double, hinges_per_batch>;
+
+// Calls use() with each of the hinges and its fold, and sets their angles. nodes_of(k): the nodes
+// of hinge k.
+template <typename Fold, typename NodesOf, typename Use>
+MVS_INLINE void find_angles(size_t count, const NodesOf &nodes_of, const std::vector<Vec3> &x,
+                            Angles &angle, const Use &use) {
+  Angles sine{}, cosine{};
+  for (size_t k = 0; k < count; ++k) {
+    const std::array<uint32_t, 4> &node = nodes_of(k);
+    const Fold fold(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
+    sine[k] = fold.sine();
+    cosine[k] = fold.cosine();
+    use(k, fold);
+  }
+  atan2_batch(sine.data(), cosine.data(), angle.data(), count);
+}
 
 }  // namespace
 
@@ -58,16 +75,13 @@ double BendingTerm::energy_at(const Hinge &h, double angle) {
 
 double BendingTerm::energy(const std::vector<Vec3> &x) const {
   double sum = 0;
-  std::array<double, hinges_per_batch> sine{}, cosine{}, angle{};
+  Angles angle{};
   for (size_t first = 0; first < hinges_.size(); first += hinges_per_batch) {
     const size_t count = std::min(hinges_per_batch, hinges_.size() - first);
-    for (size_t k = 0; k < count; ++k) {
-      const auto &node = hinges_[first + k].node;
-      const HingeFold fold(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
-      sine[k] = fold.sine();
-      cosine[k] = fold.cosine();
-    }
-    atan2_batch(sine.data(), cosine.data(), angle.data(), count);
+    const auto nodes_of = [&](size_t k) -> const auto & {
+      return hinges_[first + k].node;
+    };
+    find_angles<HingeFold>(count, nodes_of, x, angle, [](size_t, const HingeFold &) {});
     for (size_t k = 0; k < count; ++k) sum += energy_at(hinges_[first + k], angle[k]);
   }
   return sum;
@@ -95,33 +109,38 @@ double BendingTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) c
   return to.energy;
 }
 
-template <typename Gradient>
-void BendingTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
+template <typename Takes, typename Use>
+void BendingTerm::for_batches(const Takes &takes, const Use &use) const {
   std::array<uint32_t, hinges_per_batch> taken;
   for (uint32_t k = 0; k < hinges_.size();) {
     size_t count = 0;
     for (; k < hinges_.size() && count < hinges_per_batch; ++k) {
-      if (to.takes(hinges_[k].node)) taken[count++] = k;
+      if (takes(hinges_[k].node)) taken[count++] = k;
     }
-    Gradient of_batch = to.begin_batch();
-    add_batch(taken.data(), count, x, of_batch);
-    to.end_batch(of_batch);
+    use(taken.data(), count);
   }
+}
+
+template <typename Gradient>
+void BendingTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
+  const auto takes = [&](const auto &node) { return to.takes(node); };
+  for_batches(takes, [&](const uint32_t *hinge, size_t count) {
+    Gradient of_batch = to.begin_batch();
+    add_batch(hinge, count, x, of_batch);
+    to.end_batch(of_batch);
+  });
 }
 
 template <typename Gradient>
 void BendingTerm::add_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
                             Gradient &to) const {
-  std::array<double, hinges_per_batch> sine{}, cosine{}, angle{};
+  Angles angle{};
   std::array<Slope, hinges_per_batch> slope;
-  for (size_t k = 0; k < count; ++k) {
-    const auto &node = hinges_[hinge[k]].node;
-    const HingeFold fold(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
-    sine[k] = fold.sine();
-    cosine[k] = fold.cosine();
-    fold.slopes(slope[k]);
-  }
-  atan2_batch(sine.data(), cosine.data(), angle.data(), count);
+  const auto nodes_of = [&](size_t k) -> const auto & {
+    return hinges_[hinge[k]].node;
+  };
+  find_angles<HingeFold>(count, nodes_of, x, angle,
+                         [&](size_t k, const HingeFold &fold) { fold.slopes(slope[k]); });
   for (size_t k = 0; k < count; ++k) {
     const Hinge &h = hinges_[hinge[k]];
     const double bent = wrap_angle(angle[k] - h.rest_angle), moment = h.stiffness * bent;
@@ -141,35 +160,29 @@ void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syste
 
 template <typename System>
 void BendingTerm::add_exact(const std::vector<Vec3> &x, System &system) const {
-  std::array<uint32_t, hinges_per_batch> taken;
-  for (uint32_t k = 0; k < hinges_.size();) {
-    size_t count = 0;
-    for (; k < hinges_.size() && count < hinges_per_batch; ++k) {
-      if (system.takes(hinges_[k].node)) taken[count++] = k;
-    }
-    add_exact_batch(taken.data(), count, x, system);
-  }
+  const auto takes = [&](const auto &node) { return system.takes(node); };
+  for_batches(takes, [&](const uint32_t *hinge, size_t count) {
+    add_exact_batch(hinge, count, x, system);
+  });
 }
 
 template <typename System>
 void BendingTerm::add_exact_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
                                   System &system) const {
-  std::array<double, hinges_per_batch> sine{}, cosine{}, angle{};
+  Angles angle{};
   std::array<HingeParts, hinges_per_batch> parts;
-  for (size_t k = 0; k < count; ++k) {
-    const auto &node = hinges_[hinge[k]].node;
-    parts[k] = parts_of(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
-    sine[k] = parts[k].sine(x[node[3]] - x[node[0]]);
-    cosine[k] = parts[k].cosine();
-  }
-  atan2_batch(sine.data(), cosine.data(), angle.data(), count);
+  const auto nodes_of = [&](size_t k) -> const auto & {
+    return hinges_[hinge[k]].node;
+  };
+  find_angles<HingeParts>(count, nodes_of, x, angle,
+                          [&](size_t k, const HingeParts &fold) { parts[k] = fold; });
   HingeHessian exact;
   for (size_t i = 0; i < count; ++i) {
     const Hinge &h = hinges_[hinge[i]];
     size_t pair = 6 * size_t{hinge[i]};
     const HingeParts &p = parts[i];
     const double moment = h.stiffness * wrap_angle(angle[i] - h.rest_angle);
-    angle_hessian(x[h.node[0]], x[h.node[2]], x[h.node[3]], p, exact);
+    angle_hessian(p, exact);
     std::array<Vec3, 4> slope;
     for (uint32_t k = 0; k < 4; ++k) slope[k] = p.a[k] * p.m1 + p.b[k] * p.m2;
     for (uint32_t k = 0; k < 4; ++k) {

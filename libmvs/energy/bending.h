@@ -50,6 +50,9 @@ class BendingTerm {
   };
   static double energy_of(const Hinge &h, const std::vector<Vec3> &x);  // J
   static double energy_at(const Hinge &h, double angle);
+  // Calls use() with the indices of hinges that takes() accepts, batch by batch.
+  template <typename Takes, typename Use>
+  void for_batches(const Takes &takes, const Use &use) const;
   template <typename Gradient>
   void add_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
                  Gradient &to) const;

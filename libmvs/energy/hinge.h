@@ -12,38 +12,54 @@
 
 namespace mvs::core {
 
-// Quantities that the derivatives of a hinge share. N1 = e x (x2 - x0), N2 = (x3 - x0) x e.
-struct HingeParts {
-  Vec3 e, n1, n2, m1, m2;  // m = N / |N|^2
-  double q1, q2;           // |N|^2
-  double length;
-  std::array<double, 4> a, b;  // dtheta/dx_k = a_k m1 + b_k m2
+// Quantities that the angle of a hinge and its gradient need. N1 = e x (x2 - x0), N2 = (x3 - x0) x
+// e.
+struct HingeFold {
+  Vec3 e, c2, c3, n1, n2;  // c = x - x0
+  double length = 0;
 
-  // As those of HingeFold.
-  double sine(const Vec3 &c3) const { return 0 - length * n1.dot(c3); }
+  HingeFold() = default;
+  HingeFold(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3)
+      : e(x1 - x0), c2(x2 - x0), c3(x3 - x0), n1(e.cross(c2)), n2(c3.cross(e)), length(e.norm()) {}
+
+  // The sine and cosine of the angle, both times |N1| |N2|: N1 x N2 = -e (N1 c3).
+  double sine() const { return 0 - length * n1.dot(c3); }
   double cosine() const { return n1.dot(n2); }
+
+  // Gradient of the angle by nodes. s is the position of the foot of a corner along the edge, m.
+  MVS_INLINE void slopes(Slope &slope) const {
+    const double per_length = 1 / length, s2 = c2.dot(e) * per_length, s3 = c3.dot(e) * per_length;
+    const Vec3 m1 = 1 / n1.squaredNorm() * n1, m2 = 1 / n2.squaredNorm() * n2;
+    slope.node(0) = (length - s2) * m1 + (length - s3) * m2;
+    slope.node(1) = s2 * m1 + s3 * m2;
+    slope.node(2) = -length * m1;
+    slope.node(3) = -length * m2;
+  }
+};
+
+// Those that the Hessian needs as well.
+struct HingeParts : HingeFold {
+  double q1 = 0, q2 = 0;           // |N|^2
+  Vec3 m1, m2;                     // N / |N|^2
+  std::array<double, 4> a{}, b{};  // dtheta/dx_k = a_k m1 + b_k m2
+
+  HingeParts() = default;
+  HingeParts(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3)
+      : HingeFold(x0, x1, x2, x3),
+        q1(n1.squaredNorm()),
+        q2(n2.squaredNorm()),
+        m1(n1 / q1),
+        m2(n2 / q2) {
+    const double s2 = c2.dot(e) / length, s3 = c3.dot(e) / length;
+    // theta grows as x2 sinks below the fold
+    a = {length - s2, s2, -length, 0};
+    b = {length - s3, s3, 0, -length};
+  }
 };
 
 // dm / dN
 inline Mat3 slope_of_normal(const Vec3 &n, double norm2) {
   return (Mat3::Identity() - (2 / norm2) * n * n.transpose()) / norm2;
-}
-
-inline HingeParts parts_of(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3) {
-  HingeParts p;
-  p.e = x1 - x0;
-  p.n1 = p.e.cross(x2 - x0);
-  p.n2 = (x3 - x0).cross(p.e);
-  p.q1 = p.n1.squaredNorm();
-  p.q2 = p.n2.squaredNorm();
-  p.m1 = p.n1 / p.q1;
-  p.m2 = p.n2 / p.q2;
-  p.length = p.e.norm();
-  const double s2 = (x2 - x0).dot(p.e) / p.length, s3 = (x3 - x0).dot(p.e) / p.length;
-  // theta grows as x2 sinks below the fold
-  p.a = {p.length - s2, s2, -p.length, 0};
-  p.b = {p.length - s3, s3, 0, -p.length};
-  return p;
 }
 
 // Derivatives of the weights a or b of one triangle with respect to the two ends of the edge: of
@@ -75,15 +91,13 @@ using HingeHessian = std::array<std::array<Mat3, 4>, 4>;
 
 // Second derivative of theta: blocks (k, l) with l <= k. A corner does not move the triangle of the
 // other one.
-MVS_INLINE void angle_hessian(const Vec3 &x0, const Vec3 &x2, const Vec3 &x3, const HingeParts &p,
-                              HingeHessian &h) {
-  const Vec3 c2 = x2 - x0, c3 = x3 - x0;
-  const WeightSlopes da = slopes_of_weights(p.e, p.length, c2);
-  const WeightSlopes db = slopes_of_weights(p.e, p.length, c3);
+MVS_INLINE void angle_hessian(const HingeParts &p, HingeHessian &h) {
+  const WeightSlopes da = slopes_of_weights(p.e, p.length, p.c2);
+  const WeightSlopes db = slopes_of_weights(p.e, p.length, p.c3);
   // N1 = e x c2: dN1 = -[c2]x de + [e]x dc2; N2 = c3 x e: dN2 = [c3]x de - [e]x dc3.
   const Mat3 dm1 = slope_of_normal(p.n1, p.q1), dm2 = slope_of_normal(p.n2, p.q2);
-  const std::array<Mat3, 2> d1{times_cross(dm1, c2 - p.e), times_cross(dm1, -c2)};
-  const std::array<Mat3, 2> d2{times_cross(dm2, p.e - c3), times_cross(dm2, c3)};
+  const std::array<Mat3, 2> d1{times_cross(dm1, p.c2 - p.e), times_cross(dm1, -p.c2)};
+  const std::array<Mat3, 2> d2{times_cross(dm2, p.e - p.c3), times_cross(dm2, p.c3)};
   h[0][0] =
       p.m1 * da.first.transpose() + p.m2 * db.first.transpose() + p.a[0] * d1[0] + p.b[0] * d2[0];
   for (uint32_t l = 0; l < 2; ++l) {
@@ -102,28 +116,5 @@ inline double wrap_angle(double angle) {
   if (std::abs(angle) <= std::numbers::pi) return angle;
   return angle > 0 ? angle - 2 * std::numbers::pi : angle + 2 * std::numbers::pi;
 }
-
-// A hinge with the quantities that its angle and gradient need.
-struct HingeFold {
-  Vec3 e, c2, c3, n1, n2;  // c = x - x0
-  double length;
-
-  HingeFold(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x3)
-      : e(x1 - x0), c2(x2 - x0), c3(x3 - x0), n1(e.cross(c2)), n2(c3.cross(e)), length(e.norm()) {}
-
-  // The sine and cosine of the angle, both times |N1| |N2|: N1 x N2 = -e (N1 c3).
-  double sine() const { return 0 - length * n1.dot(c3); }
-  double cosine() const { return n1.dot(n2); }
-
-  // Gradient of the angle by nodes. s is the position of the foot of a corner along the edge, m.
-  MVS_INLINE void slopes(Slope &slope) const {
-    const double per_length = 1 / length, s2 = c2.dot(e) * per_length, s3 = c3.dot(e) * per_length;
-    const Vec3 m1 = 1 / n1.squaredNorm() * n1, m2 = 1 / n2.squaredNorm() * n2;
-    slope.node(0) = (length - s2) * m1 + (length - s3) * m2;
-    slope.node(1) = s2 * m1 + s3 * m2;
-    slope.node(2) = -length * m1;
-    slope.node(3) = -length * m2;
-  }
-};
 
 }  // namespace mvs::core
