@@ -1,20 +1,25 @@
 // Forces of a chord with its end beside a node, and their derivative.
 #include "sensitivity/chord_site.h"
 
+#include <algorithm>
+
 #include "base/error.h"
-#include "model/chord_law.h"
+#include "sensitivity/chord_state.h"
 
 namespace mvs::core {
 namespace {
 
-// The derivative of the energy of a chord by its end at y, N; zero if it is slack.
+// The chord from its other end to y.
+ChordState state_to(const Model &model, const ChordSite &site, const std::vector<Vec3> &x,
+                    const Vec3 &y) {
+  return chord_state(model.valve, model.valve.chords[site.chord], x[site.other], y);
+}
+
+// The derivative of the energy of a chord by its end at y, N.
 Vec3 gradient_at(const Model &model, const ChordSite &site, const std::vector<Vec3> &x,
                  const Vec3 &y) {
-  const Chord &chord = model.valve.chords[site.chord];
-  const Vec3 d = y - x[site.other];
-  const double length = d.norm(), strain = length / chord.rest_length - 1;
-  if (strain <= 0) return Vec3::Zero();
-  return chord.area * chord_response(model.valve, chord, strain).stress / length * d;
+  const ChordState at = state_to(model, site, x, y);
+  return model.valve.chords[site.chord].area * at.response.stress * at.along;
 }
 
 }  // namespace
@@ -55,14 +60,11 @@ std::vector<NodeVector> site_force(const Model &model, const std::vector<Vec3> &
                                    const Parameter &p) {
   const ChordSite site = chord_site(model, p);
   const Chord &chord = model.valve.chords[p.index];
-  const Vec3 d = x[site.node] - x[site.other];
-  const double length = d.norm(), strain = length / chord.rest_length - 1;
-  if (strain <= 0) return {};
-  const Axial at = chord_response(model.valve, chord, strain);
-  const Vec3 u = d / length, v = site_direction(site, x);
-  const double tension = chord.area * at.stress, along = u.dot(v);
-  const Vec3 turned =
-      chord.area * at.slope / chord.rest_length * along * u + tension / length * (v - along * u);
+  const auto &[u, length, strain, response] = state_to(model, site, x, x[site.node]);
+  const Vec3 v = site_direction(site, x);
+  const double tension = chord.area * response.stress, along = u.dot(v);
+  const Vec3 turned = chord.area * response.slope / chord.rest_length * along * u +
+                      tension / length * (v - along * u);
   const Vec3 share = tension / site.edge * u;
   std::vector<NodeVector> force;
   for (const NodeVector &f :
@@ -72,31 +74,35 @@ std::vector<NodeVector> site_force(const Model &model, const std::vector<Vec3> &
   return force;
 }
 
+// A chord whose end moves towards several nodes at once has all of them.
 void add_site_change(const Model &model, std::span<const ParameterStep> steps,
                      const std::vector<Vec3> &x, std::vector<Vec3> &g) {
-  for (size_t k = 0; k < steps.size(); ++k) {
-    if (steps[k].parameter->kind != ParameterKind::chord_site) continue;
-    const ChordSite first = chord_site(model, *steps[k].parameter);
-    // a chord whose end moves towards several nodes at once is counted at the first of them
-    Vec3 y = x[first.node];
-    bool is_counted = false;
-    for (size_t l = 0; l < steps.size(); ++l) {
-      const Parameter &p = *steps[l].parameter;
-      if (p.kind != ParameterKind::chord_site || p.index != first.chord) continue;
-      is_counted = is_counted || l < k;
-      y += steps[l].by * site_direction(chord_site(model, p), x);
+  struct MovedSite {
+    ChordSite site;
+    double by;
+  };
+  std::vector<MovedSite> moved;
+  for (const ParameterStep &step : steps) {
+    if (step.parameter->kind != ParameterKind::chord_site) continue;
+    moved.push_back({chord_site(model, *step.parameter), step.by});
+  }
+  std::stable_sort(moved.begin(), moved.end(), [](const MovedSite &a, const MovedSite &b) {
+    return a.site.chord < b.site.chord;
+  });
+  for (size_t first = 0, last = 0; first < moved.size(); first = last) {
+    const ChordSite &site = moved[first].site;
+    Vec3 y = x[site.node];
+    for (; last < moved.size() && moved[last].site.chord == site.chord; ++last) {
+      y += moved[last].by * site_direction(moved[last].site, x);
     }
-    if (is_counted) continue;
-    const Vec3 now = gradient_at(model, first, x, y),
-               before = gradient_at(model, first, x, x[first.node]);
-    g[first.node] += now - before;
-    g[first.other] -= now - before;
-    for (const ParameterStep &step : steps) {
-      const Parameter &p = *step.parameter;
-      if (p.kind != ParameterKind::chord_site || p.index != first.chord) continue;
-      const ChordSite site = chord_site(model, p);
-      g[site.node] -= step.by / site.edge * now;
-      g[site.toward] += step.by / site.edge * now;
+    const Vec3 now = gradient_at(model, site, x, y);
+    const Vec3 change = now - gradient_at(model, site, x, x[site.node]);
+    g[site.node] += change;
+    g[site.other] -= change;
+    for (size_t k = first; k < last; ++k) {
+      const Vec3 share = moved[k].by / moved[k].site.edge * now;
+      g[site.node] -= share;
+      g[moved[k].site.toward] += share;
     }
   }
 }

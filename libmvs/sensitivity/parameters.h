@@ -4,7 +4,7 @@
 // The derivative is analytic for rest lengths, moduli, areas and sites of chordae, pressure and
 // positions. For constants and thickness of leaflets and for prestrain it is a central difference
 // of fourth order of the elastic terms at fixed positions: exact for thickness, with a relative
-// error of about 1e-10 for the others (tests/sensitivity/parameters.cpp).
+// error of about 1e-10 for the others (tests/sensitivity/cable_and_cylinder.cpp).
 #pragma once
 
 #include <mvs/sensitivity.h>

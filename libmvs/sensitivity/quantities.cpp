@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/struct_fields.h"
 #include "measure/fields.h"
-#include "model/chord_law.h"
 #include "sensitivity/chord_site.h"
+#include "sensitivity/chord_state.h"
 #include "sensitivity/coaptation_gradient.h"
 #include "sensitivity/orifice_gradient.h"
 #include "sensitivity/settings.h"
@@ -26,19 +26,6 @@ bool is_named(const mvs_field_info &field, const char *name) {
 bool has_derivative(const mvs_field_info &field) {
   return field.type == MVS_FIELD_NUMBER && std::strstr(field.name, "_p50") == nullptr &&
          std::strstr(field.name, "_p95") == nullptr && std::strstr(field.name, "_p99") == nullptr;
-}
-
-struct ChordState {
-  Vec3 along;  // unit, from a to b
-  double length, strain;
-  Axial response;
-};
-
-ChordState chord_state(const Model &model, uint32_t index, const std::vector<Vec3> &x) {
-  const Chord &chord = model.valve.chords[index];
-  const Vec3 d = x[chord.b] - x[chord.a];
-  const double length = d.norm(), strain = length / chord.rest_length - 1;
-  return {d / length, length, strain, chord_response(model.valve, chord, strain)};
 }
 
 // A gradient with respect to the end b of a chord; that of the end a is opposite.

@@ -5,8 +5,8 @@
 // of dx on that side. At a smooth point both sides have opposite errors of order h; where contact,
 // a chord or the law of a spring switches within h, they do not. So the test needs no list of what
 // may switch, and does not take the mean of two sides for a derivative, as a central difference
-// would. Errors are relative to the fastest node or, for a chord that is slack, to the change of
-// its own length.
+// would. Errors are relative to the fastest node or, where a slack chord moves nothing, to a small
+// share of the change of its own length.
 #pragma once
 
 #include <span>

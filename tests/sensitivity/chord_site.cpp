@@ -1,5 +1,5 @@
 // The insertion of a chord as a parameter: against equilibria of a cable whose end lies inside an
-// edge, which the test solves itself, and on closed valves against the forces of both sides.
+// edge, which the test solves itself.
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
@@ -112,7 +112,7 @@ TEST_CASE("an_insertion_that_moves_along_an_edge_moves_the_apex_as_its_equilibri
 
 TEST_CASE("two_sites_of_one_chord_move_its_end_by_their_sum") {
   const Inclined valve;
-  std::vector<Vec3> g(valve.p.model.node_count(), Vec3::Zero()), one = g;
+  std::vector<Vec3> g(valve.p.model.node_count(), Vec3::Zero());
   const Parameter first = site_to(1), second = site_to(3);
   const std::array<ParameterStep, 2> both = {ParameterStep{&first, 1e-4}, {&second, 2e-4}};
   add_change(valve.p.model, both, valve.p.state.x, g);
