@@ -14,6 +14,24 @@ void scatter_step(const StepMatrix &matrix, const std::vector<Vec3> &rows,
   for (uint32_t r = 0; r < rows.size(); ++r) displacement[matrix.node(r)] = share * rows[r];
 }
 
+namespace {
+
+// The derivative of the energy along the displacement of a step, J.
+double slope_along(const StepStart &start, const ProposedStep &step) {
+  double slope = 0;
+  for (size_t i = 0; i < start.x.size(); ++i) slope += start.gradient[i].dot(step.displacement[i]);
+  return slope;
+}
+
+// The share of rows that moves no node by more than the longest displacement.
+double longest_share(const std::vector<Vec3> &rows) {
+  double farthest = settings::implicit::max_displacement;
+  for (const Vec3 &row : rows) farthest = std::max(farthest, row.norm());
+  return settings::implicit::max_displacement / farthest;
+}
+
+}  // namespace
+
 EnergyLineSearch::EnergyLineSearch(const Model &model, TotalEnergy &total_energy)
     : model_(&model), total_energy_(&total_energy) {
   // a step allocates nothing once warm, also if the boundary moves only then
@@ -27,8 +45,8 @@ EnergyLineSearch::EnergyLineSearch(const Model &model, TotalEnergy &total_energy
 bool EnergyLineSearch::run(const StepStart &start, ProposedStep &step, StepWork &work) {
   namespace set = settings::implicit;
   boundary_energy_ = -1;
-  double share = 1, slope = 0;
-  for (size_t i = 0; i < start.x.size(); ++i) slope += start.gradient[i].dot(step.displacement[i]);
+  const double slope = slope_along(start, step);
+  double share = 1;
   for (int k = 0; k < set::trials && work.left >= set::reserved_passes; ++k) {
     const double made = try_share(share, start, step, work);
     if (made <= 0) return true;
@@ -46,20 +64,14 @@ bool EnergyLineSearch::run(const StepStart &start, ProposedStep &step, StepWork 
 bool EnergyLineSearch::search_shorter_step(const StepStart &start, ProposedStep &step,
                                            StepWork &work) {
   namespace set = settings::implicit;
-  double farthest = set::max_displacement;
-  for (const Vec3 &row : step.rows) farthest = std::max(farthest, row.norm());
-  double share = set::max_displacement / farthest;
+  double share = longest_share(step.rows);
   double before = 0;  // J, made by the trial before, if it led downhill by the force at the start
   bool is_kink_tried = false;
   for (int k = 0; k < set::quarterings && work.left >= set::reserved_passes; ++k) {
     share *= 0.25;
-    scatter_step(step.matrix, step.rows, step.boundary, step.displacement, share);
-    total_energy_->limit_step(start.x, step.slack, step.displacement, work.stats.work);
-    const double made = try_share(1, start, step, work);
+    const double made = try_rows(step.rows, share, start, step, work);
     if (made <= 0) return true;
-    double slope = 0;
-    for (size_t i = 0; i < start.x.size(); ++i)
-      slope += start.gradient[i].dot(step.displacement[i]);
+    const double slope = slope_along(start, step);
     // where the energy is smooth, a quarter of such a step makes at most a sixteenth of the energy
     const bool is_kink = slope < 0 && before > 0 && made > settings::kink::ratio * before;
     before = slope < 0 ? made : 0;
@@ -74,48 +86,38 @@ bool EnergyLineSearch::search_shorter_step(const StepStart &start, ProposedStep 
 // Each round adds the force at the last trial, which lies on the other side of the kink.
 bool EnergyLineSearch::search_along_kink(const StepStart &start, ProposedStep &step,
                                          StepWork &work) {
-  namespace set = settings::implicit;
   const double dt = work.how.dt;
-  take_force(start.gradient, start, step, dt, other_force_);
+  step.matrix.right_side(start.gradient, start.v, dt, other_force_);
   kink_.begin(other_force_, step.rows);
   for (int k = 0; k < settings::kink::rounds; ++k) {
     other_gradient_ = trial.sheet_gradient;
     total_energy_->add_hands(trial.x, other_gradient_);
-    take_force(other_gradient_, start, step, dt, other_force_);
+    step.matrix.right_side(other_gradient_, start.v, dt, other_force_);
     other_rows_ = other_force_;
     if (!step.solve(other_rows_)) return false;
     kink_.add(other_force_, other_rows_);
-    if (try_rows(kink_.rows(), start, step, work)) return true;
+    if (try_along_kink(start, step, work)) return true;
   }
   return false;
 }
 
-// The right-hand side of the linear system of the step for a gradient.
-void EnergyLineSearch::take_force(const std::vector<Vec3> &gradient, const StepStart &start,
-                                  const ProposedStep &step, double dt,
-                                  std::vector<Vec3> &force) const {
-  force.resize(step.matrix.size());
-  for (uint32_t r = 0; r < step.matrix.size(); ++r) {
-    const uint32_t i = step.matrix.node(r);
-    force[r] =
-        step.matrix.boundary_force()[r] - gradient[i] + (model_->node_mass[i] / dt) * start.v[i];
-  }
-}
-
-// Tries ever shorter steps along rows.
-bool EnergyLineSearch::try_rows(const std::vector<Vec3> &rows, const StepStart &start,
-                                ProposedStep &step, StepWork &work) {
-  namespace set = settings::implicit;
-  double farthest = set::max_displacement;
-  for (const Vec3 &row : rows) farthest = std::max(farthest, row.norm());
-  double share = set::max_displacement / farthest;
-  for (int k = 0; k < settings::kink::trials && work.left >= set::reserved_passes; ++k) {
-    scatter_step(step.matrix, rows, step.boundary, step.displacement, share);
-    total_energy_->limit_step(start.x, step.slack, step.displacement, work.stats.work);
-    if (try_share(1, start, step, work) <= 0) return true;
+// Tries ever shorter steps along the kink.
+bool EnergyLineSearch::try_along_kink(const StepStart &start, ProposedStep &step, StepWork &work) {
+  double share = longest_share(kink_.rows());
+  for (int k = 0; k < settings::kink::trials && work.left >= settings::implicit::reserved_passes;
+       ++k) {
+    if (try_rows(kink_.rows(), share, start, step, work) <= 0) return true;
     share *= settings::kink::shortening;
   }
   return false;
+}
+
+// Sets the trial at a share of rows that is limited afterwards; returns what try_share() does.
+double EnergyLineSearch::try_rows(const std::vector<Vec3> &rows, double share,
+                                  const StepStart &start, ProposedStep &step, StepWork &work) {
+  scatter_step(step.matrix, rows, step.boundary, step.displacement, share);
+  total_energy_->limit_step(start.x, step.slack, step.displacement, work.stats.work);
+  return try_share(1, start, step, work);
 }
 
 // Sets the trial at a share of the step and returns the energy that it makes beyond rounding and

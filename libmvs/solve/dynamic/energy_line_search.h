@@ -42,10 +42,9 @@ class EnergyLineSearch {
  private:
   bool search_shorter_step(const StepStart &start, ProposedStep &step, StepWork &work);
   bool search_along_kink(const StepStart &start, ProposedStep &step, StepWork &work);
-  bool try_rows(const std::vector<Vec3> &rows, const StepStart &start, ProposedStep &step,
-                StepWork &work);
-  void take_force(const std::vector<Vec3> &gradient, const StepStart &start,
-                  const ProposedStep &step, double dt, std::vector<Vec3> &force) const;
+  bool try_along_kink(const StepStart &start, ProposedStep &step, StepWork &work);
+  double try_rows(const std::vector<Vec3> &rows, double share, const StepStart &start,
+                  ProposedStep &step, StepWork &work);
   double try_share(double share, const StepStart &start, const ProposedStep &step, StepWork &work);
   void place(double share, const StepStart &start, const ProposedStep &step, double dt);
   double boundary_energy(const StepStart &start, const BoundaryStep &boundary, SolveStats &stats);

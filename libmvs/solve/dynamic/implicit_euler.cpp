@@ -82,12 +82,7 @@ void ImplicitEuler::solve_linear_system(State &state, StepWork &work) {
   matrix_.assemble(total_energy_, start_.x, how,
                    boundary_.moves ? &boundary_.displacement : nullptr, work.stats.work);
   --work.left;
-  rows_.resize(matrix_.size());
-  for (uint32_t r = 0; r < matrix_.size(); ++r) {
-    const uint32_t i = matrix_.node(r);
-    rows_[r] = matrix_.boundary_force()[r] - start_.gradient[i] +
-               (model_->node_mass[i] / how.dt) * start_.v[i];
-  }
+  matrix_.right_side(start_.gradient, start_.v, how.dt, rows_);
   solver_.solve({matrix_, key_here(state, how), start_.x, rows_}, state, work);
 }
 

@@ -26,6 +26,15 @@ void StepMatrix::assemble(TotalEnergy &total_energy, const std::vector<Vec3> &x,
   }
 }
 
+void StepMatrix::right_side(const std::vector<Vec3> &gradient, const std::vector<Vec3> &v,
+                            double dt, std::vector<Vec3> &rows) const {
+  rows.resize(size());
+  for (uint32_t r = 0; r < size(); ++r) {
+    const uint32_t i = node(r);
+    rows[r] = system_.boundary_force[r] - gradient[i] + (model_->node_mass[i] / dt) * v[i];
+  }
+}
+
 void StepMatrix::divide(std::vector<Vec3> &rows) {
   const BlockMatrix &m = system_.matrix;
   bound_.assign(m.size(), 0);

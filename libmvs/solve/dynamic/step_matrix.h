@@ -19,8 +19,10 @@ class StepMatrix {
   uint32_t node(uint32_t row) const { return system_.node_of[row]; }
   // The mass term on the diagonal of a row, N/m.
   double mass(uint32_t row) const { return mass_[row]; }
-  // -H_fb times the step of the boundary, by rows.
-  const std::vector<Vec3> &boundary_force() const { return system_.boundary_force; }
+  // Sets the right-hand side of the step by rows, N, for dE/dx and velocities at its start:
+  // -H_fb times the step of the boundary - dE/dx + M v / dt.
+  void right_side(const std::vector<Vec3> &gradient, const std::vector<Vec3> &v, double dt,
+                  std::vector<Vec3> &rows) const;
   const BlockMatrix &blocks() const { return system_.matrix; }
 
   // Divides each row by a bound of its absolute row sum: a step along the force that is short

@@ -52,9 +52,9 @@ bool NewtonSettling::advance() {
     newton_.move_boundary(ramp_);
     polish_.is_kink_tried = false;
   }
-  before_ = newton_.x();
+  const std::vector<Vec3> before = newton_.x();
   newton_.iterate(polish_);
-  still_ = same_bits(before_, newton_.x()) ? still_ + 1 : 0;
+  still_ = same_bits(before, newton_.x()) ? still_ + 1 : 0;
   return true;
 }
 

@@ -30,8 +30,7 @@ class NewtonSettling final : public Settling {
   bool may_presolve_;  // a local subproblem, in the first iteration
   bool converged_ = false;
   Load load_;
-  std::vector<Vec3> before_;  // m, positions before the last iteration
-  uint32_t still_ = 0;        // iterations in a row that moved no node
+  uint32_t still_ = 0;  // iterations in a row that moved no node
   Newton newton_;
   BoundaryRamp ramp_;
   PolishSchedule polish_;
