@@ -42,14 +42,14 @@ void check_surface(const ClosedSurface &given, const Model &model) {
       "the annulus lies %.1f mm from the closed surface, at most %.0f mm are accepted: are both "
       "in one frame (LPS or RAS), and of one patient?",
       rms * 1e3, farthest_annulus * 1e3);
-  double off = 0, count = 0;
-  for (const Tri &t : model.valve.triangles.get()) {
-    for (const uint32_t i : t) {
-      off += tree.closest(model.valve.rest[i]).distance2;
-      ++count;
-    }
+  // each vertex weighs as many triangles as meet there
+  const std::vector<uint32_t> &start = model.topology.node_triangles.start;
+  double off = 0;
+  for (uint32_t i = 0; i + 1 < start.size(); ++i) {
+    const uint32_t triangles = start[i + 1] - start[i];
+    if (triangles > 0) off += triangles * tree.closest(model.valve.rest[i]).distance2;
   }
-  off = std::sqrt(off / count);
+  off = std::sqrt(off / static_cast<double>(3 * model.valve.triangles.size()));
   MVS_MUST(off > nearest_open, MVS_E_OP, "closed_points",
            "the closed surface lies on the open one, %.2f mm away in the mean (RMS): give the "
            "leaflets closed under pressure, or leave them out",
