@@ -24,6 +24,10 @@ function breathe(): Promise<void> {
   });
 }
 
+/** The name in "checkpoint NAME"; null for another valve. */
+const checkpointIn = (which: string): string | null =>
+  which.startsWith('checkpoint ') ? which.slice('checkpoint '.length) : null;
+
 export class Planner {
   readonly main: Simulator;
   private readonly second: Simulator;
@@ -212,15 +216,9 @@ export class Planner {
 
   /** The valve opened in diastole; the gradient of a flow in ml/s, if one is given. */
   cost({ which, flow }: CostRequest): Cost {
-    const kept = which.startsWith('checkpoint ')
-      ? this.checkpoints.of(which.replace(/^checkpoint /, ''))
-      : which === 'preview'
-        ? this.preview
-        : null;
-    const held = kept ? null : this.main.snapshot();
-    try {
+    const costOf = (snapshot: Snapshot): Cost => {
       const asked = flow > 0 ? { residual: 1e-4, flow: flow / ml } : { residual: 1e-4 };
-      const { cost, opened } = (kept ?? held!).cost(asked);
+      const { cost, opened } = snapshot.cost(asked);
       opened.dispose();
       return {
         openArea: cost.open_area * mm2,
@@ -230,9 +228,10 @@ export class Planner {
         annulusForce: cost.annulus_force_sum,
         gradient: cost.gradient / mmHg,
       };
-    } finally {
-      held?.dispose();
-    }
+    };
+    if (which === 'preview' && this.preview) return costOf(this.preview);
+    const name = checkpointIn(which);
+    return name === null ? this.main.read(costOf) : costOf(this.checkpoints.of(name));
   }
 
   section({ which, frame, offset }: SectionRequest): Section {
@@ -240,8 +239,9 @@ export class Planner {
     if (which === 'first' && this.first) return sectionOf(this.first, frame, offset);
     if (which === 'healthy')
       return this.healthy ? sectionOf(this.healthy, frameOf(this.healthy), offset) : new Float32Array(0);
-    const kept = this.checkpoints.get(which.replace(/^checkpoint /, ''));
-    if (kept && which.startsWith('checkpoint ')) return sectionOf(kept, frame, offset);
+    const name = checkpointIn(which);
+    const kept = name === null ? null : this.checkpoints.get(name);
+    if (kept) return sectionOf(kept, frame, offset);
     return this.main.read((snapshot) => sectionOf(snapshot, frame, offset));
   }
 
