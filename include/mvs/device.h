@@ -118,7 +118,7 @@ typedef struct mvs_device_limits {
   double stale_s;          /* s, an older tissue model fades; 0.005 to 10 [0.1] */
   double fade_s;           /* s, duration of fading; 0.001 to 1 [0.05] */
   double stiffness;        /* N/m, largest stiffness felt by the hand [that of the device] */
-  /* Of devices that render torque; 0 for others. thermal_s, ramp_s, stale_s and fade_s hold for
+  /* For devices that render torque; 0 for others. thermal_s, ramp_s, stale_s and fade_s hold for
    * the torque as well. */
   double torque;            /* N m [peak torque of the device] */
   double continuous_torque; /* N m, allowed average of the torque [that of the device] */

@@ -144,7 +144,7 @@ std::string findings_path(const ImportOptions &options) {
   return std::filesystem::path(options.out).replace_extension(".import.json").string();
 }
 
-// Says on stderr what is not used of an OBJ file that describes a whole valve.
+// Names on stderr the parts of an OBJ file of a whole valve that are not used.
 void warn_of_whole_valve(const std::string &path) {
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {

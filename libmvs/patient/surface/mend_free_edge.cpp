@@ -15,7 +15,7 @@ namespace {
 
 // The way along the edge over the chord from which on it is a notch: a missing triangle has 2, a
 // missing square 3. The dip of a normal free edge at a commissure has 1.4 and stays, unless the
-// edge is torn, with three sharp notches or more: then what is between tears is no shape of the
+// edge is torn, with three sharp notches or more: then the edge between tears is no shape of the
 // leaflet, and valleys may be tears as well.
 constexpr double sharp_detour = 1.5, gentle_detour = 1.2;
 constexpr size_t sharp_of_torn = 3;

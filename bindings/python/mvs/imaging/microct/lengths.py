@@ -28,7 +28,7 @@ SAME_CHANGE = 0.1
 """Changes of lengths that differ by more from their median are of ways that were paired wrongly, or lead over
 chordae that touch in one image."""
 LEAST_PAIRS = 5
-"""Of so many pairs and more the median is that of all chordae."""
+"""Pairs from which on their median counts for all chordae."""
 LEAST_SEGMENT = 0.3
 """The last segment of a way keeps at least this share of its length in the open image."""
 
