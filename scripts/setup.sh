@@ -2,10 +2,28 @@
 # Sourced by demo, test, wheel: takes a fresh Debian 12 or Ubuntu 22.04 to where libmvs builds.
 # Installs only what is missing, from Debian's packages and PyPI; safe to repeat.
 set -euo pipefail
+
+# A script's usage is the comment at its top, before any work begins.
+case ${1-} in
+  -h | --help)
+    sed -n '2,/^[^#]/{/^# shellcheck/d; s/^# \{0,1\}//p}' "$0"
+    exit
+    ;;
+esac
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # One line that says what happens now.
 say() { printf '\n== %s\n' "$*"; }
+
+# Refuses options that a script does not have, before it begins: known_options "--test --long" "$@".
+known_options() {
+  local argument
+  for argument in "${@:2}"; do
+    case $argument in
+      -*) [[ " $1 " == *" $argument "* ]] || give_up "unknown option $argument; $0 --help lists all" ;;
+    esac
+  done
+}
 
 # The last line of a failed set-up: what is wrong and what to do.
 give_up() {
