@@ -20,10 +20,8 @@ struct Spot {
 
 using Row = std::vector<Spot>;
 
-// Returns `count` spots evenly along the curve v between two angles, half a gap from either end.
-Row even_row(const Shape &shape, double v, double theta0, double theta1, uint32_t count,
-             ChordKind kind) {
-  const ArcLength arc(shape, v, theta0, theta1);
+// Returns `count` spots evenly along an arc of the curve v, half a gap from either end.
+Row even_row(const ArcLength &arc, double v, uint32_t count, ChordKind kind) {
   Row row;
   for (uint32_t i = 0; i < count; ++i) {
     row.push_back({{arc.theta_at((i + 0.5) / count * arc.total()), v}, kind});
@@ -31,14 +29,25 @@ Row even_row(const Shape &shape, double v, double theta0, double theta1, uint32_
   return row;
 }
 
-// Sets the kind of the spots near the commissure to commissural.
-void name_commissural(const Shape &shape, double v, Row &row) {
-  const double reach = commissural_share * ArcLength(shape, v, 0, pi).total();
+Row even_row(const Shape &shape, double v, double theta0, double theta1, uint32_t count,
+             ChordKind kind) {
+  return even_row(ArcLength(shape, v, theta0, theta1), v, count, kind);
+}
+
+// A row along the whole curve v; its spots near the commissure are commissural.
+Row whole_row(const Shape &shape, double v, uint32_t count, ChordKind kind) {
+  const ArcLength arc(shape, v, 0, pi);
+  Row row = even_row(arc, v, count, kind);
+  const double reach = commissural_share * arc.total();
+  const Vec3 commissure = shape.open({Shape::commissure, v});
   for (Spot &spot : row) {
+    // an arc is at least as long as its chord, up to rounding
+    if ((shape.open(spot.place) - commissure).norm() > (1 + 1e-9) * reach) continue;
     const double from = std::min(spot.place.theta, Shape::commissure);
     const double to = std::max(spot.place.theta, Shape::commissure);
     if (ArcLength(shape, v, from, to).total() < reach) spot.kind = ChordKind::commissural;
   }
+  return row;
 }
 
 // Returns the rows of one muscle of the founding shape, `count` spots in total: free edge, rough
@@ -50,14 +59,10 @@ std::vector<Row> founding_rows(const Shape &shape, uint32_t count) {
   const uint32_t basal = part(0.15), rough = part(0.375);
   const uint32_t edge = count - basal - rough - 1;
   constexpr double rough_v = 0.75, strut_v = 0.38, basal_v = 0.35;
-  std::vector<Row> rows = {
-      even_row(shape, 1, 0, pi, edge, ChordKind::marginal),
-      even_row(shape, rough_v, 0, pi, rough, ChordKind::rough_zone),
-      {{{0.4 * Shape::commissure, strut_v}, ChordKind::strut}},
-      even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, ChordKind::basal)};
-  name_commissural(shape, 1, rows[0]);
-  name_commissural(shape, rough_v, rows[1]);
-  return rows;
+  return {whole_row(shape, 1, edge, ChordKind::marginal),
+          whole_row(shape, rough_v, rough, ChordKind::rough_zone),
+          {{{0.4 * Shape::commissure, strut_v}, ChordKind::strut}},
+          even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, ChordKind::basal)};
 }
 
 // The rows of the healthy shape: struts in two rows carry the belly of the anterior leaflet,
@@ -70,15 +75,11 @@ std::vector<Row> healthy_rows(const Shape &shape, uint32_t count) {
   const uint32_t others = basal + rough + 2 * struts, edge = std::max(count, others + 1) - others;
   constexpr double rough_v = 0.75, strut_v = 0.5, belly_v = 0.25, basal_v = 0.35;
   constexpr double strut_end = 0.7 * Shape::commissure;
-  std::vector<Row> rows = {
-      even_row(shape, 1, 0, pi, edge, ChordKind::marginal),
-      even_row(shape, rough_v, 0, pi, rough, ChordKind::rough_zone),
-      even_row(shape, strut_v, 0, strut_end, struts, ChordKind::strut),
-      even_row(shape, belly_v, 0, strut_end, struts, ChordKind::strut),
-      even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, ChordKind::basal)};
-  name_commissural(shape, 1, rows[0]);
-  name_commissural(shape, rough_v, rows[1]);
-  return rows;
+  return {whole_row(shape, 1, edge, ChordKind::marginal),
+          whole_row(shape, rough_v, rough, ChordKind::rough_zone),
+          even_row(shape, strut_v, 0, strut_end, struts, ChordKind::strut),
+          even_row(shape, belly_v, 0, strut_end, struts, ChordKind::strut),
+          even_row(shape, basal_v, 1.15 * Shape::commissure, pi, basal, ChordKind::basal)};
 }
 
 // Returns the rows of one muscle with `segments` chord segments. A tree of three branches has four;

@@ -127,19 +127,18 @@ class Remesher {
     return any;
   }
 
-  // Returns whether vertex a may be merged into b.
+  // Returns whether vertex a may be merged into b. The cheap conditions come first.
   bool can_collapse(uint32_t a, uint32_t b, bool curve, const std::vector<uint8_t> &locked) const {
     if (s_.sides[a] != 0 && (!curve || s_.sides[a] != (s_.sides[a] & s_.sides[b]))) return false;
     if (is_corner(s_.sides[a])) return false;
-    std::vector<uint32_t> around_a = neighbours(a), around_b = neighbours(b), common;
-    for (uint32_t i : around_a) {
-      if (locked[i] || (i != b && length(i, b) > high * edge_)) return false;
+    for (uint32_t t : ring_[a]) {
+      for (uint32_t i : s_.triangles[t]) {
+        if (locked[i] || (i != a && i != b && length(i, b) > high * edge_)) return false;
+      }
     }
-    std::set_intersection(around_a.begin(), around_a.end(), around_b.begin(), around_b.end(),
-                          std::back_inserter(common));
     size_t shared = 0;
-    for (uint32_t i = ring_.start[a]; i < ring_.start[a + 1]; ++i) {
-      Tri triangle = s_.triangles[ring_.items[i]];
+    for (uint32_t t : ring_[a]) {
+      Tri triangle = s_.triangles[t];
       if (std::find(triangle.begin(), triangle.end(), b) != triangle.end()) {
         ++shared;
         continue;
@@ -147,6 +146,10 @@ class Remesher {
       std::replace(triangle.begin(), triangle.end(), a, b);
       if (quality(triangle) < poor) return false;
     }
+    const std::vector<uint32_t> around_a = neighbours(a), around_b = neighbours(b);
+    std::vector<uint32_t> common;
+    std::set_intersection(around_a.begin(), around_a.end(), around_b.begin(), around_b.end(),
+                          std::back_inserter(common));
     return common.size() == shared;
   }
 
