@@ -32,6 +32,27 @@ class Sensitivity(Shell):
             self.assertIn(f"\n  {name} ", text)
             self.assertRegex(text, r"coaptation = \d+\.?\d* mm2")
 
+    def test_both_sides_are_printed_where_they_differ(self):
+        # this valve has contact about to switch, which matters to some of its chordae
+        self.ok("generate", "--vertices", 300, "-o", "near.obj")
+        self.ok("close", "near.obj", "-o", "near.obj")
+        arguments = ("sensitivity", "near.obj", "--of", "coaptation", "--to", "chords")
+        found, text = self.json(*arguments), self.ok(*arguments).stdout
+        key = "d_coaptation_area_mm2_per_mm"
+        differing = 0
+        for row in found["parameters"]:
+            line = next(line for line in text.splitlines() if line.startswith(f"  {row['parameter']} "))
+            below, above = row[key + "_below"], row[key + "_above"]
+            if f"{below:.3g}" == f"{above:.3g}":
+                self.assertNotIn("/", line.split()[1])
+                self.assertNotIn("about to switch", line)
+            else:
+                differing += 1
+                self.assertEqual(line.split()[1], f"{below:.3g}/{above:.3g}")
+                self.assertIn("about to switch", line)
+        self.assertGreater(differing, 0)
+        self.assertLess(differing, len(found["parameters"]))
+
     def refused(self, *arguments, code):
         done = mvs("sensitivity", *arguments, cwd=self.dir)
         self.assertEqual((done.returncode, done.stdout), (code, ""))

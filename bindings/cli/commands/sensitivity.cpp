@@ -30,12 +30,39 @@ Json rows_json(const SensitivityTable &table, const std::vector<size_t> &order) 
   for (const size_t p : order) {
     Json row = {{"parameter", table.parameters.names[p]}};
     for (size_t q = 0; q < table.quantities.size(); ++q) {
-      row[quantity_key(table.quantities[q], table.parameters)] = number_json(table.at(q, p));
+      const std::string key = quantity_key(table.quantities[q], table.parameters);
+      const size_t at = table.index(q, p);
+      row[key] = number_json(table.derivative[at]);
+      row[key + "_above"] = number_json(table.above[at]);
+      row[key + "_below"] = number_json(table.below[at]);
     }
     row["notes"] = notes_json(table.parameter_notes[p]);
     rows.push_back(row);
   }
   return rows;
+}
+
+// The derivative; of a falling and of a growing parameter where the shown digits differ, as
+// "-4.9/-5.1".
+std::string cell(const SensitivityTable &table, size_t q, size_t p) {
+  const size_t at = table.index(q, p);
+  const std::string below = text("%.3g", table.below[at]), above = text("%.3g", table.above[at]);
+  if (below == above || std::isnan(table.below[at])) return text("%.4g", table.derivative[at]);
+  return below + "/" + above;
+}
+
+// A switch whose two sides agree in all shown digits is not noted.
+mvs_sensitivity_notes shown_notes(const SensitivityTable &table, size_t p) {
+  constexpr mvs_sensitivity_notes of_sides = MVS_SENSITIVITY_NOTE_CHORD |
+                                             MVS_SENSITIVITY_NOTE_CONTACT |
+                                             MVS_SENSITIVITY_NOTE_KINK | MVS_SENSITIVITY_NOTE_SIDES;
+  for (size_t q = 0; q < table.quantities.size(); ++q) {
+    if (std::isnan(table.below[table.index(q, p)]) ||
+        cell(table, q, p).find('/') != std::string::npos) {
+      return table.parameter_notes[p];
+    }
+  }
+  return table.parameter_notes[p] & ~of_sides;
 }
 
 std::string lines(const SensitivityTable &table, const std::vector<size_t> &order) {
@@ -53,9 +80,9 @@ std::string lines(const SensitivityTable &table, const std::vector<size_t> &orde
       const AskedQuantity &asked = table.quantities[q];
       const size_t head = asked.label.size() + 3 + std::max<size_t>(asked.unit.size(), 1) +
                           table.parameters.unit.size();
-      out += text("  %*.4g", static_cast<int>(std::max<size_t>(head, 12)), table.at(q, p));
+      out += text("  %*s", static_cast<int>(std::max<size_t>(head, 12)), cell(table, q, p).c_str());
     }
-    const std::vector<std::string> words = note_words(table.parameter_notes[p]);
+    const std::vector<std::string> words = note_words(shown_notes(table, p));
     if (!words.empty()) out += "  " + CLI::detail::join(words, ", ");
   }
   return out;
@@ -87,7 +114,8 @@ void run_sensitivity(const SensitivityOptions &options, const Console &console) 
   std::vector<size_t> order(table.parameters.names.size());
   for (size_t p = 0; p < order.size(); ++p) order[p] = p;
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-    return std::abs(table.at(by, a)) > std::abs(table.at(by, b));
+    return std::abs(table.derivative[table.index(by, a)]) >
+           std::abs(table.derivative[table.index(by, b)]);
   });
   if (options.top > 0 && options.top < order.size()) order.resize(options.top);
   Json quantities = Json::array();
@@ -105,8 +133,9 @@ void run_sensitivity(const SensitivityOptions &options, const Console &console) 
          {"stiffness_margin_N_per_m", number_json(table.summary.stiffness_margin)},
          {"quantities", quantities},
          {"parameters", rows_json(table, order)}},
-        text("%s: under %g mmHg, %zu parameters by their influence on %s", options.file.c_str(),
-             pressure_mmhg, table.parameters.names.size(), table.quantities[by].label.c_str()) +
+        text("%s: under %g mmHg, %zu parameter%s by influence on %s", options.file.c_str(),
+             pressure_mmhg, table.parameters.names.size(),
+             table.parameters.names.size() == 1 ? "" : "s", table.quantities[by].label.c_str()) +
             quantity_lines(table) + lines(table, order));
 }
 
@@ -116,7 +145,7 @@ void add_sensitivity(CLI::App &app, Console &console) {
   const auto [command, options] = add_command<SensitivityOptions>(
       app, console, "sensitivity",
       "list what a change of each chord, head, scallop or load does to measures of a closed valve, "
-      "by derivatives",
+      "by derivatives; two numbers a/b are those of a falling and of a growing parameter",
       run_sensitivity);
   command->add_option("file", options->file, "closed valve at rest, .obj or .h5")->required();
   command

@@ -83,13 +83,16 @@ SensitivityTable sensitivity_table(const mvs::Snapshot &valve, const std::vector
   table.summary = found.summary();
   table.value = array_of<double>(found, MVS_SENSITIVITY_ARRAY_VALUE);
   table.derivative = array_of<double>(found, MVS_SENSITIVITY_ARRAY_DERIVATIVE);
+  table.above = array_of<double>(found, MVS_SENSITIVITY_ARRAY_ABOVE);
+  table.below = array_of<double>(found, MVS_SENSITIVITY_ARRAY_BELOW);
   table.quantity_notes = array_of<uint32_t>(found, MVS_SENSITIVITY_ARRAY_QUANTITY_NOTES);
   table.parameter_notes = array_of<uint32_t>(found, MVS_SENSITIVITY_ARRAY_PARAMETER_NOTES);
-  const size_t columns = table.parameters.names.size();
   for (size_t q = 0; q < table.quantities.size(); ++q) {
     table.value[q] *= table.quantities[q].scale;
-    for (size_t p = 0; p < columns; ++p) {
-      table.derivative[q * columns + p] *= table.quantities[q].scale * table.parameters.scale;
+    for (std::vector<double> *side : {&table.derivative, &table.above, &table.below}) {
+      for (size_t p = 0; p < table.parameters.names.size(); ++p) {
+        (*side)[table.index(q, p)] *= table.quantities[q].scale * table.parameters.scale;
+      }
     }
   }
   return table;

@@ -25,11 +25,13 @@ struct AskedParameters {
 struct SensitivityTable {
   std::vector<AskedQuantity> quantities;
   AskedParameters parameters;
-  std::vector<double> value, derivative;  // in shown units; a row a quantity
+  // In shown units; a row a quantity. `above`, `below`: for a growing and a falling parameter, NaN
+  // where more places are about to switch than are told apart.
+  std::vector<double> value, derivative, above, below;
   std::vector<mvs_sensitivity_notes> quantity_notes, parameter_notes;
   mvs_sensitivity_summary summary;
 
-  double at(size_t q, size_t p) const { return derivative[q * parameters.names.size() + p]; }
+  size_t index(size_t q, size_t p) const { return q * parameters.names.size() + p; }
 };
 
 // Values of --to.
