@@ -153,6 +153,7 @@ Struct filled(Simulator &self, Get &&get) {
 std::string backend_words();
 
 void bind_simulator(py::module_ &module);
+void bind_valve(py::module_ &module, py::class_<Simulator> &type);
 void bind_operations(py::module_ &module, py::class_<Simulator> &type);
 void bind_plans(py::module_ &module, py::class_<Simulator> &type);
 void bind_tools(py::class_<Simulator> &type);

@@ -1,10 +1,9 @@
+// mvs.Snapshot: its arrays, parts, history and files.
 #include "snapshot.h"
 
 #include <mvs/file.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
-
-#include <array>
 
 #include "arrays.h"
 #include "ensemble.h"
@@ -37,30 +36,6 @@ py::object load_case(const Snapshot &snapshot) {
   auto load = sized<mvs_load_case>();
   must(mvs_snapshot_get_load(snapshot.get(), &load));
   return load_value(load);
-}
-
-py::object measures(const Snapshot &snapshot) {
-  auto found = sized<mvs_measures>();
-  release_and([&] { return mvs_snapshot_measure(snapshot.get(), &found); });
-  return measures_value(found);
-}
-
-py::object measures_of_groups(const Snapshot &snapshot, uint32_t groups) {
-  auto found = sized<mvs_measures>();
-  release_and([&] { return mvs_snapshot_measure_groups(snapshot.get(), groups, &found); });
-  return measures_value(found);
-}
-
-py::object frame(const Snapshot &snapshot) {
-  double rows[12];
-  release_and([&] { return mvs_snapshot_get_frame(snapshot.get(), rows); });
-  return frame_value(rows);
-}
-
-py::object compare(const Snapshot &snapshot, const Snapshot &other) {
-  auto found = sized<mvs_comparison>();
-  release_and([&] { return mvs_snapshot_compare(snapshot.get(), other.get(), &found); });
-  return comparison_value(found);
 }
 
 py::tuple parts(const Snapshot &snapshot) {
@@ -132,21 +107,6 @@ py::tuple checkpoints(const Snapshot &snapshot) {
   return py::tuple(names);
 }
 
-py::array section(const Snapshot &snapshot, const std::array<double, 3> &point,
-                  const std::array<double, 3> &normal) {
-  uint64_t count = 0;
-  std::vector<double> points;
-  const auto cut = [&] {
-    return mvs_snapshot_section(snapshot.get(), point.data(), normal.data(), points.data(),
-                                points.size() / 3, &count);
-  };
-  release_and(cut);
-  points.resize(3 * count);
-  if (count > 0) release_and(cut);
-  return py::array_t<double>({static_cast<py::ssize_t>(count / 2), py::ssize_t{2}, py::ssize_t{3}},
-                             points.data());
-}
-
 void save(const Snapshot &snapshot, const std::filesystem::path &path, const std::string &format) {
   const uint32_t chosen = format_of(format);
   const std::string name = path.string();
@@ -164,70 +124,6 @@ py::bytes to_bytes(const Snapshot &snapshot, const std::string &format) {
   bytes.resize(size);
   release_and(write);
   return py::bytes(bytes);
-}
-
-// The rows of mvs.tables.chords.
-py::list chords_of(const Snapshot &self) {
-  uint32_t count = 0;
-  must(mvs_snapshot_get_part_count(self.get(), MVS_PART_CHORD, &count));
-  py::list rows;
-  for (uint32_t c = 0; c < count; ++c) {
-    auto chord = sized<mvs_chord_info>();
-    release_and([&] { return mvs_snapshot_get_chord(self.get(), c, &chord); });
-    rows.append(py::make_tuple(chord.name, chord.kind, chord.heads, chord.scallops, chord.flags,
-                               chord.length, chord.rest_length, chord.strain, chord.tension));
-  }
-  return rows;
-}
-
-// The rows of mvs.tables.regions.
-py::list regions_of(const Snapshot &self) {
-  uint32_t count = 0;
-  must(mvs_snapshot_get_region_count(self.get(), &count));
-  py::list rows;
-  for (uint32_t k = 0; k < count; ++k) {
-    auto r = sized<mvs_region_measures>();
-    release_and([&] { return mvs_snapshot_get_region(self.get(), k, &r); });
-    rows.append(py::make_tuple(r.name, r.kind, r.coaptation_area, r.coaptation_length_mean,
-                               r.coaptation_length_min, r.orifice_area, r.gap, r.billow_height,
-                               r.billow_volume, r.tenting_height, r.tenting_volume));
-  }
-  return rows;
-}
-
-// The rows of mvs.tables.orifice_parts.
-py::list orifice_parts_of(const Snapshot &self) {
-  uint32_t count = 0;
-  release_and([&] { return mvs_snapshot_get_orifice_part_count(self.get(), &count); });
-  py::list rows;
-  for (uint32_t k = 0; k < count; ++k) {
-    auto p = sized<mvs_orifice_part>();
-    must(mvs_snapshot_get_orifice_part(self.get(), k, &p));
-    rows.append(py::make_tuple(p.anterior, p.posterior, p.commissures, p.triangles, p.area, p.gap,
-                               p.centroid[0], p.centroid[1], p.centroid[2], p.direction[0],
-                               p.direction[1], p.direction[2]));
-  }
-  return rows;
-}
-
-// Cost of the repair of the closed valve (mvs.Cost).
-py::object cost(const Snapshot &self, std::optional<double> flow, const py::object &septum,
-                std::optional<double> pressure, std::optional<double> density,
-                std::optional<double> discharge) {
-  auto options = sized<mvs_cost_options>();
-  options.flow = flow.value_or(0);
-  options.pressure = pressure.value_or(0);
-  options.density = density.value_or(0);
-  options.discharge = discharge.value_or(0);
-  std::vector<py::array> kept;
-  if (!septum.is_none()) {
-    options.septum =
-        described(array_argument(septum, {"septum", 3, {MVS_TYPE_F64, MVS_TYPE_F32}}), kept);
-  }
-  auto figures = sized<mvs_cost>();
-  const mvs_snapshot *opened = nullptr;
-  release_and([&] { return mvs_snapshot_measure_cost(self.get(), &options, &figures, &opened); });
-  return cost_value(figures, py::cast(Snapshot(opened)));
 }
 
 std::string text(const Snapshot &snapshot) {
@@ -285,10 +181,6 @@ void bind_snapshot(py::module_ &module) {
       "Stability of the equilibrium that a snapshot at rest is in (mvs.Stability). The first use "
       "computes it; node_mode is the mode.");
   type.def_property_readonly("load_case", &load_case, "The load (mvs.Load), Pa and fraction.");
-  type.def_property_readonly("measures", &measures,
-                             "The measures of the valve (mvs.Measures, SI units). The first call "
-                             "on a snapshot computes them; measure(groups) computes some.");
-  type.def_property_readonly("frame", &frame, "The anatomical frame of the valve (mvs.Frame), m.");
   type.def_property_readonly("parts", &parts,
                              "All named parts (tuple of mvs.Part): leaflets, scallops, chordae, "
                              "heads, rings; `index` is the row in the arrays of their kind.");
@@ -303,23 +195,8 @@ void bind_snapshot(py::module_ &module) {
                              "ones from first to last, then the undone ones in the order of redo.");
   type.def_property_readonly("checkpoints", &checkpoints,
                              "The names of the checkpoints (tuple of str).");
-  type.def("cost", &cost, py::kw_only(), "flow"_a = py::none(), "septum"_a = py::none(),
-           "pressure_pa"_a = py::none(), "density"_a = py::none(), "discharge"_a = py::none(),
-           "Cost of the repair of this closed valve (mvs.Cost), and the valve opened in "
-           "diastole.\n\nflow: m3/s through the open valve; None: no gradient\n"
-           "septum: (k, 3), m: points of the septum that faces the anterior leaflet in systole; "
-           "None: no risk of SAM\npressure_pa: Pa, atrium minus ventricle; None: 5 mmHg\n"
-           "density: kg/m3, of blood; None: 1060\ndischarge: discharge coefficient; None: 0.85");
-  type.def("_measure", &measures_of_groups);
-  type.def("_chords", &chords_of);
-  type.def("_regions", &regions_of);
-  type.def("_orifice_parts", &orifice_parts_of);
   type.def("find", &find, "kind"_a, "name"_a,
            "The part of a kind with this name; IdError if there is no such part.");
-  type.def("compare", &compare, "other"_a,
-           "Distance between the leaflet surfaces of two snapshots (mvs.Comparison), m.");
-  type.def("section", &section, "point"_a, "normal"_a,
-           "A planar cut of the leaflets through `point` (m): segments (s, 2, 3), m.");
   type.def(
       "save", &save, "path"_a, py::kw_only(), "format"_a = "auto",
       "Writes a file; format \"auto\" follows the ending: .obj (exact round trip), .h5 (with "
@@ -328,6 +205,7 @@ void bind_snapshot(py::module_ &module) {
       "IoError if it cannot be written.");
   type.def("to_bytes", &to_bytes, py::kw_only(), "format"_a = "obj",
            "The contents of the file that save would write.");
+  bind_measures(type);
   bind_plan_writing(type);
   bind_ensemble(module, type);
   bind_sensitivity(type);

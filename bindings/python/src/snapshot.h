@@ -24,6 +24,7 @@ class Snapshot {
 uint32_t format_of(const std::string &name);
 
 void bind_snapshot(py::module_ &module);
+void bind_measures(py::class_<Snapshot> &type);
 void bind_plan_writing(py::class_<Snapshot> &type);
 
 }  // namespace mvs_python
