@@ -21,6 +21,7 @@
 #include "collision/convex_bodies.h"
 #include "energy/barrier.h"
 #include "geometry/bvh.h"
+#include "geometry/smooth_distance.h"
 #include "model/model.h"
 
 namespace mvs::core {
@@ -33,13 +34,16 @@ struct BodyContact {
   using Weights = std::array<double, most_nodes>;
   std::array<uint32_t, most_nodes> node;
   Weights weight;
-  std::array<Weights, 2> slide;  // d(weight) along each direction of sliding
-  uint32_t count;                // nodes
+  static constexpr uint32_t most_slides = SmoothDistance::most_corners - 1;
+  std::array<Weights, most_slides> slide;  // d(weight) along each direction of sliding
+  uint32_t count;                          // nodes
+  uint32_t parts;                          // of them those of the tissue, which come first
   uint32_t slides;
   Vec3 normal;  // unit, from the part to the body
   double distance, radius, range, strength;
+  double factor, bend;  // of SmoothDistance
 
-  double gap() const { return distance - radius; }
+  double gap() const { return (distance - radius) / factor; }
 };
 
 class ConvexContactTerm {
