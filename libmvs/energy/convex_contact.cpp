@@ -171,7 +171,8 @@ void ConvexContactTerm::take(const std::vector<Vec3> &x, const ConvexInstrument 
   const auto corners = std::span<const Vec3>(place).first(part.size());
   constexpr double share = settings::instrument::smoothing;
   if (is_apart(box_, corners, law.radius + (1 + 0.5 * share) * law.range)) return;
-  const SmoothDistance found = smooth_distance(vertices_, corners, law.radius, share, law.range);
+  const SmoothDistance found =
+      smooth_distance(vertices_, corners, law.radius, share, law.range, &body.edges);
   if (found.is_beyond || found.count == 0) return;
   BodyContact c =
       contact_of(found, part, instrument.frame, instrument.tool.shape->weights(body.index));

@@ -12,7 +12,7 @@ constexpr uint32_t most = SmoothDistance::most_corners;
 // The loops end by themselves; these bounds are never met in tests/geometry.
 constexpr int most_turns = 64, most_rounds = 40;
 // Shares of a square and of a weight that are rounding.
-constexpr double least_progress = 1e-15, least_change = 1e-12, dependent = 1e-11;
+constexpr double least_progress = 1e-15, least_change = 1e-11, dependent = 1e-11;
 
 struct Corner {
   Vec3 at;  // a[i] - b[j]
@@ -22,7 +22,8 @@ struct Corner {
 // The minimum of |sum theta_k at_k|^2 + c |coordinates|^2 over the corners met so far.
 class LeastSquares {
  public:
-  LeastSquares(std::span<const Vec3> hull, std::span<const Vec3> part) : hull_(hull), part_(part) {}
+  LeastSquares(std::span<const Vec3> hull, std::span<const Vec3> part, const HullEdges *edges)
+      : hull_(hull), part_(part), edges_(edges && !edges->empty() ? edges : nullptr) {}
 
   void start(const ConvexDistance &found) {
     for (uint32_t k = 0; k < found.count; ++k) {
@@ -78,18 +79,26 @@ class LeastSquares {
     return false;
   }
   Corner lowest() const {
-    uint32_t i = 0, j = 0;
-    double low = apart.dot(hull_[0]);
-    for (uint32_t k = 1; k < hull_.size(); ++k) {
-      const double along = apart.dot(hull_[k]);
-      if (along < low) low = along, i = k;
-    }
-    low = c_ * place[0] - apart.dot(part_[0]);
+    const uint32_t i =
+        edges_ ? lowest_corner(*edges_, hull_, apart, corner_[0].i) : lowest_of_all();
+    uint32_t j = 0;
+    double low = c_ * place[0] - apart.dot(part_[0]);
     for (uint32_t k = 1; k < part_.size(); ++k) {
       const double along = c_ * place[k] - apart.dot(part_[k]);
       if (along < low) low = along, j = k;
     }
     return make(i, j);
+  }
+  uint32_t lowest_of_all() const {
+    uint32_t i = 0;
+    double low = apart.dot(hull_[0]);
+    for (uint32_t k = 1; k < hull_.size(); ++k) {
+      const double along = apart.dot(hull_[k]);
+      if (along >= low) continue;
+      low = along;
+      i = k;
+    }
+    return i;
   }
   void measure() {
     apart.setZero();
@@ -175,6 +184,7 @@ class LeastSquares {
   }
 
   std::span<const Vec3> hull_, part_;
+  const HullEdges *edges_;  // null: all points are looked at
   std::array<Corner, most> corner_;
   std::array<double, most> theta_{};
   uint32_t count_ = 0;
@@ -198,18 +208,18 @@ SmoothDistance plain(const ConvexDistance &found, double farthest) {
 }  // namespace
 
 SmoothDistance smooth_distance(std::span<const Vec3> hull, std::span<const Vec3> part,
-                               double radius, double share, double cutoff) {
+                               double radius, double share, double cutoff, const HullEdges *edges) {
   const bool has_kinks = hull.size() > 1 && part.size() > 1;
   const double farthest = has_kinks ? 1 + 0.5 * share : 1;
   const double reach = radius + farthest * cutoff;
-  const ConvexDistance found = convex_distance(hull, part, reach);
+  const ConvexDistance found = convex_distance(hull, part, reach, edges);
   if (!has_kinks || found.is_beyond || found.count == 0 || !(found.distance > radius)) {
     return plain(found, reach);
   }
   const double g_max = 1 - 1 / static_cast<double>(part.size());
   SmoothDistance smooth;
   smooth.bend = 2 * share / g_max;
-  LeastSquares least(hull, part);
+  LeastSquares least(hull, part, edges);
   least.start(found);
   double c = 0;
   for (int round = 0; round < most_rounds; ++round) {

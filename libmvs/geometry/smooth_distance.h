@@ -31,8 +31,10 @@ struct SmoothDistance {
   bool is_beyond = false;     // D is above `cutoff`; the rest is not set then
 };
 
-// `part`: up to 3 points. A hull of one point has no kinks: its least distance is returned.
+// `part`: up to 3 points. `edges`: see convex_distance(). A hull of one point has no kinks: its
+// least distance is returned.
 SmoothDistance smooth_distance(std::span<const Vec3> hull, std::span<const Vec3> part,
-                               double radius, double share, double cutoff);
+                               double radius, double share, double cutoff,
+                               const HullEdges *edges = nullptr);
 
 }  // namespace mvs::core
