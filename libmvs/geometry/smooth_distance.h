@@ -7,9 +7,8 @@
 // of a convex and a concave positive function that is strictly concave in the place q on the part.
 // It has one minimum, so that D has a continuous derivative (Danskin's theorem) where the hull,
 // rounded by R, and the part are apart. D is 0 where they touch, and differs from the least
-// distance by less than the factor share / 2. The numerator alone would be a linear programme over
-// fractions (Dinkelbach, Management Science 13, 1967): D is found by least squares with a weight
-// that follows D.
+// distance by less than the factor share / 2. A fractional
+// programme: Dinkelbach, Management Science 13 (1967).
 #pragma once
 
 #include <span>

@@ -17,7 +17,7 @@ namespace {
 
 static_assert(most_tool_bodies == MVS_MAX_BODIES && most_tool_vertices == MVS_MAX_BODY_VERTICES);
 
-constexpr double least_size = 1e-4;    // m, of what has a size
+constexpr double least_size = 1e-4;    // m, least size of an edge, radius or hull
 constexpr double default_ball = 2e-3;  // m
 
 // One body under construction, with the name of its field for messages.
