@@ -28,6 +28,11 @@ double turn_of(const Vec3 *step) {
   return std::sqrt(most);
 }
 
+ConvexBody make_body(const ToolShape &shape, uint32_t index) {
+  const ToolBody &body = shape.bodies()[index];
+  return {index, body.radius, {}, {}, {}, hull_edges(shape.faces(index), body.vertices.size())};
+}
+
 void scale(Vec3 *step, double factor) {
   for (uint32_t k = 0; k < frame_points; ++k) step[k] *= factor;
 }
@@ -45,7 +50,7 @@ bool ConvexBodies::set_tools(const std::vector<Tool> &tools, uint32_t first) {
       instruments_.resize(k);
       instruments_.push_back({tool, frame, {}});
       for (uint32_t b = 0; b < tool.shape->bodies().size(); ++b)
-        instruments_[k].bodies.push_back({b, tool.shape->bodies()[b].radius, {}, {}, {}});
+        instruments_[k].bodies.push_back(make_body(*tool.shape, b));
       is_any_new = true;
     }
     instruments_[k++].frame = frame;
@@ -112,11 +117,11 @@ const std::vector<BodyPair> &ConvexBodies::barrier_pairs(const std::vector<Vec3>
       for (const Vec3 &m : motion_) longest_ = std::max(longest_, m.squaredNorm());
       longest_ = std::sqrt(longest_);
       for (const uint32_t t : body.triangles)
-        add_pair(instrument.frame, model_->valve.triangles[t], body.radius, x, dx);
+        add_pair(instrument.frame, body.edges, model_->valve.triangles[t], body.radius, x, dx);
       for (const uint32_t c : body.chords) {
         const Chord &chord = model_->valve.chords[c];
-        add_pair(instrument.frame, std::array{chord.a, chord.b}, body.radius + chord_radius(chord),
-                 x, dx);
+        add_pair(instrument.frame, body.edges, std::array{chord.a, chord.b},
+                 body.radius + chord_radius(chord), x, dx);
       }
     }
   }
@@ -124,8 +129,9 @@ const std::vector<BodyPair> &ConvexBodies::barrier_pairs(const std::vector<Vec3>
 }
 
 // A pair that no point of the step can bring together needs no plane.
-void ConvexBodies::add_pair(uint32_t frame, std::span<const uint32_t> part, double radius,
-                            const std::vector<Vec3> &x, const std::vector<Vec3> &dx) {
+void ConvexBodies::add_pair(uint32_t frame, const HullEdges &edges, std::span<const uint32_t> part,
+                            double radius, const std::vector<Vec3> &x,
+                            const std::vector<Vec3> &dx) {
   std::array<Vec3, 3> place;
   std::array<uint32_t, 3> node;
   double far = 0;
@@ -139,7 +145,7 @@ void ConvexBodies::add_pair(uint32_t frame, std::span<const uint32_t> part, doub
   const auto corners = std::span<const Vec3>(place).first(part.size());
   const double cutoff = radius + least_tool_distance + approach / usable_share;
   if (is_apart(box_, corners, cutoff)) return;
-  const ConvexDistance found = convex_distance(vertices_, corners, cutoff);
+  const ConvexDistance found = convex_distance(vertices_, corners, cutoff, &edges);
   if (found.is_beyond) return;
   const Vec3 normal = found.distance > 0 ? Vec3(found.apart / found.distance) : Vec3::Zero();
   const double gap = plane_gap(vertices_, corners, normal);

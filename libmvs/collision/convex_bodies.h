@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "geometry/bvh.h"
+#include "geometry/convex_hull.h"
 #include "model/model.h"
 
 namespace mvs::core {
@@ -30,6 +31,7 @@ struct ConvexBody {
   uint32_t index;  // among the bodies of its tool
   double radius;   // m
   std::vector<uint32_t> vertices, triangles, chords;
+  HullEdges edges;
 };
 
 // A convex tool: its frame is the nodes from `frame` on.
@@ -58,8 +60,8 @@ class ConvexBodies {
  private:
   void find_near(const ConvexInstrument &instrument, ConvexBody &body, const std::vector<Vec3> &x,
                  const std::vector<Vec3> &to, double slack);
-  void add_pair(uint32_t frame, std::span<const uint32_t> part, double radius,
-                const std::vector<Vec3> &x, const std::vector<Vec3> &dx);
+  void add_pair(uint32_t frame, const HullEdges &edges, std::span<const uint32_t> part,
+                double radius, const std::vector<Vec3> &x, const std::vector<Vec3> &dx);
 
   // m, by which the body at hand comes nearer to a plane normal to this direction, at least 0.
   double approach_along(const Vec3 &normal) const;

@@ -1,14 +1,12 @@
 // Distances between convex bodies and tissue, their barrier, and the springs of frames.
 #include "energy/convex_contact.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
 #include "collision/contact_params.h"
 #include "collision/near_parts.h"
 #include "energy/settings.h"
-#include "geometry/convex_distance.h"
 
 namespace mvs::core {
 namespace {
@@ -16,17 +14,18 @@ namespace {
 constexpr double frame_stiffness = settings::instrument::frame_stiffness;
 
 // Adds the weights of corner k of the difference of both hulls, times a factor.
-void add_corner(const ConvexDistance &found, uint32_t k, size_t parts,
+void add_corner(const SmoothDistance &found, uint32_t k, size_t parts,
                 const std::vector<FrameWeights> &weights, double factor, BodyContact::Weights &to) {
   to[found.second[k]] -= factor;
   const FrameWeights &w = weights[found.first[k]];
   for (uint32_t p = 0; p < frame_points; ++p) to[parts + p] += factor * w[p];
 }
 
-BodyContact contact_of(const ConvexDistance &found, std::span<const uint32_t> part, uint32_t frame,
+BodyContact contact_of(const SmoothDistance &found, std::span<const uint32_t> part, uint32_t frame,
                        const std::vector<FrameWeights> &weights) {
   BodyContact c{};
   for (const uint32_t i : part) c.node[c.count++] = i;
+  c.parts = c.count;
   for (uint32_t p = 0; p < frame_points; ++p) c.node[c.count++] = frame + p;
   for (uint32_t k = 0; k < found.count; ++k)
     add_corner(found, k, part.size(), weights, found.weight[k], c.weight);
@@ -37,54 +36,91 @@ BodyContact contact_of(const ConvexDistance &found, std::span<const uint32_t> pa
   c.slides = found.count - 1;
   c.distance = found.distance;
   c.normal = found.apart / found.distance;
+  c.factor = found.factor;
+  c.bend = found.bend;
   return c;
 }
 
-// The second derivative of one contact: the form of ContactPairHessian (energy/barrier.cpp) over
-// more nodes.
+// A direction of sliding that depends on the others to rounding is held.
+constexpr double least_independence = 1e-13;
+
+// The second derivative of one contact. With D = (d - R) / m, r = sum w_k x_k, n = r / |r|, P = I -
+// n n^T, t_a = sum slide_ak x_k, and closest points that slide so that n t_a = D m_a, block (k, l)
+// is
+//   w_k w_l (E'' n n^T / m^2 + E' P / (m d)) - E' / m sum_ab (G^-1)_ab u_ka u_lb^T,
+//   G_ab = t_a P t_b / d - D m_ab,   u_ka = slide_ka n + w_k (P t_a / d - m_a / m n).
+// The projected Hessian leaves out the terms with P / d: E'' is positive and E' negative. It keeps
+// the stiffness of a facet against a turn, without which a Newton step turns it much too far.
 class BodyContactHessian {
  public:
-  BodyContactHessian(const BodyContact &s, double second, double c, const std::vector<Vec3> &x)
-      : contact_(s), c_(c) {
-    along_ = (second - c) * s.normal * s.normal.transpose();
-    along_.diagonal().array() += c;
-    if (c != 0) slide(x);
+  BodyContactHessian(const BodyContact &s, const Barrier &b, bool exact, const std::vector<Vec3> &x)
+      : contact_(s), first_(s.strength * b.first / s.factor), exact_(exact) {
+    const double second = s.strength / s.range * b.second / (s.factor * s.factor);
+    const double across = exact ? first_ / s.distance : 0;
+    along_ = (second - across) * s.normal * s.normal.transpose();
+    along_.diagonal().array() += across;
+    if (exact || s.bend > 0) slide(x);
   }
 
   Mat3 block(uint32_t k, uint32_t l) const {
     Mat3 sum = contact_.weight[k] * contact_.weight[l] * along_;
-    for (uint32_t a = 0; a < slides_; ++a) {
-      for (uint32_t b = 0; b < slides_; ++b)
-        sum -= c_ * inverse_(a, b) * u_[a][k] * u_[b][l].transpose();
-    }
+    for (uint32_t a = 0; a < slides_; ++a) sum -= first_ * u_[a][k] * u_[a][l].transpose();
     return sum;
   }
 
  private:
+  static constexpr uint32_t most = BodyContact::most_slides;
+
   void slide(const std::vector<Vec3> &x) {
-    slides_ = contact_.slides;
-    std::array<Vec3, 2> t{Vec3::Zero(), Vec3::Zero()};
-    Eigen::Matrix2d gram = Eigen::Matrix2d::Identity();
+    const BodyContact &s = contact_;
+    slides_ = s.slides;
+    std::array<Vec3, most> across;  // P t_a
     for (uint32_t a = 0; a < slides_; ++a) {
-      for (uint32_t k = 0; k < contact_.count; ++k)
-        t[a] += contact_.slide[a][k] * x[contact_.node[k]];
+      Vec3 t = Vec3::Zero();
+      for (uint32_t k = 0; k < s.count; ++k) t += s.slide[a][k] * x[s.node[k]];
+      across[a] = t - s.normal.dot(t) * s.normal;
+      double factor = 0;  // m_a
+      for (uint32_t k = 0; k < s.parts; ++k) factor -= s.bend * s.weight[k] * s.slide[a][k];
+      for (uint32_t b = 0; b <= a; ++b) {
+        double both = 0;
+        for (uint32_t k = 0; k < s.parts; ++k) both += s.slide[a][k] * s.slide[b][k];
+        gram_[a][b] = across[a].dot(across[b]) / s.distance + s.gap() * s.bend * both;
+      }
+      Vec3 turn = -factor / s.factor * s.normal;
+      if (exact_) turn += across[a] / s.distance;
+      for (uint32_t k = 0; k < s.count; ++k)
+        u_[a][k] = s.slide[a][k] * s.normal + s.weight[k] * turn;
     }
+    decorrelate();
+  }
+
+  // Replaces u by L^-1 u, G = L L^T.
+  void decorrelate() {
     for (uint32_t a = 0; a < slides_; ++a) {
-      for (uint32_t b = 0; b < slides_; ++b) gram(a, b) = t[a].dot(t[b]);
+      const double whole = gram_[a][a];
+      for (uint32_t b = 0; b <= a; ++b) {
+        for (uint32_t c = 0; c < b; ++c) gram_[a][b] -= gram_[a][c] * gram_[b][c];
+        if (b < a) gram_[a][b] = gram_[b][b] > 0 ? gram_[a][b] / gram_[b][b] : 0;
+      }
+      const bool is_free = gram_[a][a] > least_independence * whole;
+      gram_[a][a] = is_free ? std::sqrt(gram_[a][a]) : 0;
       for (uint32_t k = 0; k < contact_.count; ++k) {
-        u_[a][k] =
-            contact_.weight[k] * t[a] + contact_.slide[a][k] * contact_.distance * contact_.normal;
+        for (uint32_t c = 0; c < a; ++c) u_[a][k] -= gram_[a][c] * u_[c][k];
+        if (is_free)
+          u_[a][k] /= gram_[a][a];
+        else
+          u_[a][k].setZero();
       }
     }
-    inverse_ = gram.inverse();
   }
 
   const BodyContact &contact_;
-  double c_;
+  double first_;  // E' / m
+  bool exact_;
   Mat3 along_;
   uint32_t slides_ = 0;
-  std::array<std::array<Vec3, BodyContact::most_nodes>, 2> u_;
-  Eigen::Matrix2d inverse_;
+  std::array<std::array<double, most>, most> gram_;
+  std::array<std::array<Vec3, BodyContact::most_nodes>, most> u_;
 };
 
 }  // namespace
@@ -133,10 +169,11 @@ void ConvexContactTerm::take(const std::vector<Vec3> &x, const ConvexInstrument 
   std::array<Vec3, 3> place;
   for (size_t k = 0; k < part.size(); ++k) place[k] = x[part[k]];
   const auto corners = std::span<const Vec3>(place).first(part.size());
-  const double reach = law.radius + law.range;
-  if (is_apart(box_, corners, reach)) return;
-  const ConvexDistance found = convex_distance(vertices_, corners, reach);
-  if (found.is_beyond || found.distance >= reach || found.count == 0) return;
+  constexpr double share = settings::instrument::smoothing;
+  if (is_apart(box_, corners, law.radius + (1 + 0.5 * share) * law.range)) return;
+  const SmoothDistance found =
+      smooth_distance(vertices_, corners, law.radius, share, law.range, &body.edges);
+  if (found.is_beyond || found.count == 0) return;
   BodyContact c =
       contact_of(found, part, instrument.frame, instrument.tool.shape->weights(body.index));
   c.radius = law.radius;
@@ -158,7 +195,7 @@ double ConvexContactTerm::energy(const std::vector<Vec3> &x) const {
 
 void ConvexContactTerm::add_gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const {
   for (const BodyContact &c : contacts_) {
-    const Vec3 f = c.strength * barrier(c.gap() / c.range).first * c.normal;
+    const Vec3 f = c.strength / c.factor * barrier(c.gap() / c.range).first * c.normal;
     for (uint32_t k = 0; k < c.count; ++k) g[c.node[k]] += c.weight[k] * f;
   }
   for (const FrameEdge &e : edges_) {
@@ -172,11 +209,9 @@ void ConvexContactTerm::add_gradient(const std::vector<Vec3> &x, std::vector<Vec
 bool ConvexContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
                                 HessianAssembler &system) const {
   bool complete = true;
-  const bool exact = curvature == Curvature::exact;
   for (const BodyContact &c : contacts_) {
-    const Barrier b = barrier(c.gap() / c.range);
-    const BodyContactHessian blocks(c, c.strength / c.range * b.second,
-                                    exact ? c.strength * b.first / c.distance : 0, x);
+    const BodyContactHessian blocks(c, barrier(c.gap() / c.range), curvature == Curvature::exact,
+                                    x);
     for (uint32_t k = 0; k < c.count; ++k) {
       system.add_diagonal(c.node[k], blocks.block(k, k));
       for (uint32_t l = 0; l < k; ++l)

@@ -6,8 +6,9 @@
 // size; the distance to a convex body has a continuous derivative, so that this force is continuous
 // as tissue slides over faces, edges and corners. Each triangle has the short-range barrier
 // kappa A / 6 r_b B((d - R) / r_b) with its distance to the body, so that corners and edges of the
-// body are held between vertices. Its force is continuous in size and direction; its point of
-// attack jumps where an edge passes through being parallel to another, as that of a rod does.
+// body are held between vertices. The distance d - R of a triangle or chord is the smooth one of
+// geometry/smooth_distance.h: the force is continuous, with its point of attack, also where a facet
+// or edge of the body passes through being parallel to tissue.
 //
 // A chord is a capsule of its own radius R_c: kappa A_c r B((d - R - R_c) / r), A_c the area of a
 // strip of its diameter along half of its rest length.
@@ -21,6 +22,7 @@
 #include "collision/convex_bodies.h"
 #include "energy/barrier.h"
 #include "geometry/bvh.h"
+#include "geometry/smooth_distance.h"
 #include "model/model.h"
 
 namespace mvs::core {
@@ -33,13 +35,16 @@ struct BodyContact {
   using Weights = std::array<double, most_nodes>;
   std::array<uint32_t, most_nodes> node;
   Weights weight;
-  std::array<Weights, 2> slide;  // d(weight) along each direction of sliding
-  uint32_t count;                // nodes
+  static constexpr uint32_t most_slides = SmoothDistance::most_corners - 1;
+  std::array<Weights, most_slides> slide;  // d(weight) along each direction of sliding
+  uint32_t count;                          // nodes
+  uint32_t parts;                          // of them those of the tissue, which come first
   uint32_t slides;
   Vec3 normal;  // unit, from the part to the body
   double distance, radius, range, strength;
+  double factor, bend;  // of SmoothDistance
 
-  double gap() const { return distance - radius; }
+  double gap() const { return (distance - radius) / factor; }
 };
 
 class ConvexContactTerm {

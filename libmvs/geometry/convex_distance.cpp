@@ -133,14 +133,18 @@ ConvexDistance result_of(const Simplex &s, const Nearest &nearest) {
 
 }  // namespace
 
-ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b, double cutoff) {
+ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b, double cutoff,
+                               const HullEdges *edges) {
+  const bool walks = edges && !edges->empty();
   Simplex s;
-  s.corner[s.count++] = {a[0] - b[0], 0, 0};
+  uint32_t i = walks ? edges->first : 0;
+  s.corner[s.count++] = {a[i] - b[0], i, 0};
   Nearest nearest = nearest_of_point(s, 0);
   bool are_apart = false;  // a plane has been found between the hulls
   for (int turn = 0; turn < most_turns; ++turn) {
     if (nearest.distance2 == 0) return {};
-    const uint32_t i = lowest(a, nearest.at), j = lowest(b, -nearest.at);
+    i = walks ? lowest_corner(*edges, a, nearest.at, i) : lowest(a, nearest.at);
+    const uint32_t j = lowest(b, -nearest.at);
     const Vec3 corner = a[i] - b[j];
     const double along = nearest.at.dot(corner);
     are_apart = are_apart || along > 0;

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "base/types.h"
+#include "geometry/convex_hull.h"
 
 namespace mvs::core {
 
@@ -23,8 +24,10 @@ struct ConvexDistance {
                               // `apart` hold then, and are of a pair of points, not the closest
 };
 
-// Stops as soon as a plane shows that the hulls are farther apart than `cutoff`.
-ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b, double cutoff);
+// Stops as soon as a plane shows that the hulls are farther apart than `cutoff`. `edges` of the
+// hull of a, not null nor empty, save looking at all of its points.
+ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b, double cutoff,
+                               const HullEdges *edges = nullptr);
 
 // Returns whether a plane shows that the hulls are farther apart than `margin`, above 0 m. It is
 // the loop of convex_distance(), ended as soon as a plane or a pair of points decides; where

@@ -86,4 +86,39 @@ ConvexHull convex_hull(const std::vector<Vec3> &points, double thinnest) {
   return hull;
 }
 
+// Each edge is a side of two faces, once in each direction.
+HullEdges hull_edges(const std::vector<Tri> &faces, size_t points) {
+  HullEdges edges;
+  if (faces.empty()) return edges;
+  edges.first = faces[0][0];
+  edges.start.assign(points + 1, 0);
+  for (const Tri &face : faces) {
+    for (const uint32_t k : face) ++edges.start[k + 1];
+  }
+  for (size_t k = 0; k < points; ++k) edges.start[k + 1] += edges.start[k];
+  std::vector<uint32_t> next(edges.start.begin(), edges.start.end() - 1);
+  edges.to.resize(3 * faces.size());
+  for (const Tri &face : faces) {
+    for (uint32_t s = 0; s < 3; ++s) edges.to[next[face[s]]++] = face[(s + 1) % 3];
+  }
+  return edges;
+}
+
+uint32_t lowest_corner(const HullEdges &edges, std::span<const Vec3> points, const Vec3 &n,
+                       uint32_t from) {
+  uint32_t best = from;
+  double least = n.dot(points[from]);
+  for (;;) {
+    const uint32_t at = best;
+    for (uint32_t e = edges.start[at]; e < edges.start[at + 1]; ++e) {
+      const double along = n.dot(points[edges.to[e]]);
+      if (along < least) {
+        least = along;
+        best = edges.to[e];
+      }
+    }
+    if (best == at) return best;
+  }
+}
+
 }  // namespace mvs::core

@@ -2,6 +2,7 @@
 // Computational Geometry, 2008, chapter 11).
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "base/types.h"
@@ -12,6 +13,22 @@ struct ConvexHull {
   std::vector<uint32_t> corners;  // points that are corners of the hull, ascending
   std::vector<Tri> faces;         // triangles over all points, with outward normals
 };
+
+// The edges of the surface of a hull: the neighbours of point k are to[start[k]] .. to[start[k +
+// 1]].
+struct HullEdges {
+  std::vector<uint32_t> start, to;
+  uint32_t first = 0;  // a corner
+
+  bool empty() const { return to.empty(); }
+};
+// `points`: their number; those on no face have no neighbours.
+HullEdges hull_edges(const std::vector<Tri> &faces, size_t points);
+
+// Returns the point that is lowest along n, found by descent from corner to corner from the corner
+// `from` on: on a convex surface, no neighbour is lower than the lowest one only.
+uint32_t lowest_corner(const HullEdges &edges, std::span<const Vec3> points, const Vec3 &n,
+                       uint32_t from);
 
 // Returns the hull of points; empty if all of them lie within `thinnest` times their extent of one
 // plane. Points on a face or edge of the hull are not corners, unless a triangle needs them.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "geometry/bvh.h"
 #include "geometry/convex_hull.h"
 
 namespace mvs::core {
@@ -28,6 +29,16 @@ FrameWeights weights_of(const Vec3 &vertex, double arm) {
 bool have_same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   return a.size() == b.size() &&
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0);
+}
+
+// m. A body is 0.1 mm long at least (session/tool_bodies.cpp); the box around an oblique one is
+// shorter by up to the square root of 3.
+constexpr double least_side = 0.5e-4;
+
+double longest_side(const std::vector<Vec3> &vertices) {
+  Aabb box;
+  for (const Vec3 &v : vertices) box.add(v);
+  return (box.high - box.low).maxCoeff();
 }
 
 bool is_within_extent(const Vec3 &v) {
@@ -84,6 +95,7 @@ bool are_valid(const std::vector<ToolBody> &bodies) {
                          body.radius >= 0 && body.radius <= most_body_radius && !vertices.empty() &&
                          count <= most_tool_vertices;
     if (!is_body || !std::all_of(vertices.begin(), vertices.end(), is_within_extent)) return false;
+    if (vertices.size() > 1 && longest_side(vertices) < least_side) return false;
   }
   return !bodies.empty() && bodies.size() <= most_tool_bodies;
 }

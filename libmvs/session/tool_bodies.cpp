@@ -8,6 +8,7 @@
 #include "base/array_view.h"
 #include "base/error.h"
 #include "base/option_checks.h"
+#include "geometry/bvh.h"
 #include "geometry/convex_hull.h"
 #include "session/tools.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 static_assert(most_tool_bodies == MVS_MAX_BODIES && most_tool_vertices == MVS_MAX_BODY_VERTICES);
 
-constexpr double least_size = 1e-4;    // m, of what has a size
+constexpr double least_size = 1e-4;    // m, least size of an edge, radius or hull
 constexpr double default_ball = 2e-3;  // m
 
 // One body under construction, with the name of its field for messages.
@@ -116,6 +117,14 @@ std::vector<Vec3> BodyReader::hull() const {
            "%s is a hull whose vertices lie in one plane or coincide: it has no volume; use a box, "
            "or give it a thickness",
            name.c_str());
+  Aabb box_of_all;
+  for (const Vec3 &v : points) box_of_all.add(v);
+  const double extent = (box_of_all.high - box_of_all.low).maxCoeff();
+  MVS_MUST(extent >= least_size, MVS_E_ARGUMENT, name.c_str(),
+           "%s is a hull whose vertices lie within %g m of each other along every axis: a body is "
+           "at least %g m long, so that tissue can feel its shape; check the unit, which is m, or "
+           "use a ball",
+           name.c_str(), extent, least_size);
   const size_t more = points.size() - hull.corners.size();
   MVS_MUST(more == 0 || !strict, MVS_E_ARGUMENT, name.c_str(),
            "%s is not convex: %zu of its %zu vertices are no corners of their hull", name.c_str(),

@@ -271,22 +271,6 @@ inline constexpr uint32_t reserved_passes = 2;
 
 }  // namespace implicit
 
-// Kinks of the energy, as the contact of convex tools has.
-namespace kink {
-
-// The least share that a quarter of a step makes of the energy that the whole one makes: 1/4 at a
-// kink and at most 1/16 elsewhere.
-inline constexpr double ratio = 0.2;
-// Rounds, each with the force of one more side, and trials of a round, of an implicit step and of
-// an iteration of a static closure; factor between trials.
-inline constexpr int rounds = 6, trials = 4, static_rounds = 20, static_trials = 6;
-inline constexpr double shortening = 0.125;
-// N, of a step of a static closure: the least fall of the energy over the way of the farthest node,
-// the default residual. Without it a settle creeps along kinks for hundreds of iterations.
-inline constexpr double least_slope = defaults::residual;
-
-}  // namespace kink
-
 // The linear system of an implicit step: conjugate gradients with the factor of an earlier step as
 // preconditioner. One iteration costs about a tenth of a factorisation with its ordering.
 namespace linear {

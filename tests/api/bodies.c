@@ -146,6 +146,12 @@ static void wrong_hulls_are_refused(void) {
   must_refuse(hull_of(wild, 4), "within 0.3");
   wild[4] = 0.4;
   must_refuse(hull_of(wild, 4), "within 0.3");
+  /* 30 nm: coordinates in mm or um, taken for m */
+  double tiny[12];
+  for (int k = 0; k < 12; ++k) tiny[k] = 3e-5 * dented[k];
+  must_refuse(hull_of(tiny, 4), "at least 0.0001 m long");
+  for (int k = 0; k < 12; ++k) tiny[k] = 0.099 * dented[k];
+  must_refuse(hull_of(tiny, 4), "at least 0.0001 m long");
   static double many[3 * (MVS_MAX_BODY_VERTICES + 1)];
   must_refuse(hull_of(many, MVS_MAX_BODY_VERTICES + 1), "at most 2048");
 }

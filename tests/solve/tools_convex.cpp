@@ -157,17 +157,13 @@ TEST_CASE("polyhedral_balls_converge_to_the_ball_at_second_order") {
       State state = initial_state(disc);
       SolveOptions options;
       options.residual = 1e-8;
-      options.max_iterations = 60;
       Tool tool = convex_at(Vec3(1e-3, 0.5e-3, 4e-3), {body});
       tool.axis = random.vector(0.5);
       add_tool(disc, state, tool);
       state.tools[0].position.z() = -3e-3;
       const Settled settled = settle(disc, state, options);
       const double force = force_of(settled.state, settled.state.tools[0]).force.norm();
-      // the last digits stay out of reach where a facet is parallel to an edge of the sheet
-      // (energy/convex_contact.h). One of the 18 settles ends at 3.1e-3 however long it runs; 60
-      // more iterations change the mean lift by 2e-7 of it, the errors here are 3e-2 to 3e-3
-      CHECK(settled.stats.residual <= 4e-3 * force);
+      CHECK(settled.stats.converged);
       sum += force / 6;
     }
     return sum;
@@ -270,9 +266,8 @@ struct FacetedBall {
 
 }  // namespace
 
-// Where facets lie parallel to triangles the energy has kinks, at which no Newton step leads
-// downhill. Without a search along the kink neither tissue nor tool moved in 74 of these 200 steps,
-// while the hand drew back by 2 mm; with it in 2, where six sides of kinks are not all of them.
+// With the least distance, which has kinks where facets lie parallel to triangles, neither tissue
+// nor tool moved in 74 of these 200 steps, while the hand drew back by 2 mm.
 TEST_CASE("a_tool_of_200_vertices_that_is_drawn_back_does_not_stick") {
   auto [model, state, at] = FacetedBall();
   steps_without_motion(*model, state, -2e-5 * at.normal, 500);
@@ -280,20 +275,21 @@ TEST_CASE("a_tool_of_200_vertices_that_is_drawn_back_does_not_stick") {
   CHECK(steps_without_motion(*model, state, 1e-5 * at.normal, 200) <= 5);
 }
 
-// Without steps along the kink the valve stood still after 84 to 88 iterations, 7 to 12 % off.
-TEST_CASE("a_settle_that_ends_at_a_kink_meets_the_balance_of_forces") {
+// With the least distance settles ended at kinks, up to 12 % off.
+TEST_CASE("a_settle_under_a_tool_of_200_vertices_meets_the_balance_of_forces") {
   auto [model, state, at] = FacetedBall();
   for (int k = 0; k < 3; ++k) {
     steps_without_motion(*model, state, -2e-5 * at.normal, k == 0 ? 240 : 30);
     const Settled settled = settle(*model, state);
+    CHECK(settled.stats.converged);
     const Vec3 hand = force_of(settled.state, settled.state.tools[0]).force;
     const Positions forces = evaluate_forces(*model, settled.state).total;
     Vec3 held = Vec3::Zero();
     for (uint32_t i = 0; i < forces.size(); ++i) {
       if (model->topology.fixed[i]) held += forces[i];
     }
-    // it ends where a step wins less than the residual of 1e-5 N over its way; 0.6 % were left
-    CHECK((held + hand).norm() <= 0.01 * hand.norm());
+    // the residual of 1e-5 N on each of 80 free nodes and points
+    CHECK((held + hand).norm() <= 80e-5);
   }
 }
 

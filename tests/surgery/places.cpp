@@ -62,7 +62,7 @@ TEST_CASE("an_annulus_is_scaled_along_its_axes_open_and_loaded") {
   CHECK(done.title == "Scale the annulus to 80 % (AP) and 110 % (CC)");
 }
 
-TEST_CASE("a_head_moves_along_the_axes_of_the_world_or_of_the_valve") {
+TEST_CASE("a_head_moves_along_the_axes_of_the_scene_or_of_the_valve") {
   const ModelState before = shipped();
   const Head head = before.model->valve.heads[1];
   auto op = op_of<mvs_op_head_move>(MVS_OP_HEAD_MOVE);

@@ -37,9 +37,6 @@ EnergyLineSearch::EnergyLineSearch(const Model &model, TotalEnergy &total_energy
   // a step allocates nothing once warm, also if the boundary moves only then
   boundary_x_.reserve(model.node_count());
   boundary_gradient_.reserve(model.node_count());
-  kink_.reserve(model.node_count());
-  for (std::vector<Vec3> *rows : {&other_gradient_, &other_force_, &other_rows_})
-    rows->reserve(model.node_count());
 }
 
 bool EnergyLineSearch::run(const StepStart &start, ProposedStep &step, StepWork &work) {
@@ -65,51 +62,12 @@ bool EnergyLineSearch::search_shorter_step(const StepStart &start, ProposedStep 
                                            StepWork &work) {
   namespace set = settings::implicit;
   double share = longest_share(step.rows);
-  double before = 0;  // J, made by the trial before, if it led downhill by the force at the start
-  bool is_kink_tried = false;
   for (int k = 0; k < set::quarterings && work.left >= set::reserved_passes; ++k) {
     share *= 0.25;
-    const double made = try_rows(step.rows, share, start, step, work);
-    if (made <= 0) return true;
-    const double slope = slope_along(start, step);
-    // where the energy is smooth, a quarter of such a step makes at most a sixteenth of the energy
-    const bool is_kink = slope < 0 && before > 0 && made > settings::kink::ratio * before;
-    before = slope < 0 ? made : 0;
-    if (!is_kink || is_kink_tried) continue;
-    is_kink_tried = true;
-    if (search_along_kink(start, step, work)) return true;
+    if (try_rows(step.rows, share, start, step, work) <= 0) return true;
   }
   // the last trial hardly differs from the step of the boundary alone
   return step.boundary.moves;
-}
-
-// Each round adds the force at the last trial, which lies on the other side of the kink.
-bool EnergyLineSearch::search_along_kink(const StepStart &start, ProposedStep &step,
-                                         StepWork &work) {
-  const double dt = work.how.dt;
-  step.matrix.right_side(start.gradient, start.v, dt, other_force_);
-  kink_.begin(other_force_, step.rows);
-  for (int k = 0; k < settings::kink::rounds; ++k) {
-    other_gradient_ = trial.sheet_gradient;
-    total_energy_->add_hands(trial.x, other_gradient_);
-    step.matrix.right_side(other_gradient_, start.v, dt, other_force_);
-    other_rows_ = other_force_;
-    if (!step.solve(other_rows_)) return false;
-    kink_.add(other_force_, other_rows_);
-    if (try_along_kink(start, step, work)) return true;
-  }
-  return false;
-}
-
-// Tries ever shorter steps along the kink.
-bool EnergyLineSearch::try_along_kink(const StepStart &start, ProposedStep &step, StepWork &work) {
-  double share = longest_share(kink_.rows());
-  for (int k = 0; k < settings::kink::trials && work.left >= settings::implicit::reserved_passes;
-       ++k) {
-    if (try_rows(kink_.rows(), share, start, step, work) <= 0) return true;
-    share *= settings::kink::shortening;
-  }
-  return false;
 }
 
 // Sets the trial at a share of rows that is limited afterwards; returns what try_share() does.

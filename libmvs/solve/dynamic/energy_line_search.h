@@ -4,17 +4,12 @@
 // First shares of the limited step are tried, each from the parabola through the slope at the
 // start and both energies. Limits set node by node may turn a step uphill or across the slope; a
 // ball that was drawn back stuck in tissue as long as such steps were followed. Then the whole step
-// is shortened before it is limited: that leads downhill, and a shorter step is limited less. Where
-// a shorter step still leads uphill in proportion to its length, the start lies at a kink of the
-// energy: a direction along the kink is tried (kink_direction.h).
+// is shortened before it is limited: that leads downhill, and a shorter step is limited less.
 #pragma once
-
-#include <functional>
 
 #include "energy/total_energy.h"
 #include "solve/dynamic/step_matrix.h"
 #include "solve/dynamic/step_start.h"
-#include "solve/kink_direction.h"
 #include "solve/static/boundary_ramp.h"
 
 namespace mvs::core {
@@ -26,8 +21,6 @@ struct ProposedStep {
   const BoundaryStep &boundary;
   double slack;                     // m, of the broad phase
   std::vector<Vec3> &displacement;  // m, by node, after all limits; the search changes it
-  // Solves the linear system again for other right-hand sides; returns false where it cannot.
-  const std::function<bool(std::vector<Vec3> &)> &solve;
 };
 
 class EnergyLineSearch {
@@ -41,8 +34,6 @@ class EnergyLineSearch {
 
  private:
   bool search_shorter_step(const StepStart &start, ProposedStep &step, StepWork &work);
-  bool search_along_kink(const StepStart &start, ProposedStep &step, StepWork &work);
-  bool try_along_kink(const StepStart &start, ProposedStep &step, StepWork &work);
   double try_rows(const std::vector<Vec3> &rows, double share, const StepStart &start,
                   ProposedStep &step, StepWork &work);
   double try_share(double share, const StepStart &start, const ProposedStep &step, StepWork &work);
@@ -52,9 +43,7 @@ class EnergyLineSearch {
   const Model *model_;
   TotalEnergy *total_energy_;
   std::vector<Vec3> boundary_x_, boundary_gradient_;  // of boundary_energy()
-  KinkDirection kink_;
-  std::vector<Vec3> other_gradient_, other_force_, other_rows_;  // across a kink
-  double boundary_energy_ = -1;  // J, of this step; negative: not known
+  double boundary_energy_ = -1;                       // J, of this step; negative: not known
 };
 
 // Sets `displacement` to the boundary step on prescribed nodes and `share` of the rows on free

@@ -16,10 +16,7 @@ void ImplicitEuler::step(State &state, const StepOptions &how, SolveStats &stats
   if (how.may_sleep && is_at_rest(how)) return sleep(state, stats);
   solve_linear_system(state, work);
   const double slack = limit_step(stats);
-  const std::function<bool(std::vector<Vec3> &)> solve = [&](std::vector<Vec3> &rows) {
-    return solver_.solve_again({matrix_, {}, start_.x, rows}, work);
-  };
-  ProposedStep proposed{matrix_, rows_, boundary_, slack, displacement_, solve};
+  ProposedStep proposed{matrix_, rows_, boundary_, slack, displacement_};
   if (line_search_.run(start_, proposed, work)) {
     start_.accept(*model_, total_energy_, line_search_.trial);
   } else {

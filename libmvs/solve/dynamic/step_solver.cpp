@@ -60,14 +60,6 @@ void StepSolver::solve(const StepSystem &system, State &state, StepWork &work) {
   for (Vec3 &row : system.rows) row.array() += 0.0;
 }
 
-bool StepSolver::solve_again(const StepSystem &system, StepWork &work) {
-  if (keys_.active().empty() || work.left <= reserved_passes) return false;
-  guess_.clear();
-  if (!iterate(system, work)) return false;
-  for (Vec3 &row : system.rows) row.array() += 0.0;  // as in solve()
-  return true;
-}
-
 // Returns false if the residual stays too large and the budget allows a factorisation instead.
 bool StepSolver::iterate(const StepSystem &system, StepWork &work) {
   namespace set = settings::linear;

@@ -46,9 +46,6 @@ class StepSolver {
   // Solves the system; may use the budget up to the reserved passes. Where the budget ends before,
   // each row is divided by a bound of its sum.
   void solve(const StepSystem &system, State &state, StepWork &work);
-  // Solves the system of the last solve() with another right-hand side. Returns false where that
-  // step has no factor that serves or the budget has ended. It changes no key.
-  bool solve_again(const StepSystem &system, StepWork &work);
 
  private:
   void make_factors(StepMatrix &matrix, const Assemble &assemble);

@@ -134,7 +134,6 @@ void Newton::iterate(PolishSchedule &polish) {
   bool has_exact = false;
   if (at_.residual < forces_.polish_below && polish.wait == 0) {
     if (newton_polish_step(polish)) {
-      polish.is_kink_tried = false;
       // polish steps and trust-region steps may undo each other: only a smaller force than ever
       // before shows that rest is near
       if (at_.residual < settings::newton::polish_progress * polish.best_residual) {
@@ -148,11 +147,7 @@ void Newton::iterate(PolishSchedule &polish) {
     polish.pause = std::min(2 * polish.pause, settings::newton::max_polish_pause);
   }
   polish.wait = std::max(polish.wait - 1, 0);
-  if (trust_region_step(has_exact)) {
-    polish.is_kink_tried = false;
-  } else if (!polish.is_kink_tried && !total_energy_.instrument().bodies().convex().all().empty()) {
-    polish.is_kink_tried = !step_along_kink();
-  }
+  trust_region_step(has_exact);
 }
 
 // A Newton step on the out-of-balance force with the exact Hessian, or a step that leaves an

@@ -25,14 +25,13 @@
 
 namespace mvs::core {
 
-// When a polish step is tried, and with which lambda; whether one along a kink was.
+// When a polish step is tried, and with which lambda.
 struct PolishSchedule {
   double best_residual;  // N, the smallest that a polish step reached
   double lambda = 0;
   int wait = 0, pause = 1;  // iterations until the next attempt; after the next failure
   // N, of the last iterate with an indefinite Hessian whose equilibrium was found to be stable.
   double stable_residual = 0;
-  bool is_kink_tried = false;  // at the present positions
 };
 // A node that the step limiter stopped.
 struct StoppedNode {
@@ -102,11 +101,8 @@ class Newton {
   void leave(const Stability &unstable);
   bool search_on_force();
   // `has_exact`: the system holds the exact Hessian of the present positions.
-  // Returns false, and moves no node, if the energy does not fall.
-  bool trust_region_step(bool has_exact);
+  void trust_region_step(bool has_exact);
   double try_step(double &predicted_reduction);
-  bool step_along_kink();
-  bool fall_along(const std::vector<Vec3> &rows);
   double gain_ratio(double reduction, double predicted_reduction) const;
   void adapt_lambda(double gain);
   void shorten();

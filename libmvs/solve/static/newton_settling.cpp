@@ -50,7 +50,6 @@ bool NewtonSettling::advance() {
   ++newton_.stats().iterations;
   if (!arrived && ramp_.may_move(newton_.residual(), newton_.rest_force())) {
     newton_.move_boundary(ramp_);
-    polish_.is_kink_tried = false;
   }
   const std::vector<Vec3> before = newton_.x();
   newton_.iterate(polish_);

@@ -1,6 +1,6 @@
 // The loop of a static closure: Newton iterations until the boundary is at its target and the valve
-// at rest, a limit of iterations, the limit of a local subproblem, or iterations that move nothing:
-// at a kink of the energy (energy/README.md) no step leads downhill, and all that follow are alike.
+// at rest, a limit of iterations, the limit of a local subproblem, or iterations that move nothing,
+// since all that follow are alike.
 #pragma once
 
 #include "solve/settle_watch.h"

@@ -12,7 +12,7 @@ namespace mvs::core {
 // shortens the Newton step instead, which takes no factorisation. If all trials fail and raise the
 // energy the valve stays where it is: such a step may bend stiff triangles so that all following
 // steps raise the energy as well.
-bool Newton::trust_region_step(bool has_exact) {
+void Newton::trust_region_step(bool has_exact) {
   namespace set = settings::trust_region;
   const bool exact = at_.residual < forces_.exact_below;
   if (!exact || !has_exact) {
@@ -52,7 +52,6 @@ bool Newton::trust_region_step(bool has_exact) {
   if (lower && at_.energy >= before) {
     lambda_ = std::max(set::raised_growth * lambda_, set::raised_lambda);
   }
-  return lower;
 }
 
 // Shortens the Newton step as a whole. A step that was limited node by node need not lead downhill:
