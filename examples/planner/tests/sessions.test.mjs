@@ -101,8 +101,6 @@ describe('sessions', () => {
     await page.getByRole('button', { name: 'Return to it' }).first().click();
     await answered(page, 150);
     assert.equal(await hash(), before);
-    // the plan that gave way to it had no checkpoint: it can be returned to
-    await page.getByTestId('notice').getByRole('button', { name: 'Return to it' }).waitFor();
     // a name used twice replaces the first, which can be put back beside it
     await page.getByLabel('Name of the checkpoint').fill('Second');
     // saved from within a text
