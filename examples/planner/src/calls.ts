@@ -1,6 +1,7 @@
 // Requests of the page to the worker and their answers; the data in them is described in protocol.ts.
 import type {
   BuildRequest,
+  CheckpointList,
   Cost,
   Failure,
   Finding,
@@ -42,8 +43,10 @@ export interface Calls {
   hand_begin: { argument: Hand; result: null };
   hand_move: { argument: { position: number[] }; result: null };
   hand_end: { argument: null; result: Shown };
-  checkpoint: { argument: { name: string }; result: string[] };
-  rename_checkpoint: { argument: { name: string; to: string }; result: string[] };
+  checkpoint: { argument: { name: string }; result: CheckpointList };
+  rename_checkpoint: { argument: { name: string; to: string }; result: CheckpointList };
+  remove_checkpoint: { argument: { name: string }; result: CheckpointList };
+  put_back_checkpoint: { argument: null; result: CheckpointList };
   restore: { argument: { name: string }; result: Shown };
   read_checkpoint: { argument: { name: string }; result: Shown };
   save_obj: { argument: null; result: Uint8Array };

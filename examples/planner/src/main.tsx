@@ -5,7 +5,7 @@ import { render } from 'preact';
 import { App } from './ui/app';
 import { openShipped } from './store/files';
 import { connect, fail, request } from './store/requests';
-import { findCopy, keepCopy, visited, writeKeptFile } from './store/keep';
+import { findCopy, keepFollowing, visited } from './store/keep';
 import * as state from './store/state';
 import { watchOpening } from './store/opening';
 import { watchTour } from './store/tour';
@@ -46,12 +46,7 @@ async function start(): Promise<void> {
   watchTour();
   watchOpening();
   await findCopy();
-  // the copy and the chosen file follow every change of the plan
-  let kept = state.main.value;
-  state.main.subscribe((now) => {
-    if (now && now !== kept) void keepCopy().then(writeKeptFile);
-    kept = now;
-  });
+  keepFollowing();
 }
 
 window.addEventListener('beforeunload', (event) => {

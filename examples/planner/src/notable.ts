@@ -9,6 +9,28 @@ export function shareOfLimit(chord: Chord): number {
   return Math.max(0, chord.strain / chord.strainLimit, chord.tension / chord.tensionLimit);
 }
 
+/** Value of a chord in a colour map: % of its limit, mN, % of its length without pull. */
+export function chordValue(map: 'load' | 'pull' | 'strain', chord: Chord): number {
+  if (map === 'load') return 100 * shareOfLimit(chord);
+  return map === 'pull' ? 1000 * chord.tension : 100 * chord.strain;
+}
+
+/** Kinds of chordae by their limit in a colour map, the limit of most chordae first; stitches have none. */
+export function limitsOf(map: 'pull' | 'strain', chords: Chord[]): { limit: number; kinds: number[] }[] {
+  const found = new Map<number, { count: number; kinds: Set<number> }>();
+  for (const chord of chords) {
+    const limit = map === 'pull' ? 1000 * chord.tensionLimit : 100 * chord.strainLimit;
+    if (!Number.isFinite(limit)) continue;
+    const one = found.get(limit) ?? { count: 0, kinds: new Set() };
+    found.set(limit, one);
+    ++one.count;
+    one.kinds.add(chord.kind);
+  }
+  return [...found]
+    .sort(([, a], [, b]) => b.count - a.count)
+    .map(([limit, { kinds }]) => ({ limit, kinds: [...kinds].sort() }));
+}
+
 /** The share in whole per cent, as it is shown and judged; a share above the limit never reads 100. */
 export function percentOfLimit(share: number): number {
   const percent = Math.round(100 * share);

@@ -43,6 +43,13 @@ export interface Picture {
   hand?: Float32Array;
 }
 
+/** Names of the checkpoints in their order, hashes of their valves, and the one that was removed last and can be put back. */
+export interface CheckpointList {
+  names: string[];
+  hashes: string[];
+  removed: string | null;
+}
+
 /** Values per node for colour maps, computed on request of a full read-out. */
 export interface Fields {
   coaptation: Float32Array;
@@ -233,7 +240,7 @@ export interface SessionOpened {
   shown: Shown;
   /** The closed valve before the first operation. */
   first: Shown;
-  checkpoints: string[];
+  checkpoints: CheckpointList;
   notes: string;
   title: string;
   sameResult: boolean;

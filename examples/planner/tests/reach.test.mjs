@@ -169,6 +169,43 @@ describe('planner for everybody', () => {
     }
   });
 
+  it('reaches_everything_in_small_windows_and_at_two_and_four_times_the_size', async () => {
+    await withPlanner({}, async ({ page }) => {
+      for (const [width, height] of [
+        [1024, 768],
+        [640, 360],
+        [360, 640],
+        [320, 256],
+      ]) {
+        await page.setViewportSize({ width, height });
+        await page.waitForTimeout(300);
+        // after scrolling down at most: nothing is scrolled sideways
+        const cut = await page.evaluate(() => {
+          const bad = [];
+          const controls = document.querySelectorAll(
+            'header button, .viewbar button, .viewbar input, .viewbar select, .tabs button',
+          );
+          for (const control of controls) {
+            control.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+            const box = control.getBoundingClientRect();
+            const seen = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+            if (box.left < 0 || box.right > innerWidth + 0.5 || box.top < 0 || box.bottom > innerHeight + 0.5)
+              bad.push(control.textContent || control.ariaLabel);
+            else if (!seen?.closest('button, label, input, select'))
+              bad.push(`covered: ${control.ariaLabel}`);
+          }
+          const sideways = [...document.querySelectorAll('.app, .top, .viewbar, .side, .panel')].filter(
+            (part) => part.scrollWidth > part.clientWidth + 1,
+          );
+          const picture = document.querySelector('.canvas').getBoundingClientRect();
+          if (picture.height < 150) bad.push(`picture ${picture.height} px high`);
+          return [...bad, ...sideways.map((part) => `${part.className} is scrolled sideways`)];
+        });
+        assert.deepEqual(cut, [], `${width} x ${height}`);
+      }
+    });
+  });
+
   it('turns_and_zooms_with_fingers', async () => {
     await withPlanner({ width: 820, height: 1180, touch: true }, async ({ page, context }) => {
       const client = await context.newCDPSession(page);

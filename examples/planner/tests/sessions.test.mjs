@@ -5,7 +5,7 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, it } from 'node:test';
-import { unzipSync } from 'fflate';
+import { strFromU8, unzipSync } from 'fflate';
 import { figures, sharePlanner, temporaryFile } from './browser.mjs';
 import { answered, apply, begin, open, openPanel, save, undo } from './person.mjs';
 
@@ -63,6 +63,57 @@ describe('sessions', () => {
     await open(page, temporaryFile('broken.mvsplan', 'not an archive'));
     assert.match(await page.getByTestId('notice').innerText(), /not a session/);
     assert.equal((await figures(page)).hash, hash);
+  });
+
+  it('deletes_a_checkpoint_by_keyboard_and_puts_it_back_into_its_place', async () => {
+    await openPanel(page, 'Plan');
+    const names = () => page.locator('.checkpoint > span').allInnerTexts();
+    const hash = async () => (await figures(page)).hash;
+    await begin(page, 'annulus_scale');
+    await apply(page);
+    await openPanel(page, 'Plan');
+    const before = await hash();
+    for (const name of ['First', 'Second']) {
+      await page.getByLabel('Name of the checkpoint').fill(name);
+      await page.keyboard.press('Enter');
+      await answered(page);
+      await undo(page);
+    }
+    const second = await hash();
+    await page.getByRole('button', { name: 'Compare' }).first().click();
+    await answered(page, 150);
+    await page.getByRole('button', { name: 'Delete “First”' }).focus();
+    await page.keyboard.press('Enter');
+    await answered(page, 150);
+    assert.deepEqual(await names(), ['Second']);
+    assert.equal(await page.getByTestId('compare').count(), 0, 'compared with a deleted plan');
+    assert.equal(await page.getByTestId('status').innerText(), '“First” was deleted.');
+    assert.equal(await hash(), second, 'the plan itself stays');
+    const inSession = (path) =>
+      JSON.parse(strFromU8(unzipSync(readFileSync(path))['session.json'])).checkpoints.map(
+        ({ name }) => name,
+      );
+    assert.deepEqual(inSession(await save(page)), ['Second']);
+    // the keyboard is at the way back
+    await page.keyboard.press('Enter');
+    await answered(page, 150);
+    assert.deepEqual(await names(), ['First', 'Second']);
+    await page.getByRole('button', { name: 'Return to it' }).first().click();
+    await answered(page, 150);
+    assert.equal(await hash(), before);
+    // a name used twice replaces the first, which can be put back beside it
+    await page.getByLabel('Name of the checkpoint').fill('Second');
+    // saved from within a text
+    assert.deepEqual(inSession(await save(page)), ['First', 'Second']);
+    await page.keyboard.press('Enter');
+    await answered(page, 150);
+    await page.getByRole('button', { name: 'Put it back' }).click();
+    await answered(page, 150);
+    assert.deepEqual(await names(), ['First', 'Second (2)', 'Second']);
+    for (const name of await names()) {
+      await page.getByRole('button', { name: `Delete “${name}”` }).click();
+      await answered(page, 150);
+    }
   });
 
   it('renames_checkpoints_and_keeps_their_names_and_order_in_the_session', async () => {

@@ -19,9 +19,10 @@ interface Left {
 /** The last changed plan of each valve of the tour, by its number. */
 const repairs = new Map<number, Left>();
 
-/** The present plan if it has changes that are not saved. */
-async function leave(): Promise<Left | null> {
-  if (!state.changed.value || !state.canUndo.value) return null;
+/** The present plan if it has changes that are not saved: operations, checkpoints or notes. */
+export async function leave(): Promise<Left | null> {
+  const { canUndo, checkpoints, notes } = state;
+  if (!state.changed.value || !(canUndo.value || checkpoints.value.length || notes.value)) return null;
   const title = state.title.value;
   try {
     return {
@@ -36,7 +37,7 @@ async function leave(): Promise<Left | null> {
 }
 
 /** Offers the way back to a plan that was left, after what `said` the notice before. */
-function offerReturn(left: Left | null, said = state.notice.value): void {
+export function offerReturn(left: Left | null, said = state.notice.value): void {
   if (!left) return;
   state.notice.value = {
     kind: said?.kind ?? 'info',
@@ -210,7 +211,7 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
   state.tour.value = null;
   state.receive(opened.first.picture);
   state.first.value = opened.first;
-  state.checkpoints.value = opened.checkpoints;
+  state.receiveCheckpoints(opened.checkpoints);
   state.title.value = opened.title;
   state.notes.value = opened.notes;
   state.changed.value = false;

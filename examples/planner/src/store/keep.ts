@@ -1,6 +1,6 @@
 // Keeping: downloads of valve and session, and the copy for recovery. Storage of a page from disk is shared by every
 // page from disk, so the copy is made only where the user allows it.
-import { signal } from '@preact/signals';
+import { effect, signal, untracked } from '@preact/signals';
 import { openSession } from './files';
 import { fail, request, run } from './requests';
 import * as state from './state';
@@ -193,6 +193,31 @@ export function writeKeptFile(): Promise<void> {
     }
   });
   return writing;
+}
+
+/** ms without a further letter before changed notes are written. */
+const typed = 800;
+
+/** Lets the copy and the chosen file follow the plan, its checkpoints and its notes. */
+export function keepFollowing(): void {
+  let kept: unknown[] = [state.main.value, state.checkpoints.value];
+  let timer = 0;
+  const write = () => {
+    window.clearTimeout(timer);
+    void keepCopy().then(writeKeptFile);
+  };
+  effect(() => {
+    const now = [state.main.value, state.checkpoints.value];
+    if (now[0] && now.some((value, k) => value !== kept[k])) untracked(write);
+    kept = now;
+  });
+  let { value: notes } = state.notes;
+  state.notes.subscribe((now) => {
+    if (now === notes) return;
+    notes = now;
+    window.clearTimeout(timer);
+    timer = window.setTimeout(write, typed);
+  });
 }
 
 export async function forgetCopy(): Promise<void> {

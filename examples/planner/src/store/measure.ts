@@ -1,26 +1,47 @@
 // Checkpoints, and figures that are calculated on request.
 import { batch } from '@preact/signals';
+import type { Calls } from '../calls';
+import type { CheckpointList } from '../protocol';
+import { leave, offerReturn } from './files';
 import { change, run } from './requests';
 import { keepOpening } from './opening';
 import * as state from './state';
 import { planTexts, t } from '../text/texts';
 
+/** Runs a request that changes the list of checkpoints; whether it was done. */
+async function changeList<
+  Name extends 'checkpoint' | 'rename_checkpoint' | 'remove_checkpoint' | 'put_back_checkpoint',
+>(name: Name, argument: Calls[Name]['argument']): Promise<boolean> {
+  const list = (await run(t.saving, name, argument)) as CheckpointList | null;
+  if (!list) return false;
+  batch(() => {
+    state.receiveCheckpoints(list);
+    state.changed.value = true;
+  });
+  return true;
+}
+
 export async function saveCheckpoint(name: string): Promise<void> {
-  const names = await run(t.saving, 'checkpoint', { name });
-  if (!names) return;
-  state.checkpoints.value = names;
-  state.changed.value = true;
+  const replaced = state.checkpoints.value.includes(name);
+  const done = await changeList('checkpoint', { name });
+  if (done && replaced) state.status.value = planTexts.replaced(name);
+  // the one that it replaced is no longer what the plan is compared with
+  if (done && state.compareWith.value === name) await compareCheckpoint(name);
 }
 
 export async function renameCheckpoint(name: string, to: string): Promise<void> {
   if (!to || to === name) return;
-  const names = await run(t.saving, 'rename_checkpoint', { name, to });
-  if (!names) return;
-  batch(() => {
-    state.checkpoints.value = names;
-    if (state.compareWith.value === name) state.compareWith.value = to;
-    state.changed.value = true;
-  });
+  const done = await changeList('rename_checkpoint', { name, to });
+  if (done && state.compareWith.value === name) state.compareWith.value = to;
+}
+
+export async function removeCheckpoint(name: string): Promise<void> {
+  if (state.compareWith.value === name) await compareCheckpoint(null);
+  if (await changeList('remove_checkpoint', { name })) state.status.value = planTexts.removed(name);
+}
+
+export async function putBackCheckpoint(): Promise<void> {
+  await changeList('put_back_checkpoint', null);
 }
 
 /** A name that no checkpoint has, for the next one. */
@@ -31,7 +52,12 @@ export function nextName(): string {
 }
 
 export async function restoreCheckpoint(name: string): Promise<void> {
+  // a plan that no checkpoint has would be lost
+  const kept = state.checkpointHashes.value.includes(state.main.value?.figures.hash ?? '');
+  const left = kept ? null : await leave();
   await change(t.undoing, 'restore', { name });
+  state.changed.value = true;
+  offerReturn(left, null);
 }
 
 export async function compareCheckpoint(name: string | null): Promise<void> {

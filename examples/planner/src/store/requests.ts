@@ -104,7 +104,7 @@ export function show(shown: Shown, fresh: boolean): void {
     if (fresh) {
       state.first.value = shown;
       state.choice.value = null;
-      state.checkpoints.value = [];
+      state.receiveCheckpoints({ names: [], hashes: [], removed: null });
       state.compared.value = null;
       state.compareWith.value = null;
       state.cost.value = null;

@@ -1,6 +1,7 @@
 // The state of the page as signals: valve, preview, choice, form, running request.
-import { computed, effect, signal } from '@preact/signals';
+import { batch, computed, effect, signal } from '@preact/signals';
 import type {
+  CheckpointList,
   Cost,
   FieldValue,
   Figures,
@@ -83,6 +84,10 @@ export const notice = signal<{
 export const status = signal('');
 
 export const checkpoints = signal<string[]>([]);
+/** Hashes of the valves of the checkpoints. */
+export const checkpointHashes = signal<string[]>([]);
+/** The name of the checkpoint that was removed or replaced last and can be put back. */
+export const removedCheckpoint = signal<string | null>(null);
 export const title = signal('');
 export const notes = signal('');
 export const changed = signal(false);
@@ -127,6 +132,14 @@ const topologies = new Map<string, Topology>();
 /** Keeps the connectivity that comes with a picture. */
 export function receive(picture: Picture): void {
   if (picture.connectivity) topologies.set(picture.topology, picture.connectivity);
+}
+
+export function receiveCheckpoints(list: CheckpointList): void {
+  batch(() => {
+    checkpoints.value = list.names;
+    checkpointHashes.value = list.hashes;
+    removedCheckpoint.value = list.removed;
+  });
 }
 
 export function topologyOf(picture: Picture): Topology | undefined {

@@ -4,6 +4,9 @@ import type { Figures } from '../protocol';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
 
+/** The pull of one chord; pulls of many together are in N. */
+export const millinewton = (newton: number): string => `${number(1000 * newton, 0)} mN`;
+
 /** Grade of a leak by its orifice, cm2: 0.20, 0.30, 0.40 (echocardiography, EROA). */
 export function grade(orifice: number): { level: number; word: string } {
   if (orifice <= 0) return { level: 0, word: 'Sealed' };
@@ -330,9 +333,25 @@ export const mapWords: Record<
     title: 'Height',
     scale: 'Height over (+) or under (−) the mean plane of the annulus',
   },
-  stretch: { title: 'Stretch', scale: 'Stretch of the leaflets' },
-  load: { title: 'Chord load', scale: 'Load of the chordae; 100 % is their limit' },
+  stretch: {
+    title: 'Leaflet stretch',
+    scale: 'Largest stretch of the leaflets, from their size without load',
+  },
+  load: { title: 'Chord load', scale: 'Load of the chordae, of their working limit' },
+  pull: { title: 'Chord pull', scale: 'Pull of the chordae' },
+  strain: { title: 'Chord stretch', scale: 'Stretch of the chordae' },
   distance: { title: 'Change', scale: 'Moved by the repair, or from the plan that it is compared with' },
+};
+
+/** Scales of the colour maps. */
+export const scaleTexts = {
+  title: (text: string, unit: string) => `${text}, ${unit}`,
+  tick: (value: number) => String(value).replace('-', '−'),
+  /** A limit, and those of other kinds of chordae. */
+  limit: (most: string, others: [string, string][]) =>
+    [most, ...others.map(([names, value]) => `${value} for ${names.toLowerCase()}`)].join(', '),
+  limitIs: (limits: string) => `Limit: ${limits}`,
+  full: (pull: string, strain: string) => `100 % is a pull of ${pull}, or a stretch of ${strain}`,
 };
 
 export const importTexts = {
@@ -379,6 +398,7 @@ export const refusals = {
   noPreview: 'there is no preview to apply: choose an operation',
   noCheckpoint: (name: string) => `there is no checkpoint ${name}`,
   sameCheckpoint: (name: string) => `there is already a checkpoint “${name}”: choose another name`,
+  nothingRemoved: 'no checkpoint was deleted',
   noOperation: (kind: string) => `there is no operation ${kind}`,
   noField: (kind: string, name: string) => `${kind} has no field ${name}`,
   cancelled: 'cancelled',
@@ -509,6 +529,8 @@ export const valveTexts = {
   pullOn: (head: string) => `Pull on ${head}`,
   head: (h: number) => `head ${h}`,
   closedAt: 'Closed at 120 mmHg. Fingerprint of the valve, the same only for a valve that is identical:',
+  chordsCross:
+    'Chordae are straight lines between their ends, and leaflets do not push them aside: in the picture of an open valve a chord may pass through a leaflet. Its pull and its length are those of the straight line.',
   howCertain: 'How certain? Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
     `${converged} of ${members} closures came to rest, ${shapes === 1 ? 'all in one shape' : `in ${shapes} shapes of the folds`}, which differ by at most ${number(apart)} mm.`,
@@ -539,7 +561,7 @@ export const tableTexts = {
   chordaeHint: 'The most loaded first. Choose one to shorten, lengthen or cut it.',
   chord: 'Chord',
   length: 'Length without pull, mm',
-  pull: 'Pull, N',
+  pull: 'Pull, mN',
   ofLimit: '% of limit',
   slack: 'slack',
 };
@@ -554,9 +576,9 @@ export const deviceTexts = {
   ring: (cc: number, ap: number, round: number) =>
     `${number(cc)} mm wide, ${number(ap)} mm front to back, ${number(round, 0)} mm around`,
   band: (length: number) => `${number(length, 0)} mm long`,
-  clip: (stitches: number, pull: number) => `${stitches} stitches, strongest pull ${number(pull, 2)} N`,
+  clip: (stitches: number, pull: number) => `${stitches} stitches, strongest pull ${millinewton(pull)}`,
   neochord: (chord: { rest: number; tension: number; heads: string; scallops: string }) =>
-    `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${number(chord.tension, 2)} N` : 'slack'}`,
+    `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${millinewton(chord.tension)}` : 'slack'}`,
 };
 
 export const formTexts = {
@@ -650,6 +672,7 @@ export const repairTexts = {
   stretch: 'Stretch',
   slack: 'slack',
   limit: 'Share of its limit',
+  limitIn: (limit: string) => `limit ${limit}`,
   becomes: (was: string, now: string) => `${was} → ${now}`,
   letGo: 'Let go of this part',
   changeLength: 'Change length',
@@ -676,6 +699,11 @@ export const planTexts = {
   planOf: (k: number) => `Plan ${k}`,
   rename: (name: string) => `Rename “${name}”`,
   newName: (name: string) => `New name of “${name}”`,
+  remove: (name: string) => `Delete “${name}”`,
+  removed: (name: string) => `“${name}” was deleted.`,
+  replaced: (name: string) => `The earlier “${name}” was replaced.`,
+  putBack: 'Put it back',
+  copyOf: (name: string, k: number) => `${name} (${k})`,
   keep: 'Keep this plan',
   files: 'Save and report',
   returnTo: 'Return to it',
@@ -763,6 +791,6 @@ export const sectionTexts = {
 };
 
 export const gestureTexts = {
-  chord: (name: string, length: number, tension: number) =>
-    `${name}: ${number(length)} mm without pull, pull ${number(tension, 2)} N`,
+  chord: (chord: { name: string; rest: number; tension: number; strain: number; percent: number | null }) =>
+    `${chord.name}: ${number(chord.rest)} mm without pull, ${chord.strain > 0 ? `pull ${millinewton(chord.tension)}, stretch ${number(100 * chord.strain)} %` : 'slack'}${chord.percent === null ? '' : `, ${chord.percent} % of its limit`}`,
 };

@@ -16,7 +16,8 @@ import { Button } from './parts';
 import { ImportPanel } from './import';
 import { PlanPanel } from './plan';
 import { RepairPanel } from './repair';
-import { chooseFile, Scale, TopBar, ViewBar } from './toolbar';
+import { Scale } from './scale';
+import { chooseFile, TopBar, ViewBar } from './toolbar';
 import { TourPanel } from './tour';
 import { ValvePanel } from './valve';
 import { Verdict } from './verdict';
@@ -145,15 +146,17 @@ function Picture() {
   }, []);
   return (
     <main class="picture">
-      <div class="canvas" ref={host} />
-      {state.dropping.value && <p class="drop-here">{appTexts.drop}</p>}
-      <p id="picture-help" class="hidden">
-        {help.picture}
-      </p>
-      <Scale />
-      <Compare />
-      <ToolHint />
-      <Busy />
+      <div class="stage">
+        <div class="canvas" ref={host} />
+        {state.dropping.value && <p class="drop-here">{appTexts.drop}</p>}
+        <p id="picture-help" class="hidden">
+          {help.picture}
+        </p>
+        <Scale />
+        <Compare />
+        <ToolHint />
+        <Busy />
+      </div>
       <ViewBar go={go} />
     </main>
   );
@@ -177,11 +180,12 @@ function onKey(event: KeyboardEvent): void {
   if (state.dialog.value) return;
   const control = event.ctrlKey || event.metaKey;
   const key = event.key.toLowerCase();
-  if (control && !typing) {
-    if (key === 'z' && !event.shiftKey) void undo();
-    else if (key === 'y' || (key === 'z' && event.shiftKey)) void redo();
-    else if (key === 's') void saveSession();
+  if (control) {
+    // in a text, undo and redo belong to the text; the browser would save and open pages by the others
+    if (key === 's') void saveSession();
     else if (key === 'o') chooseFile();
+    else if (key === 'z' && !event.shiftKey && !typing) void undo();
+    else if ((key === 'y' || (key === 'z' && event.shiftKey)) && !typing) void redo();
     else return;
     event.preventDefault();
     return;
@@ -189,7 +193,7 @@ function onKey(event: KeyboardEvent): void {
   if (event.key === 'Escape' && state.picking.value === 'outline') return pickField(null);
   if (event.key === 'Escape' && state.draft.value) return discard();
   if (event.key === 'Escape') state.choice.value = null;
-  if (typing || control || event.altKey) return;
+  if (typing || event.altKey) return;
   if (
     event.key === 'Enter' &&
     state.draft.value &&

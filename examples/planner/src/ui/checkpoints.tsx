@@ -1,10 +1,12 @@
-// Checkpoints of the plan: kept under a name, renamed, returned to, compared with the present plan.
+// Checkpoints of the plan: kept under a name, renamed, deleted and put back, returned to, compared with the present plan.
 import { useSignal, type Signal } from '@preact/signals';
 import { useLayoutEffect, useRef } from 'preact/hooks';
-import { Bookmark, Pencil } from 'lucide-preact';
+import { Bookmark, Pencil, Trash2 } from 'lucide-preact';
 import {
   compareCheckpoint,
   nextName,
+  putBackCheckpoint,
+  removeCheckpoint,
   renameCheckpoint,
   restoreCheckpoint,
   saveCheckpoint,
@@ -31,6 +33,7 @@ export function Checkpoints() {
       >
         <input
           type="text"
+          id="checkpoint-name"
           class="checkpoint-name"
           maxLength={longest}
           aria-label={planTexts.checkpointName}
@@ -62,9 +65,39 @@ export function Checkpoints() {
             label={planTexts.rename(checkpoint)}
             onClick={() => (renamed.value = checkpoint)}
           />
+          <Button
+            icon={<Trash2 size={16} />}
+            label={planTexts.remove(checkpoint)}
+            onClick={() => void removeCheckpoint(checkpoint)}
+          />
         </div>
       ))}
+      <Removed />
     </Section>
+  );
+}
+
+/** The way back for the checkpoint that was deleted or replaced last. The keyboard is at it once its button “Delete” is gone. */
+function Removed() {
+  const name = state.removedCheckpoint.value;
+  const row = useRef<HTMLDivElement>(null);
+  useLayoutEffect(() => {
+    if (document.activeElement === document.body) row.current?.querySelector('button')?.focus();
+  }, [name, state.checkpoints.value]);
+  if (name === null) return null;
+  const replaced = state.checkpoints.value.includes(name);
+  return (
+    <div class="row" ref={row} data-testid="removed-checkpoint">
+      <span>{replaced ? planTexts.replaced(name) : planTexts.removed(name)}</span>
+      <Button
+        onClick={() => {
+          document.getElementById('checkpoint-name')?.focus();
+          void putBackCheckpoint();
+        }}
+      >
+        {planTexts.putBack}
+      </Button>
+    </div>
   );
 }
 

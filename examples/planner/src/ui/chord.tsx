@@ -3,10 +3,25 @@ import { percentOfLimit, shareOfLimit } from '../notable';
 import { figure, kinds, repairTexts, verdictTexts } from '../text/texts';
 import type { Chord } from '../protocol';
 
-const facts: [string, (chord: Chord) => string, string][] = [
+/** The limit of a chord beside its value; a suture has none. */
+const limitIn = (limit: number, unit: string, digits: number): string =>
+  Number.isFinite(limit) ? repairTexts.limitIn(`${figure(limit, digits)}\u00a0${unit}`) : '';
+
+/** Name, value, unit and limit. */
+const facts: [string, (chord: Chord) => string, string, ((chord: Chord) => string)?][] = [
   [repairTexts.rest, (chord) => figure(chord.rest), 'mm'],
-  [repairTexts.pull, (chord) => figure(chord.tension, 2), 'N'],
-  [repairTexts.stretch, (chord) => (chord.strain > 0 ? figure(100 * chord.strain) : repairTexts.slack), '%'],
+  [
+    repairTexts.pull,
+    (chord) => figure(1000 * chord.tension, 0),
+    'mN',
+    (chord) => limitIn(1000 * chord.tensionLimit, 'mN', 0),
+  ],
+  [
+    repairTexts.stretch,
+    (chord) => (chord.strain > 0 ? figure(100 * chord.strain) : repairTexts.slack),
+    '%',
+    (chord) => limitIn(100 * chord.strainLimit, '%', 1),
+  ],
   [repairTexts.limit, (chord) => String(percentOfLimit(shareOfLimit(chord))), '%'],
 ];
 
@@ -23,14 +38,14 @@ export function ChordFacts({ chord, after, brief }: { chord: Chord; after?: Chor
       <h3>{repairTexts.chord(chord.name)}</h3>
       <p>{repairTexts.between(kinds[chord.kind], chord.heads, chord.scallops)}</p>
       <dl>
-        {facts.map(([label, of, unit]) => (
+        {facts.map(([label, of, unit, limit]) => (
           <>
             <dt>{label}</dt>
             <dd
               class={label === repairTexts.limit && over ? 'over' : undefined}
               title={label === repairTexts.limit ? verdictTexts.limitHelp : undefined}
             >
-              {fact(of, unit)}
+              {fact(of, unit)} {limit && <small>{limit(after ?? chord)}</small>}
             </dd>
           </>
         ))}

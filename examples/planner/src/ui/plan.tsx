@@ -57,7 +57,10 @@ export function PlanPanel() {
           rows={4}
           aria-label={planTexts.notes}
           value={state.notes.value}
-          onInput={(event) => (state.notes.value = event.currentTarget.value)}
+          onInput={(event) => {
+            state.notes.value = event.currentTarget.value;
+            state.changed.value = true;
+          }}
         />
       </Section>
       <Section title={planTexts.files} open>
@@ -111,7 +114,7 @@ const rows: [string, (m: Measures) => number, number, string][] = [
   [figureNames.annulusAp, (m) => m.annulusAp, 1, 'mm'],
   [figureNames.annulusCc, (m) => m.annulusCc, 1, 'mm'],
   [figureNames.chordsOver, (m) => m.chordsOver, 0, ''],
-  [figureNames.maxChordTension, (m) => m.maxChordTension, 2, 'N'],
+  [figureNames.maxChordTension, (m) => 1000 * m.maxChordTension, 0, 'mN'],
 ];
 
 /** The open area of a valve; dots until it is measured. */

@@ -81,7 +81,7 @@ const rows: [string, (f: Figures) => number, number, string][] = [
   [figureNames.annulusAp, (f) => f.measures.annulusAp, 1, 'mm'],
   [figureNames.annulusCc, (f) => f.measures.annulusCc, 1, 'mm'],
   [figureNames.chordsOver, (f) => f.measures.chordsOver, 0, ''],
-  [figureNames.maxChordTension, (f) => f.measures.maxChordTension, 2, 'N'],
+  [figureNames.maxChordTension, (f) => 1000 * f.measures.maxChordTension, 0, 'mN'],
 ];
 
 function escape(text: string): string {

@@ -84,7 +84,7 @@ export function Chordae({ figures }: { figures: Figures }) {
                     <small>{kinds[chord.kind]}</small>
                   </th>
                   <td>{chord.strain <= 0 ? tableTexts.slack : `${percentOfLimit(share)} %`}</td>
-                  <td>{figure(chord.tension, 2)}</td>
+                  <td>{figure(1000 * chord.tension, 0)}</td>
                   <td>{figure(chord.rest)}</td>
                 </tr>
               );

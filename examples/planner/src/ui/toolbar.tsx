@@ -5,9 +5,8 @@ import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
 import { barTexts, mapWords, t, tourTexts } from '../text/texts';
-import { gradient, maps, type MapName } from '../view/colours';
+import type { MapName } from '../view/colours';
 import type { Preset } from '../view/camera';
-import { suture } from '../notable';
 import { Button } from './parts';
 
 export const chooseFile = (): void => document.getElementById('file')?.click();
@@ -206,72 +205,6 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           ))}
         </select>
       </label>
-    </div>
-  );
-}
-
-/** Stitches are those of a suture or a clip. */
-const hasStitches = (): boolean => !!state.figures.value?.chords.some((chord) => chord.kind === suture);
-
-/** The scale of the colour map, in its unit. */
-export function Scale() {
-  const name = state.map.value;
-  const surface = !!state.surface.value;
-  if (name === 'tissue' || surface) {
-    return (
-      <div class="scale tissue" aria-hidden="true">
-        <span>
-          <i class="key key-atrial" /> {barTexts.atrial}
-        </span>
-        <span>
-          <i class="key key-ventricular" /> {barTexts.ventricular}
-        </span>
-        {!surface && (state.figures.value?.measures.orifice ?? 0) > 0 && (
-          <span>
-            <i class="key key-orifice" /> {barTexts.leak}
-          </span>
-        )}
-        {!surface && (state.figures.value?.measures.chordsOver ?? 0) > 0 && (
-          <span>
-            <i class="key key-over" /> {barTexts.over}
-          </span>
-        )}
-        {!surface && state.chordsOn.value && state.picture.value?.chordTaut.some((strain) => strain < 0) && (
-          <span>
-            <i class="key key-slack" /> {barTexts.slack}
-          </span>
-        )}
-        {!surface && state.chordsOn.value && hasStitches() && (
-          <span>
-            <i class="key key-stitch" /> {barTexts.stitch}
-          </span>
-        )}
-      </div>
-    );
-  }
-  const map = maps[name];
-  const words = mapWords[name];
-  return (
-    <div class="scale">
-      <span>{words.scale}</span>
-      <span class="bar">
-        <em>{map.low}</em>
-        <i style={{ background: gradient(map) }} />
-        <em>
-          {map.high} {map.unit}
-        </em>
-      </span>
-      {words.low && (
-        <span class="bar-words">
-          <em>{words.low}</em>
-          <em>{words.high}</em>
-        </span>
-      )}
-      {words.none && (
-        <span>
-          <i class="key key-none" /> {words.none}
-        </span>
-      )}
     </div>
   );
 }

@@ -15,9 +15,9 @@ export function ValvePanel() {
   const before = state.before.value?.measures;
   const m = figures.measures;
   const spread = state.spread.value?.hash === figures.hash ? state.spread.value.value : null;
-  const range = (name: string): [number, number] | null => {
+  const range = (name: string, factor = 1): [number, number] | null => {
     const row = spread?.rows.find((candidate) => candidate.name === name);
-    return row ? [row.min, row.max] : null;
+    return row ? [factor * row.min, factor * row.max] : null;
   };
   return (
     <div class="panel-body">
@@ -144,11 +144,11 @@ export function ValvePanel() {
           />
           <Figure
             label={valveTexts.strongestPull}
-            value={m.maxChordTension}
-            before={before?.maxChordTension}
-            unit="N"
-            digits={2}
-            spread={range('maxChordTension')}
+            value={1000 * m.maxChordTension}
+            before={before && 1000 * before.maxChordTension}
+            unit="mN"
+            digits={0}
+            spread={range('maxChordTension', 1000)}
           />
           {figures.heads.map((force, h) => (
             <Figure
@@ -162,6 +162,9 @@ export function ValvePanel() {
         </div>
         <p class="hint">
           {valveTexts.closedAt} <code>{figures.hash}</code>
+        </p>
+        <p class="hint" data-testid="chords-cross">
+          {valveTexts.chordsCross}
         </p>
         <Button
           icon={<Layers size={16} />}

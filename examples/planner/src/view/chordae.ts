@@ -1,7 +1,7 @@
 // Chordae as tubes from the papillary heads to the ventricular side of the leaflets, in the colour of their load or kind.
 import type { Picture, Topology } from '../protocol';
 import { suture } from '../notable';
-import { colourOf, maps, tissue } from './colours';
+import { colourOf, isChordMap, maps, tissue } from './colours';
 import { point, Shapes, type Colour, type Mesh } from './mesh';
 import type { SceneOptions } from './scene';
 
@@ -10,10 +10,10 @@ const strut = 3;
 function chordColour(topology: Topology, picture: Picture, options: SceneOptions, k: number): Colour {
   if (k === options.chosenChord) return tissue.chosen;
   if (topology.chordKind[k] === suture) return tissue.suture;
-  const load = options.load ? options.load[k] : 0;
-  if (options.map === 'load') return colourOf(maps.load, 100 * load);
-  if (load > 1) return tissue.over;
+  if (options.load && options.load[k] > 1) return tissue.over;
   if (picture.chordTaut[k] < 0) return tissue.slack;
+  if (isChordMap(options.map) && options.chordValues)
+    return colourOf(maps[options.map], options.chordValues[k]);
   return topology.chordKind[k] === strut ? tissue.strut : tissue.chord;
 }
 

@@ -45,28 +45,53 @@ const diverging: Colour[] = [
   [0.55, 0.22, 0.0],
 ];
 
-export type MapName = 'tissue' | 'coaptation' | 'height' | 'stretch' | 'load' | 'distance';
+/** Maps of the leaflets, and those of the chordae, in which the leaflets have the colours of tissue. */
+export type LeafletMap = 'coaptation' | 'height' | 'stretch' | 'distance';
+export type ChordMap = 'load' | 'pull' | 'strain';
+export type MapName = 'tissue' | LeafletMap | ChordMap;
 
 export interface ColourMap {
   colours: Colour[];
   low: number;
   high: number;
   unit: string;
+  /** Values that are written below the scale. */
+  ticks: number[];
+  /** Colours follow the square root of the value, for values of which most are small. */
+  root?: boolean;
 }
 
 /** Ranges in the unit that is written at the scale. */
-export const maps: Record<Exclude<MapName, 'tissue'>, ColourMap> = {
-  coaptation: { colours: [...viridis].reverse(), low: 0.5, high: 2.5, unit: 'mm' },
-  height: { colours: diverging, low: -9, high: 9, unit: 'mm' },
-  stretch: { colours: viridis, low: 0, high: 40, unit: '%' },
-  load: { colours: viridis, low: 0, high: 100, unit: '%' },
-  distance: { colours: viridis, low: 0, high: 4, unit: 'mm' },
+export const maps: Record<LeafletMap | ChordMap, ColourMap> = {
+  coaptation: {
+    colours: [...viridis].reverse(),
+    low: 0.5,
+    high: 2.5,
+    unit: 'mm',
+    ticks: [0.5, 1, 1.5, 2, 2.5],
+  },
+  height: { colours: diverging, low: -9, high: 9, unit: 'mm', ticks: [-9, -6, -3, 0, 3, 6, 9] },
+  stretch: { colours: viridis, low: 0, high: 40, unit: '%', ticks: [0, 10, 20, 30, 40] },
+  distance: { colours: viridis, low: 0, high: 4, unit: 'mm', ticks: [0, 1, 2, 3, 4] },
+  load: { colours: viridis, low: 0, high: 100, unit: '%', ticks: [0, 25, 50, 75, 100] },
+  // up to the limit of a strut chord
+  pull: { colours: viridis, low: 0, high: 2000, unit: 'mN', ticks: [0, 100, 400, 800, 2000], root: true },
+  strain: { colours: viridis, low: 0, high: 12, unit: '%', ticks: [0, 4, 8, 12] },
 };
+
+export const isChordMap = (name: MapName): name is ChordMap =>
+  name === 'load' || name === 'pull' || name === 'strain';
+
+/** The share of the scale at which a value stands, 0 to 1. */
+export function placeOf(map: ColourMap, value: number): number {
+  const share = Math.min(1, Math.max(0, (value - map.low) / (map.high - map.low)));
+  return map.root ? Math.sqrt(share) : share;
+}
 
 /** Colour of a value; values out of the range take the end's colour, values without number grey. */
 export function colourOf(map: ColourMap, value: number): Colour {
   if (!Number.isFinite(value)) return [0.72, 0.72, 0.72];
-  const t = Math.min(1, Math.max(0, (value - map.low) / (map.high - map.low))) * (map.colours.length - 1);
+  const t = placeOf(map, value) * (map.colours.length - 1);
   const k = Math.min(map.colours.length - 2, Math.floor(t));
   const s = t - k;
   const [a, b] = [map.colours[k], map.colours[k + 1]];

@@ -1,5 +1,6 @@
 // The pointer in the picture: turn, pan, zoom with mouse or fingers, keys; presses that hit a part are drags and
 // clicks of their own (drags.ts, click.ts).
+import { percentOfLimit, shareOfLimit } from '../notable';
 import * as state from '../store/state';
 import { gestureTexts } from '../text/texts';
 import { click } from './click';
@@ -123,7 +124,9 @@ export class Gestures {
           : 'crosshair';
     if (!hit || !picture || !figures) return;
     const chord = hit.chord >= 0 ? figures.chords[hit.chord] : null;
-    canvas.title = chord ? gestureTexts.chord(chord.name, chord.rest, chord.tension) : '';
+    const limited = chord && Number.isFinite(chord.tensionLimit);
+    const percent = limited ? percentOfLimit(shareOfLimit(chord)) : null;
+    canvas.title = chord ? gestureTexts.chord({ ...chord, percent }) : '';
   }
 
   private pinch(id: number, p: Place): void {

@@ -1,13 +1,13 @@
 // The leaflets: their mesh with both sides told apart or in the colours of a map, and their atrial side, which is what is drawn.
 import type { Fields, Picture, Topology } from '../protocol';
-import { colourOf, maps, tissue } from './colours';
+import { colourOf, isChordMap, maps, tissue } from './colours';
 import { heightOf, vertexNormals, type Mesh } from './mesh';
 import type { SceneOptions } from './scene';
 
 /** mm between the middle of a leaflet and its sides: half the distance at which leaflets of the library touch. */
 export const halfThickness = 0.5;
 
-/** Value of the colour map at each node. */
+/** Value of the colour map at each node; null for maps that do not colour the leaflets. */
 function mapValues(picture: Picture, options: SceneOptions): Float32Array | null {
   const { map, fields, frame } = options;
   if (map === 'height') {
@@ -25,10 +25,11 @@ export function leafletMesh(topology: Topology, picture: Picture, options: Scene
   const nodes = picture.positions.length / 3;
   const front = new Float32Array(3 * nodes);
   const back = new Float32Array(3 * nodes);
-  const values = options.map === 'tissue' || options.map === 'load' ? null : mapValues(picture, options);
-  if (values && options.map !== 'tissue' && options.map !== 'load') {
+  const { map } = options;
+  const values = mapValues(picture, options);
+  if (values && map !== 'tissue' && !isChordMap(map)) {
     for (let i = 0; i < nodes; ++i) {
-      const colour = colourOf(maps[options.map], values[i]);
+      const colour = colourOf(maps[map], values[i]);
       front.set(colour, 3 * i);
       back.set(colour, 3 * i);
     }
@@ -62,12 +63,14 @@ export function leafletMesh(topology: Topology, picture: Picture, options: Scene
   };
 }
 
-/** mm that stay between two leaflets, so that they do not cross between their nodes. */
-const clearance = 0.2;
+/** mm by which the sides of leaflets in contact overlap. The facets of two folds do not fit each other: where the sides only
+ *  touched at the nodes, a sealed valve would show slits of light between them, with the chordae behind. */
+const overlap = 0.2;
 let lifted: { of: Picture; fields: Fields; picture: Picture } | null = null;
 
 /** The picture with the atrial side of the leaflets in place of their middle. Where leaflets touch, their middles are apart by
- *  the thickness of a leaflet: seen from the atrium a sealed valve would seem to leak. The last one is kept. */
+ *  the thickness of a leaflet: seen from the atrium a sealed valve would seem to leak. The sides of leaflets that are further
+ *  apart than that do not meet, so that a leak stays open. The last one is kept. */
 export function atrialSide(topology: Topology, picture: Picture, fields: Fields | null): Picture {
   if (!fields) return picture;
   if (lifted?.of === picture && lifted.fields === fields) return lifted.picture;
@@ -77,8 +80,7 @@ export function atrialSide(topology: Topology, picture: Picture, fields: Fields 
   for (let i = 0; i < positions.length; ++i) {
     const apart = fields.coaptation[Math.floor(i / 3)];
     positions[i] +=
-      (apart < Infinity ? Math.min(halfThickness, Math.max(0, 0.5 * (apart - clearance))) : halfThickness) *
-      normals[i];
+      (apart < Infinity ? Math.min(halfThickness, 0.5 * (apart + overlap)) : halfThickness) * normals[i];
   }
   lifted = { of: picture, fields, picture: { ...picture, positions } };
   return lifted.picture;

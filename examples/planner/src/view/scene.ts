@@ -17,6 +17,8 @@ export interface SceneOptions {
   frame: number[];
   /** Share of the limit per chord; above 1 it is beyond it. */
   load: Float32Array | null;
+  /** Value of the chordae's colour map per chord. */
+  chordValues: Float32Array | null;
   chosenChord: number;
   chosenHead: number;
   chordsOn: boolean;

@@ -1,8 +1,9 @@
 // The valve that the page shows, be it that of the plan, a preview, the valve before, or one in motion: its frame and
 // size, and its meshes with their labels and leak.
-import { leakPlaces, shareOfLimit } from '../notable';
+import { chordValue, leakPlaces, shareOfLimit } from '../notable';
 import type { Fields, Topology } from '../protocol';
 import * as state from '../store/state';
+import { isChordMap } from './colours';
 import type { Mesh } from './mesh';
 import { sceneMeshes } from './scene';
 
@@ -58,6 +59,10 @@ export function valveMeshes(frame: number[]): Mesh[] {
     distance: map === 'distance' ? distances() : null,
     frame,
     load: figures ? Float32Array.from(figures.chords, shareOfLimit) : null,
+    chordValues:
+      figures && isChordMap(map)
+        ? Float32Array.from(figures.chords, (chord) => chordValue(map, chord))
+        : null,
     chosenChord: topology.chords.findIndex((part) => part.id === chord),
     chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
     chordsOn: state.chordsOn.value,

@@ -1,17 +1,33 @@
-// Checkpoints of a plan: snapshots by name, in the order in which they were kept.
+// Checkpoints of a plan: snapshots by name, in the order in which they were kept. The last one that was removed or
+// replaced can be put back.
 import { MvsError, type Snapshot } from 'libmvs';
-import { refusals } from '../text/texts';
+import type { CheckpointList } from '../protocol';
+import { planTexts, refusals } from '../text/texts';
+
+interface Removed {
+  name: string;
+  snapshot: Snapshot;
+  /** Its index in the order. */
+  place: number;
+}
 
 export class Checkpoints extends Map<string, Snapshot> {
-  private names(): string[] {
-    return [...this.keys()];
+  private removed: Removed | null = null;
+
+  list(): CheckpointList {
+    return {
+      names: [...this.keys()],
+      hashes: [...this.values()].map(({ hash }) => hash),
+      removed: this.removed?.name ?? null,
+    };
   }
 
-  /** Keeps a snapshot in place of the one with this name; returns all names. */
-  keep(name: string, snapshot: Snapshot): string[] {
-    this.get(name)?.dispose();
+  /** Keeps a snapshot under a name, in place of the one that had it. */
+  keep(name: string, snapshot: Snapshot): CheckpointList {
+    const place = [...this.keys()].indexOf(name);
+    if (place >= 0) this.setAside({ name, snapshot: this.of(name), place });
     this.set(name, snapshot);
-    return this.names();
+    return this.list();
   }
 
   /** The snapshot of a name, or a refusal. */
@@ -21,18 +37,46 @@ export class Checkpoints extends Map<string, Snapshot> {
     return kept;
   }
 
-  /** Gives a checkpoint a name that no other one has; it keeps its place in the order. Returns all names. */
-  rename(name: string, to: string): string[] {
+  /** Gives a checkpoint a name that no other one has; it keeps its place in the order. */
+  rename(name: string, to: string): CheckpointList {
     this.of(name);
     if (to !== name && this.has(to)) throw new MvsError('MVS_E_ID', to, refusals.sameCheckpoint(to));
+    this.order([...this].map(([other, snapshot]) => [other === name ? to : other, snapshot]));
+    return this.list();
+  }
+
+  remove(name: string): CheckpointList {
+    this.setAside({ name, snapshot: this.of(name), place: [...this.keys()].indexOf(name) });
+    this.delete(name);
+    return this.list();
+  }
+
+  /** Puts the last removed one back into its place; where another one has its name by now, under a name that is free. */
+  putBack(): CheckpointList {
+    const { removed } = this;
+    if (!removed) throw new MvsError('MVS_E_STATE', 'checkpoint', refusals.nothingRemoved);
+    let { name } = removed;
+    for (let k = 2; this.has(name); ++k) name = planTexts.copyOf(removed.name, k);
     const kept = [...this];
-    this.clear();
-    for (const [other, snapshot] of kept) this.set(other === name ? to : other, snapshot);
-    return this.names();
+    kept.splice(removed.place, 0, [name, removed.snapshot]);
+    this.order(kept);
+    this.removed = null;
+    return this.list();
   }
 
   forget(): void {
     for (const snapshot of this.values()) snapshot.dispose();
     this.clear();
+    this.setAside(null);
+  }
+
+  private order(entries: [string, Snapshot][]): void {
+    this.clear();
+    for (const [name, snapshot] of entries) this.set(name, snapshot);
+  }
+
+  private setAside(removed: Removed | null): void {
+    this.removed?.snapshot.dispose();
+    this.removed = removed;
   }
 }

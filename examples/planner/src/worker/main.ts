@@ -110,6 +110,8 @@ const handlers: Handlers = {
   },
   checkpoint: ({ name }) => planner.checkpoint(name),
   rename_checkpoint: ({ name, to }) => planner.checkpoints.rename(name, to),
+  remove_checkpoint: ({ name }) => planner.checkpoints.remove(name),
+  put_back_checkpoint: () => planner.checkpoints.putBack(),
   restore: ({ name }, { stage }) => planner.restore(name, stage),
   read_checkpoint: ({ name }) => planner.readCheckpoint(name),
   save_obj: () => planner.main.read((snapshot) => snapshot.save('obj')),

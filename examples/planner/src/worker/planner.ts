@@ -2,7 +2,17 @@
 // change it: previews, the opening slider, a hand in the valve.
 import { DIASTOLE_PA, MvsError, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
 import type { CostRequest } from '../calls';
-import type { Cost, Known, Motion, Operation, Section, SectionRequest, Shown, Spread } from '../protocol';
+import type {
+  CheckpointList,
+  Cost,
+  Known,
+  Motion,
+  Operation,
+  Section,
+  SectionRequest,
+  Shown,
+  Spread,
+} from '../protocol';
 import { refusals } from '../text/texts';
 import { Checkpoints } from './checkpoints';
 import { libraryFields } from './operations';
@@ -245,7 +255,7 @@ export class Planner {
     return this.main.read((snapshot) => sectionOf(snapshot, frame, offset));
   }
 
-  checkpoint(name: string): string[] {
+  checkpoint(name: string): CheckpointList {
     return this.checkpoints.keep(name, this.main.snapshot());
   }
 

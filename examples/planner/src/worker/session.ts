@@ -107,7 +107,7 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
   return {
     shown,
     first: planner.shownFirst(),
-    checkpoints: [...planner.checkpoints.keys()],
+    checkpoints: planner.checkpoints.list(),
     notes: String(description.notes ?? ''),
     title: String(description.title ?? ''),
     sameResult: shown.figures.hash === description.hash,
