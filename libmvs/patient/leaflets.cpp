@@ -27,6 +27,10 @@ constexpr double least_guessed_share = 0.28;
 constexpr double farthest_landmark = 8e-3;
 // Odds of the leaflet that is said to be the anterior one, below which this is doubted.
 constexpr double doubtful_odds = 0.1;
+// Least over greatest height along the annulus, from which on no commissures are guessed: leaflets
+// are 0.25 to 0.5 times as high at a commissure as at A2, a tube cut straight is as high
+// everywhere.
+constexpr double even_height = 0.8;
 // Shares of an arc at which A2 and P2 begin and end: their widths in the parametric valve.
 constexpr double a2_begin = 0.22, p2_begin = 0.27;
 
@@ -111,9 +115,21 @@ AnnulusSamples annulus_samples(const LeafletSheet &sheet, const SheetRims &rims,
   return annulus;
 }
 
+// Refuses a tube, in which nothing shows where leaflets meet.
+void check_heights(const std::vector<double> &height) {
+  const auto [least, most] = std::minmax_element(height.begin(), height.end());
+  MVS_MUST(
+      *least < even_height * *most, MVS_E_OP, "commissures",
+      "the surface is a tube without leaflets: it is %.1f to %.1f mm high all along its annulus, "
+      "and leaflets are about half as high at both commissures as between them. Give a "
+      "surface of the leaflets down to their free edge; if it is one, give both commissures",
+      *least * 1e3, *most * 1e3);
+}
+
 std::array<double, 2> guessed_commissures(const AnnulusSamples &annulus,
                                           const std::vector<double> &heights, double length,
                                           Findings &findings) {
+  check_heights(annulus.height);
   const ArcGuess guess = ArcOdds(annulus).best(least_guessed_share);
   const std::vector<double> exact = smoothed(heights, 2);
   const size_t i = lowest_near(exact, guess.from), j = lowest_near(exact, guess.to % samples);

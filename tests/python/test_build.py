@@ -103,6 +103,30 @@ def test_bad_arguments_are_refused_and_change_nothing(surface):
         assert sim.snapshot().hash == before
 
 
+def test_a_tube_without_leaflets_is_refused_unless_its_commissures_are_given():
+    """A cone as high everywhere: nothing in it shows where leaflets meet. Half as high at two places, it does."""
+    round_, down = 60, 12
+    angle = 2 * np.pi * np.arange(round_) / round_
+
+    def cone(height):
+        share = np.linspace(0, 1, down + 1)[:, None]
+        points = np.stack([(16e-3 - 6e-3 * share) * np.cos(angle), (13e-3 - 5e-3 * share) * np.sin(angle),
+                           -share * height], -1).reshape(-1, 3)
+        a = (np.arange(down)[:, None] * round_ + np.arange(round_)).ravel()
+        b = (np.arange(down)[:, None] * round_ + (np.arange(round_) + 1) % round_).ravel()
+        triangles = np.vstack([np.column_stack([a, b, b + round_]), np.column_stack([a, b + round_, a + round_])])
+        return {"points": points, "triangles": triangles.astype(np.uint32)}
+
+    tube = cone(np.full(round_, 18e-3))
+    with mvs.Simulator(log=lambda *_: None) as sim:
+        with pytest.raises(mvs.Error, match="a tube without leaflets.*18.[0-9] to 19.[0-9] mm.*both commissures"):
+            sim.build_valve(**tube, kind="mid")
+        sim.build_valve(**tube, kind="mid", commissures=np.array([[16e-3, 2e-3, 0], [-16e-3, 2e-3, 0]]))
+        low = 18e-3 * (1 - 0.5 * np.exp(-((np.abs(np.cos(angle)) - 1) / 0.06) ** 2))
+        found = sim.build_valve(**cone(low), kind="mid")
+        assert any(one.name == "commissures" for one in found)
+
+
 def test_chords_get_lengths_with_which_the_valve_closes_to_a_given_surface(surface):
     _, _, closed = built({**surface, "chord_factor": 0.93})
     leaflets = np.asarray(closed.node_kind) <= mvs.NodeKind.ANNULUS

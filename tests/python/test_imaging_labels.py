@@ -178,6 +178,17 @@ def test_faults_of_label_maps_are_refused_with_a_sentence():
         imaging.leaflets_in(numbers, {"x": 1})
 
 
+@pytest.mark.parametrize("share, words", [(0.3, "surface of a sheet of .* cm2.*noise"),
+                                          (0.02, "disconnected pieces, the largest of which has .*no segmentation")])
+def test_noise_is_refused_before_work_on_its_surface(share, words, monkeypatch):
+    """Noise of 120^3 voxels took minutes: its surface has a thousand times the triangles of a valve's."""
+    random = np.random.default_rng(2)
+    noise = np.where(random.random((120, 120, 120)) < share, random.integers(1, 3, (120, 120, 120)), 0)
+    monkeypatch.setattr("mvs.imaging.labels.mid_surface", lambda *_: pytest.fail("the surface was made"))
+    with pytest.raises(mvs.ArgumentError, match=words):
+        found_in(noise.astype(np.uint8))
+
+
 def test_the_open_image_given_as_the_loaded_one_is_refused():
     """No lengths of chordae follow from it; half a voxel of another phase is no closure either."""
     labels, _ = funnel()

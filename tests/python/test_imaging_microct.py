@@ -14,6 +14,7 @@ from mvs.imaging.microct import PIPELINE  # noqa: E402
 VOXEL, THICKNESS, DIAMETER = 0.3, 1.0, 0.9  # mm
 TOP, BOTTOM, HEIGHT = 8.5, 6.5, 9.0  # mm: radii of annulus and free edge
 MUSCLES = np.array([[4.5, 0, -11.0], [-4.5, 0, -11.0]])
+COMMISSURES = np.array([[TOP, 0, HEIGHT], [-TOP, 0, HEIGHT]])  # a cone shows none
 INSERTIONS = np.array([[radius * np.cos(a), radius * np.sin(a), z] for a in
                        np.radians([20, 70, 110, 160, 200, 250, 290, 340])
                        for radius, z in [(BOTTOM, 0.2)]])
@@ -123,7 +124,7 @@ def test_the_valve_has_the_chords_of_the_image_and_comes_to_rest(run, volume):
     from mvs.imaging.microct.valve import valve_of_volumes
 
     seen = imaging.Pipeline(tuple((name, lambda _, name=name: run[name]) for name in run.seconds))
-    made = valve_of_volumes(volume, None, {"papillary_tips": MUSCLES * 1e-3}, {}, None,
+    made = valve_of_volumes(volume, None, {"papillary_tips": MUSCLES * 1e-3, "commissures": COMMISSURES * 1e-3}, {}, None,
                             Console(quiet=True), pipeline=seen, edge=1.8e-3)
     assert made.converged and made.closed.at_rest
     assert len(made.opened.chord_kind) == len(INSERTIONS)
@@ -147,7 +148,8 @@ def test_a_loaded_volume_gives_places_and_lengths(run, volume):
 
     seen = imaging.Pipeline(tuple((name, lambda _, name=name: run[name]) for name in run.seconds))
     tips = {"papillary_tips": MUSCLES * 1e-3}
-    made = valve_of_volumes(volume, volume, tips, tips, "none", Console(quiet=True), pipeline=seen,
+    known = {**tips, "commissures": COMMISSURES * 1e-3}
+    made = valve_of_volumes(volume, volume, known, tips, "none", Console(quiet=True), pipeline=seen,
                             edge=1.8e-3)
     assert made.converged and made.loaded is not None
     named = {one.name: one for one in made.findings}
@@ -219,7 +221,8 @@ def test_branched_chordae_are_found_again_when_their_muscles_move():
             chords += [(head, split), (split, INSERTIONS[k]), (split, INSERTIONS[k + 1])]
         return grey_volume(chords, muscles)
 
-    made = valve_of_volumes(branched(MUSCLES), branched(MUSCLES - [0, 0, 1.2]), {}, {}, "none",
+    made = valve_of_volumes(branched(MUSCLES), branched(MUSCLES - [0, 0, 1.2]), {"commissures": COMMISSURES * 1e-3},
+                            {}, "none",
                             Console(quiet=True), edge=1.8e-3)
     assert made.converged
     named = {one.name: one for one in made.findings}

@@ -108,6 +108,7 @@ def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     for name in segments:
         mask |= labels.masks[name]
     mask = _without_islands(mask, settings.island, findings)
+    check_sheet(mask, np.array(labels.image.GetSpacing()) * 1e-3)
     sheet, grid = _sheet_of(labels.image, mask, settings, findings, tell)
     tell("leaflet of each triangle")
     leaflet = _leaflet_of_triangles(labels, segments, grid, sheet, findings)
@@ -125,6 +126,11 @@ def _without_islands(mask: NDArray[np.bool_], least: float,
     order = np.argsort(-size, kind="stable")
     share = size[order] / size.sum()
     large = int((share >= least).sum())
+    if share[0] < 0.5:
+        raise ArgumentError(
+            f"the tissue consists of {count} disconnected pieces, the largest of which has {100 * share[0]:.2g} % of "
+            "the voxels: this is no segmentation of leaflets. Name the right segments, or smooth the labels",
+            "labels")
     if large > 1:
         words = ", ".join(f"{100 * s:.0f} %" for s in share[:large])
         raise ArgumentError(
@@ -136,6 +142,24 @@ def _without_islands(mask: NDArray[np.bool_], least: float,
         f"{count - 1} pieces beside the leaflets, {100 * share[1:].sum():.2g} % of the voxels, were "
         "dropped"))
     return np.asarray(label == order[0] + 1)
+
+
+MOST_AREA = 100e-4
+"""m2: twice the area of the largest valve that `check_open_valve` accepts, as faces of voxels give it roughly"""
+
+
+def check_sheet(mask: NDArray[np.bool_], spacing: Points) -> None:
+    """ArgumentError where tissue has more surface than any valve: noise, foam, a whole heart.
+
+    A count of faces of voxels, before hours of work on the surface between them.
+    """
+    width = width_of(mask, spacing)
+    area = float(np.count_nonzero(mask) * np.prod(spacing)) / width if width else 0.0
+    if area > MOST_AREA:
+        raise ArgumentError(
+            f"the tissue has the surface of a sheet of {area * 1e4:.0f} cm2, {1e3 * width:.2f} mm thick; the leaflets of "
+            "a mitral valve have 6 to 30 cm2: the labels are noise or more than the leaflets, or the spacing is "
+            "wrong", "labels")
 
 
 def sheet_of_image(image: Any, level: float = 0.0) -> tuple[Sheet, float]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..._core import Snapshot
 from ...kinds import PartKind
+from .arcs import chord_paths
 from .distance import Cones, Sheet
 from .settings import Settings
 from .truth import MM, leaflet_nodes
@@ -51,60 +52,11 @@ def anatomy_of(snapshot: Snapshot, settings: Settings) -> Anatomy:
     sheets = tuple(
         Sheet(nodes, triangles[leaflet == k], thickness / 2) for k in range(len(names))
     )
-    paths = chord_paths(snapshot, settings)
+    paths = chord_paths(snapshot, settings, sheets)
     tips, muscles = _muscles(snapshot, paths, settings)
     return Anatomy(
         sheets, names, _tubes(snapshot, paths), paths, muscles, tips, _wall(snapshot, settings)
     )
-
-
-def chord_paths(snapshot: Snapshot, settings: Settings) -> tuple[Points, ...]:
-    """The axis of each chord in mm: straight if taut; slack, an arc as long as its rest length.
-
-    Arcs bend away from the axis of the valve, so that they do not cross the leaflets.
-    """
-    nodes = MM * np.asarray(snapshot.node_position)
-    axis, centre = snapshot.frame.axes[2], MM * snapshot.frame.origin
-    found = []
-    for (a, b), rest in zip(
-        np.asarray(snapshot.chord_nodes), MM * np.asarray(snapshot.chord_rest_length)
-    ):
-        p, q = nodes[a], nodes[b]
-        out = (p + q) / 2 - centre
-        out -= out @ axis * axis
-        found.append(_arc(p, q, rest if settings.chord_shape == "arc" else 0.0, out))
-    return tuple(found)
-
-
-def _arc(p: Points, q: Points, length: float, out: Points) -> Points:
-    """A circular arc of a length from p to q that bends towards `out`; straight if it is no longer."""
-    chord = float(np.linalg.norm(q - p))
-    if length <= chord * (1 + 1e-4) or chord < 1e-9:
-        return np.array([p, q])
-    along = (q - p) / chord
-    side = out - out @ along * along
-    if np.linalg.norm(side) < 1e-6:
-        side = np.eye(3)[np.argmin(np.abs(along))]
-        side = side - side @ along * along
-    side /= np.linalg.norm(side)
-    half = _half_angle(chord / length)
-    radius = length / (2 * half)
-    count = max(2, int(np.ceil(2 * half / 0.3)))
-    angles = np.linspace(-half, half, count + 1)
-    x = radius * np.sin(angles) + chord / 2
-    y = radius * (np.cos(angles) - np.cos(half))
-    path = p + x[:, None] * along + y[:, None] * side
-    path[0], path[-1] = p, q
-    return path
-
-
-def _half_angle(ratio: float) -> float:
-    """The half angle of an arc whose chord is `ratio` times its length: sin(h) / h = ratio."""
-    low, high = 1e-6, np.pi
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if np.sin(middle) / middle > ratio else (low, middle)
-    return (low + high) / 2
 
 
 def _tubes(snapshot: Snapshot, paths: tuple[Points, ...]) -> Cones:
