@@ -14,11 +14,11 @@ namespace {
 constexpr uint32_t most = SmoothDistance::most_corners;
 // The loops end after some five turns and rounds (tests/solve); these bound them where rounding
 // decides.
-constexpr int most_turns = 64, most_rounds = 40;
+constexpr int most_corners_tried = 64, most_rounds = 40;
 // Shares of a square and of a weight that are rounding.
-constexpr double least_progress = 1e-15, least_change = 1e-11, dependent = 1e-11;
+constexpr double least_decrease = 1e-15, least_change = 1e-11, dependent = 1e-11;
 
-struct Corner {
+struct PairCorner {
   Vec3 at;  // a[i] - b[j]
   uint32_t i, j;
 };
@@ -40,11 +40,11 @@ class LeastSquares {
   void solve(double c) {
     c_ = c;
     settle();
-    for (int turn = 0; turn < most_turns && count_ < most; ++turn) {
-      const Corner next = lowest();
+    for (int turn = 0; turn < most_corners_tried && count_ < most; ++turn) {
+      const PairCorner next = lowest();
       const double square = apart.squaredNorm() + c_ * squared();
       const double along = apart.dot(next.at) + c_ * place[next.j];
-      if (square - along <= least_progress * square || has(next)) return;
+      if (square - along <= least_decrease * square || has(next)) return;
       const LeastSquares kept = *this;
       corner_[count_] = next;
       theta_[count_++] = 0;
@@ -69,20 +69,20 @@ class LeastSquares {
   std::array<double, 3> place{};  // coordinates on the part
 
  private:
-  Corner make(uint32_t i, uint32_t j) const { return {hull_[i] - part_[j], i, j}; }
+  PairCorner make(uint32_t i, uint32_t j) const { return {hull_[i] - part_[j], i, j}; }
   void restore(const LeastSquares &kept) {
     corner_ = kept.corner_;
     theta_ = kept.theta_;
     count_ = kept.count_;
     measure();
   }
-  bool has(const Corner &c) const {
+  bool has(const PairCorner &c) const {
     for (uint32_t k = 0; k < count_; ++k) {
       if (corner_[k].i == c.i && corner_[k].j == c.j) return true;
     }
     return false;
   }
-  Corner lowest() const {
+  PairCorner lowest() const {
     const uint32_t i =
         edges_ ? lowest_corner(*edges_, hull_, apart, corner_[0].i) : lowest_of_all();
     uint32_t j = 0;
@@ -147,12 +147,12 @@ class LeastSquares {
     const uint32_t n = count_ - 1;
     std::array<std::array<double, most>, most> a;
     std::array<double, most> rhs;
-    const Corner &base = corner_[0];
+    const PairCorner &base = corner_[0];
     for (uint32_t r = 0; r < n; ++r) {
-      const Corner &cr = corner_[r + 1];
+      const PairCorner &cr = corner_[r + 1];
       const Vec3 dr = cr.at - base.at;
       for (uint32_t s = 0; s <= r; ++s) {
-        const Corner &cs = corner_[s + 1];
+        const PairCorner &cs = corner_[s + 1];
         a[r][s] = dr.dot(cs.at - base.at) +
                   c_ * ((cr.j == cs.j) - (cr.j == base.j) - (cs.j == base.j) + 1.0);
       }
@@ -189,7 +189,7 @@ class LeastSquares {
 
   std::span<const Vec3> hull_, part_;
   const HullEdges *edges_;  // null: all points are looked at
-  std::array<Corner, most> corner_;
+  std::array<PairCorner, most> corner_;
   std::array<double, most> theta_{};
   uint32_t count_ = 0;
   double c_ = 0;
