@@ -32,7 +32,8 @@ void LineWriter::number(double value, int shift) {
 void LineWriter::vertices(std::initializer_list<uint32_t> nodes) {
   for (const uint32_t node : nodes) {
     char digits[16];
-    word({digits, std::to_chars(digits, digits + sizeof digits, node + 1).ptr});
+    const char *end = std::to_chars(digits, digits + sizeof digits, node + 1).ptr;
+    word({digits, static_cast<size_t>(end - digits)});
   }
 }
 
