@@ -32,22 +32,31 @@ void HessianAssembler::set_pattern(const Model &model, const std::vector<Edge> &
   place_always();
 }
 
-// Sorts the fixed pairs and finds the place of each in the sorted list; valid while rows keep their
-// order.
+// Sorts the fixed pairs and finds the place of each in the sorted list, row by row with the places
+// of the columns of one row at hand; valid while rows keep their order.
 void HessianAssembler::find_always(const std::vector<Edge> &pairs) {
   take_rows(pairs);
   always_ = rows_;
-  std::vector<uint32_t> start(node_of.size() + 1, 0);  // of what each row has
-  for (const Edge &p : always_) ++start[p[0] + 1];
-  for (size_t r = 0; r < node_of.size(); ++r) start[r + 1] += start[r];
-  always_of_.assign(pairs.size(), none);
+  const size_t n = node_of.size();
+  std::vector<Edge> given(pairs.size(), {none, none});  // as rows, the smaller one first
+  std::vector<uint32_t> start(n + 1, 0), of_column(n, none);
   for (size_t k = 0; k < pairs.size(); ++k) {
     const uint32_t r = row_of[pairs[k][0]], c = row_of[pairs[k][1]];
     if (r == none || c == none) continue;
-    const Edge rows = {std::min(r, c), std::max(r, c)};
-    const auto at = std::lower_bound(always_.begin() + start[rows[0]],
-                                     always_.begin() + start[rows[0] + 1], rows);
-    always_of_[k] = static_cast<uint32_t>(at - always_.begin());
+    given[k] = {std::min(r, c), std::max(r, c)};
+    ++start[given[k][0] + 1];
+  }
+  for (size_t r = 0; r < n; ++r) start[r + 1] += start[r];
+  std::vector<uint32_t> of_row(start[n]), next(start.begin(), start.end() - 1);
+  for (uint32_t k = 0; k < pairs.size(); ++k) {
+    if (given[k][0] != none) of_row[next[given[k][0]]++] = k;
+  }
+  always_of_.assign(pairs.size(), none);
+  for (uint32_t r = 0, i = 0; r < n; ++r) {
+    for (; i < always_.size() && always_[i][0] == r; ++i) of_column[always_[i][1]] = i;
+    for (uint32_t j = start[r]; j < start[r + 1]; ++j) {
+      always_of_[of_row[j]] = of_column[given[of_row[j]][1]];
+    }
   }
 }
 

@@ -127,8 +127,8 @@ void EquilibriumTangent::eliminate_skew(NodeField &r) {
   factor_->solve(r);
 }
 
-// Solves for a residual in place, to about 1e-10.
-void EquilibriumTangent::approximate(bool transposed, NodeField &r) {
+// Solves for a residual in place, to `tolerance`.
+void EquilibriumTangent::approximate(bool transposed, double tolerance, NodeField &r) {
   if (dense_ && !transposed) return eliminate_skew(r);
   factor_->solve(r);
   const auto preconditioned = [&](const NodeField &v) {
@@ -137,13 +137,15 @@ void EquilibriumTangent::approximate(bool transposed, NodeField &r) {
     factor_->solve(y);
     return y;
   };
-  gmres(preconditioned, r, set::gmres_iterations, set::gmres_tolerance);
+  gmres(preconditioned, r, set::gmres_iterations, tolerance);
 }
 
-// One round of refinement: x += an approximate solution for the residual. Returns |b - K x| / |b|.
-double EquilibriumTangent::refine(const NodeField &b, bool transposed, NodeField &x) {
+// One round of refinement: x += a solution to `tolerance` for the residual. Returns |b - K x| /
+// |b|.
+double EquilibriumTangent::refine(const NodeField &b, bool transposed, double tolerance,
+                                  NodeField &x) {
   NodeField r = residuals_;
-  approximate(transposed, r);
+  approximate(transposed, tolerance, r);
   for (size_t k = 0; k < x.size(); ++k) x[k] += r[k];
   residuals_.resize(x.size());
   apply(x, transposed, residuals_);
@@ -162,7 +164,9 @@ void EquilibriumTangent::solve(NodeField &b, bool transposed) {
   residuals_ = rows;
   double error = 1;
   for (int round = 0; round < set::refinements; ++round) {
-    const double now = refine(rows, transposed, x);
+    // a later round only has to reduce the error that is left to that of the solution
+    const double left = set::refined_share * set::solve_tolerance / error;
+    const double now = refine(rows, transposed, std::max(left, set::gmres_tolerance), x);
     if (!(now < error)) break;  // rounding
     error = now;
     best = x;

@@ -50,9 +50,9 @@ class EquilibriumTangent {
   void factorise();
   void hold_loose_rows();
   void apply(const NodeField &rows, bool transposed, NodeField &y);
-  void approximate(bool transposed, NodeField &r);
+  void approximate(bool transposed, double tolerance, NodeField &r);
   void eliminate_skew(NodeField &r);
-  double refine(const NodeField &b, bool transposed, NodeField &x);
+  double refine(const NodeField &b, bool transposed, double tolerance, NodeField &x);
 
   const Model *model_;
   const State *state_;
