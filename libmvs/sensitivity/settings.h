@@ -7,7 +7,7 @@ namespace mvs::core::settings::sensitivity {
 inline constexpr double broad_phase_slack = 0.1;
 
 // Solutions. GMRES reduces the preconditioned residual by gmres_tolerance; a round of refinement
-// reduces what is left to refined_share of solve_tolerance, below it since the true residual is
+// reduces the rest to refined_share of solve_tolerance, below it since the true residual is
 // not that which is preconditioned. solve_tolerance is seldom reached: soft folds have
 // displacements whose forces cancel to 1e-11. solve_limit is the error that is refused.
 inline constexpr int gmres_iterations = 100, refinements = 4;

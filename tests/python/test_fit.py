@@ -101,6 +101,15 @@ def test_a_surface_and_a_head(start):
     assert (np.abs(found.values[:3] - wanted) < 3 * deviation + 1e-5).all()
 
 
+def test_one_parameter_whose_step_reaches_the_trust_region(start):
+    valve = mvs.valve_of(start)
+    truth = reclosed(start, nodes=np.ascontiguousarray(valve.nodes / 1.03))
+    surface = (np.array(truth.node_position), np.array(truth.triangle_nodes))
+    # a tight prior makes 0.03 a step of 10 deviations, beyond the first trust region
+    found = mvs.fit(start, surface, free="prestrain", noise=0.1e-3, priors={"prestrain": mvs.Prior(0.003, 15)})
+    assert found.values[0] == pytest.approx(0.03, rel=0.1) and found.converged
+
+
 def test_intervals_and_report(found, truth, tmp_path):
     interval = found.interval("coaptation")
     assert interval.low < interval.value < interval.high and interval.unit == "m2"

@@ -162,9 +162,10 @@ def fit(
         before = problem.residuals(z)
         fits.append(least_squares(problem.residuals, z, problem.jacobian, (-rows.reach, rows.reach),
                                   method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6, max_nfev=most,
-                                  # the default is a dense SVD at each trial, whose BLAS threads take
-                                  # more CPU than the closures where cores are shared
-                                  tr_solver="lsmr", x_scale=FIRST_RADIUS))
+                                  # "exact" is a dense SVD at each trial, whose BLAS threads take more
+                                  # CPU than the closures where cores are shared; "lsmr" takes a step in a
+                                  # plane, which one parameter does not have
+                                  tr_solver="lsmr" if len(z) > 1 else "exact", x_scale=FIRST_RADIUS))
         problems.append((problem, before))
     return _result(start, rows, data, noise, with_prior, fits, problems, begun)
 
