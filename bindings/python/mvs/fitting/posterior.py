@@ -64,8 +64,10 @@ PILOT = 3
 """Trajectories from one of these draws to the next."""
 OUTLIER = 2.0
 MOVES = 12
-"""Draws of a tilted posterior of which half have to differ; else half of the tilt is taken: it may move the mean
-beyond the bounds."""
+"""Draws that try a tilted posterior; if they do not move, half of the tilt is taken: it may move the mean beyond
+the bounds."""
+MOVING = 0.7
+"""Share of different draws from which a chain is taken to move; most have 0.9 or more."""
 AT_REST = 1e-5
 """N, as in a fit."""
 
@@ -157,15 +159,15 @@ class Linear:
         return float(value), z + slope, slack
 
 
-def linearised(fit: Fit) -> Linear:
-    """The linearisation at a fit."""
+def linearised(fit: Fit, trees: bool = True) -> Linear:
+    """The linearisation at a fit; trees: as of just_taut."""
     free, closed = fit.free, fit.closed
     chords = np.array([k for k, row in enumerate(free.rows) if row[0] == PARAMETER["length"]], np.int64)
     of = np.array([free.rows[k][1] for k in chords], np.int64)
     z = fit.z.copy()
     at = _settled(free, z, np.array(closed.node_position), closed, EXACT)
     if len(of):
-        taut, places = just_taut(at)
+        taut, places = just_taut(at, trees)
         z[chords] = (taut[of] - free.start[chords]) / free.deviation[chords]
         at = _settled(free, z, places, closed, LINEARISED)
     x = np.array(at.node_position)
@@ -202,12 +204,17 @@ def _normal(fit: Fit) -> Linear:
 def linear_posterior(fit: Fit) -> Linear:
     """The linearisation at a fit with its errors at CLOSED valves and those of its gradient at as many. At a fit
     that is about to snap, where the linearisation fails, that of the normal posterior."""
-    try:
-        linear = linearised(fit)
-    except (DivergedError, StateError):
-        linear = _normal(fit)
     random = np.random.default_rng(0)
-    drawn = _chain(fit, linear, CLOSED, random, PILOT)
+    for make in (linearised, lambda fit: linearised(fit, trees=False), _normal):
+        try:
+            linear = make(fit)
+        except (DivergedError, StateError):
+            continue
+        drawn = _chain(fit, linear, CLOSED, random, PILOT)
+        # a complementarity problem with several solutions stops the chain: the valve is about to snap where
+        # these chordae pull
+        if _moves(drawn):
+            break
     errors = _errors(fit, linear, drawn)
     if len(errors) < 2:
         return linear
@@ -221,9 +228,14 @@ def linear_posterior(fit: Fit) -> Linear:
     for share in (1, 0.5, 0.25, 0.125):
         tilted = dataclasses.replace(linear, tilt=share * tilt)
         drawn = _chain(fit, tilted, MOVES, random, PILOT)
-        if len(np.unique(drawn[:, 0])) >= MOVES / 2:
+        if _moves(drawn):
             return dataclasses.replace(tilted, first=drawn[-1])
     return linear
+
+
+def _moves(drawn: Array) -> bool:
+    """Whether a chain is not stopped: MOVING of its draws differ."""
+    return len(np.unique(drawn[:, 0])) >= MOVING * len(drawn)
 
 
 def draw(fit: Fit, count: int, seed: int, thin: int = 6) -> Array:

@@ -25,8 +25,9 @@ POWER = 6
 SWEEPS = 40
 
 
-def just_taut(closed: _core.Snapshot) -> tuple[Array, Array]:
-    """Rest lengths (c,) of all chordae, those of taut ones as they are, and positions (n, 3) of all nodes."""
+def just_taut(closed: _core.Snapshot, trees: bool = True) -> tuple[Array, Array]:
+    """Rest lengths (c,) of all chordae, those of taut ones as they are, and positions (n, 3) of all nodes.
+    trees: False: chordae of branch points that hang slack stay slack."""
     x = np.array(closed.node_position)
     ends = np.array(closed.chord_nodes, np.int64)
     rest = np.array(closed.chord_rest_length)
@@ -34,7 +35,9 @@ def just_taut(closed: _core.Snapshot) -> tuple[Array, Array]:
     strain = np.full(len(rest), STRAIN)
     idle = _idle_nodes(closed, ends, slack)
     at = idle[ends].any(axis=1)
-    if at.any():
+    if at.any() and not trees:
+        slack = slack & ~at
+    elif at.any():
         pull = _balanced(x, ends[at], rest[at], idle)
         stretched = pull / (np.array(closed.chord_young) * np.array(closed.chord_area))[at]
         # a tenth of it at least, which the solution above rounding needs
