@@ -54,7 +54,8 @@ void EquilibriumTangent::factorise() {
   factor_->analyse(free_.matrix);
   if (factor_->factorise(free_.matrix)) return;
   BlockMatrix shifted = free_.matrix;
-  for (shift_ = set::first_shift;; shift_ *= set::shift_growth) {
+  shift_ = set::first_shift;
+  while (true) {
     MVS_MUST(shift_ < set::most_shift, MVS_E_DIVERGED, "sensitivity",
              "the stiffness matrix is not finite; check the materials");
     for (uint32_t c = 0; c < shifted.size(); ++c) {
@@ -63,6 +64,7 @@ void EquilibriumTangent::factorise() {
       diagonal.diagonal().array() += shift_;
     }
     if (factor_->factorise(shifted)) return;
+    shift_ *= set::shift_growth;
   }
 }
 
