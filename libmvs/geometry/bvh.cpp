@@ -55,6 +55,12 @@ BvhTopology::BvhTopology(const std::vector<Vec3> &x, const std::vector<Tri> &tri
   leaf_start.push_back(static_cast<uint32_t>(order.size()));
 }
 
+Aabb aabb_of(std::span<const Vec3> points) {
+  Aabb box;
+  for (const Vec3 &p : points) box.add(p);
+  return box;
+}
+
 Aabb aabb_of(const std::vector<Vec3> &x, const Tri &triangle) {
   Aabb box;
   for (const uint32_t node : triangle) box.add(x[node]);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -170,6 +171,7 @@ class Bvh {
 struct Aabb {
   Vec3 low = Vec3::Constant(1e300), high = Vec3::Constant(-1e300);
 
+  double longest_side() const { return (high - low).maxCoeff(); }
   void add(const Vec3 &p) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
@@ -199,6 +201,7 @@ struct Aabb {
   }
 };
 
+Aabb aabb_of(std::span<const Vec3> points);
 Aabb aabb_of(const std::vector<Vec3> &x, const Tri &triangle);
 
 // The triangles of a surface at rest, with their boxes.

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/hull_pair.h"
+
 namespace mvs::core {
 namespace {
 
@@ -17,16 +19,12 @@ constexpr double least_progress = 1e-15;
 // A triangle of relative height below this is a segment.
 constexpr double flat = 1e-12;
 
-// A corner of the difference of two hulls: a[i] - b[j].
-struct Corner {
-  Vec3 at;
-  uint32_t i, j;
-};
-
 // Up to four corners, and the point of their hull closest to the origin.
 struct Simplex {
-  std::array<Corner, 4> corner;
+  std::array<HullPair, 4> corner;
   uint32_t count = 0;
+
+  bool has(uint32_t i, uint32_t j) const { return has_pair(std::span(corner).first(count), i, j); }
 };
 
 struct Nearest {
@@ -98,26 +96,6 @@ void reduce(Simplex &s, const Nearest &nearest) {
   s = kept;
 }
 
-uint32_t lowest(std::span<const Vec3> points, const Vec3 &n) {
-  uint32_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (uint32_t k = 0; k < points.size(); ++k) {
-    const double along = n.dot(points[k]);
-    if (along < least) {
-      least = along;
-      best = k;
-    }
-  }
-  return best;
-}
-
-bool has(const Simplex &s, uint32_t i, uint32_t j) {
-  for (uint32_t k = 0; k < s.count; ++k) {
-    if (s.corner[k].i == i && s.corner[k].j == j) return true;
-  }
-  return false;
-}
-
 ConvexDistance result_of(const Simplex &s, const Nearest &nearest) {
   ConvexDistance found;
   found.count = nearest.count;
@@ -135,16 +113,15 @@ ConvexDistance result_of(const Simplex &s, const Nearest &nearest) {
 
 ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b, double cutoff,
                                const HullEdges *edges) {
-  const bool walks = edges && !edges->empty();
   Simplex s;
-  uint32_t i = walks ? edges->first : 0;
+  uint32_t i = edges && !edges->empty() ? edges->first : 0;
   s.corner[s.count++] = {a[i] - b[0], i, 0};
   Nearest nearest = nearest_of_point(s, 0);
   bool are_apart = false;  // a plane has been found between the hulls
   for (int turn = 0; turn < most_turns; ++turn) {
     if (nearest.distance2 == 0) return {};
-    i = walks ? lowest_corner(*edges, a, nearest.at, i) : lowest(a, nearest.at);
-    const uint32_t j = lowest(b, -nearest.at);
+    i = lowest_corner(edges, a, nearest.at, i);
+    const uint32_t j = lowest_point(b, -nearest.at);
     const Vec3 corner = a[i] - b[j];
     const double along = nearest.at.dot(corner);
     are_apart = are_apart || along > 0;
@@ -155,7 +132,7 @@ ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b,
       found.is_beyond = true;
       return found;
     }
-    if (nearest.distance2 - along <= least_progress * nearest.distance2 || has(s, i, j)) break;
+    if (nearest.distance2 - along <= least_progress * nearest.distance2 || s.has(i, j)) break;
     Simplex next = s;
     next.corner[next.count++] = {corner, i, j};
     // rounding may put the origin into a flat tetrahedron, but not past a plane
@@ -177,11 +154,11 @@ bool are_apart(std::span<const Vec3> a, std::span<const Vec3> b, double margin, 
   Nearest nearest;  // so far only a direction
   nearest.at = guess;
   for (int turn = 0; turn < most_turns; ++turn) {
-    const uint32_t i = lowest(a, nearest.at), j = lowest(b, -nearest.at);
+    const uint32_t i = lowest_point(a, nearest.at), j = lowest_point(b, -nearest.at);
     const Vec3 corner = a[i] - b[j];
     const double along = nearest.at.dot(corner);
     if (along > 0 && along * along > margin2 * nearest.at.squaredNorm()) return true;
-    if (has(s, i, j)) return false;
+    if (s.has(i, j)) return false;
     s.corner[s.count++] = {corner, i, j};
     const Nearest closer = nearest_of(s);
     if (!(closer.distance2 < nearest.distance2) || closer.distance2 <= margin2) return false;

@@ -24,8 +24,8 @@ struct ConvexDistance {
                               // `apart` hold then, and are of a pair of points, not the closest
 };
 
-// Stops as soon as a plane shows that the hulls are farther apart than `cutoff`. `edges` of the
-// hull of a, not null nor empty, save looking at all of its points.
+// Stops as soon as a plane shows that the hulls are farther apart than `cutoff`. `edges`: of the
+// hull of a (lowest_corner()).
 ConvexDistance convex_distance(std::span<const Vec3> a, std::span<const Vec3> b, double cutoff,
                                const HullEdges *edges = nullptr);
 

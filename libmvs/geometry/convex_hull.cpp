@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -26,7 +27,7 @@ uint32_t farthest_by(const std::vector<Vec3> &points, Measure measure) {
   return best;
 }
 
-// Four points far from one plane, positively oriented; null if there are none.
+// Returns four points far from one plane, positively oriented; null if all lie in one plane.
 std::optional<std::array<uint32_t, 4>> first_tetrahedron(const std::vector<Vec3> &p,
                                                          double thinnest) {
   if (p.size() < 4) return {};
@@ -104,17 +105,31 @@ HullEdges hull_edges(const std::vector<Tri> &faces, size_t points) {
   return edges;
 }
 
-uint32_t lowest_corner(const HullEdges &edges, std::span<const Vec3> points, const Vec3 &n,
+uint32_t lowest_point(std::span<const Vec3> points, const Vec3 &n) {
+  uint32_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (uint32_t k = 0; k < points.size(); ++k) {
+    const double along = n.dot(points[k]);
+    if (along < least) {
+      least = along;
+      best = k;
+    }
+  }
+  return best;
+}
+
+uint32_t lowest_corner(const HullEdges *edges, std::span<const Vec3> points, const Vec3 &n,
                        uint32_t from) {
+  if (!edges || edges->empty()) return lowest_point(points, n);
   uint32_t best = from;
   double least = n.dot(points[from]);
   for (;;) {
     const uint32_t at = best;
-    for (uint32_t e = edges.start[at]; e < edges.start[at + 1]; ++e) {
-      const double along = n.dot(points[edges.to[e]]);
+    for (uint32_t e = edges->start[at]; e < edges->start[at + 1]; ++e) {
+      const double along = n.dot(points[edges->to[e]]);
       if (along < least) {
         least = along;
-        best = edges.to[e];
+        best = edges->to[e];
       }
     }
     if (best == at) return best;

@@ -25,9 +25,13 @@ struct HullEdges {
 // `points`: their number; those on no face have no neighbours.
 HullEdges hull_edges(const std::vector<Tri> &faces, size_t points);
 
-// Returns the point that is lowest along n, found by descent from corner to corner from the corner
-// `from` on: on a convex surface, no neighbour is lower than the lowest one only.
-uint32_t lowest_corner(const HullEdges &edges, std::span<const Vec3> points, const Vec3 &n,
+// Returns the first of the points that are lowest along n.
+uint32_t lowest_point(std::span<const Vec3> points, const Vec3 &n);
+
+// Returns a corner that is lowest along n, found by descent from the corner `from` on, from
+// neighbour to neighbour: a hull has no other minimum. Looks at all points if `edges` is null or
+// empty.
+uint32_t lowest_corner(const HullEdges *edges, std::span<const Vec3> points, const Vec3 &n,
                        uint32_t from);
 
 // Returns the hull of points; empty if all of them lie within `thinnest` times their extent of one

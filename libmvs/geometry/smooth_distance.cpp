@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/hull_pair.h"
+
 namespace mvs::core {
 namespace {
 
@@ -18,16 +20,11 @@ constexpr int most_corners_tried = 64, most_rounds = 40;
 // Shares of a square and of a weight that are rounding.
 constexpr double least_decrease = 1e-15, least_change = 1e-11, dependent = 1e-11;
 
-struct PairCorner {
-  Vec3 at;  // a[i] - b[j]
-  uint32_t i, j;
-};
-
 // The minimum of |sum theta_k at_k|^2 + c |coordinates|^2 over the corners met so far.
 class LeastSquares {
  public:
   LeastSquares(std::span<const Vec3> hull, std::span<const Vec3> part, const HullEdges *edges)
-      : hull_(hull), part_(part), edges_(edges && !edges->empty() ? edges : nullptr) {}
+      : hull_(hull), part_(part), edges_(edges) {}
 
   void start(const ConvexDistance &found) {
     for (uint32_t k = 0; k < found.count; ++k) {
@@ -41,10 +38,13 @@ class LeastSquares {
     c_ = c;
     settle();
     for (int turn = 0; turn < most_corners_tried && count_ < most; ++turn) {
-      const PairCorner next = lowest();
+      const HullPair next = lowest();
       const double square = apart.squaredNorm() + c_ * squared();
       const double along = apart.dot(next.at) + c_ * place[next.j];
-      if (square - along <= least_decrease * square || has(next)) return;
+      if (square - along <= least_decrease * square ||
+          has_pair(std::span(corner_).first(count_), next.i, next.j)) {
+        return;
+      }
       const LeastSquares kept = *this;
       corner_[count_] = next;
       theta_[count_++] = 0;
@@ -69,22 +69,15 @@ class LeastSquares {
   std::array<double, 3> place{};  // coordinates on the part
 
  private:
-  PairCorner make(uint32_t i, uint32_t j) const { return {hull_[i] - part_[j], i, j}; }
+  HullPair make(uint32_t i, uint32_t j) const { return {hull_[i] - part_[j], i, j}; }
   void restore(const LeastSquares &kept) {
     corner_ = kept.corner_;
     theta_ = kept.theta_;
     count_ = kept.count_;
     measure();
   }
-  bool has(const PairCorner &c) const {
-    for (uint32_t k = 0; k < count_; ++k) {
-      if (corner_[k].i == c.i && corner_[k].j == c.j) return true;
-    }
-    return false;
-  }
-  PairCorner lowest() const {
-    const uint32_t i =
-        edges_ ? lowest_corner(*edges_, hull_, apart, corner_[0].i) : lowest_of_all();
+  HullPair lowest() const {
+    const uint32_t i = lowest_corner(edges_, hull_, apart, corner_[0].i);
     uint32_t j = 0;
     double low = c_ * place[0] - apart.dot(part_[0]);
     for (uint32_t k = 1; k < part_.size(); ++k) {
@@ -92,17 +85,6 @@ class LeastSquares {
       if (along < low) low = along, j = k;
     }
     return make(i, j);
-  }
-  uint32_t lowest_of_all() const {
-    uint32_t i = 0;
-    double low = apart.dot(hull_[0]);
-    for (uint32_t k = 1; k < hull_.size(); ++k) {
-      const double along = apart.dot(hull_[k]);
-      if (along >= low) continue;
-      low = along;
-      i = k;
-    }
-    return i;
   }
   void measure() {
     apart.setZero();
@@ -147,12 +129,12 @@ class LeastSquares {
     const uint32_t n = count_ - 1;
     std::array<std::array<double, most>, most> a;
     std::array<double, most> rhs;
-    const PairCorner &base = corner_[0];
+    const HullPair &base = corner_[0];
     for (uint32_t r = 0; r < n; ++r) {
-      const PairCorner &cr = corner_[r + 1];
+      const HullPair &cr = corner_[r + 1];
       const Vec3 dr = cr.at - base.at;
       for (uint32_t s = 0; s <= r; ++s) {
-        const PairCorner &cs = corner_[s + 1];
+        const HullPair &cs = corner_[s + 1];
         a[r][s] = dr.dot(cs.at - base.at) +
                   c_ * ((cr.j == cs.j) - (cr.j == base.j) - (cs.j == base.j) + 1.0);
       }
@@ -188,8 +170,8 @@ class LeastSquares {
   }
 
   std::span<const Vec3> hull_, part_;
-  const HullEdges *edges_;  // null: all points are looked at
-  std::array<PairCorner, most> corner_;
+  const HullEdges *edges_;  // nullable
+  std::array<HullPair, most> corner_;
   std::array<double, most> theta_{};
   uint32_t count_ = 0;
   double c_ = 0;

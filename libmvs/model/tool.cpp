@@ -69,8 +69,7 @@ struct NearestTissue {
   void take(std::span<const Vec3> body, const Aabb &box, std::span<const Vec3> part,
             double radius) {
     const double cutoff = std::max(0.0, gap + radius);
-    Aabb of_part;
-    for (const Vec3 &p : part) of_part.add(p);
+    const Aabb of_part = aabb_of(part);
     if (((of_part.low - box.high).array() > cutoff).any()) return;
     if (((box.low - of_part.high).array() > cutoff).any()) return;
     const ConvexDistance found = convex_distance(body, part, cutoff);
@@ -86,8 +85,7 @@ Room room_of_convex(const Model &model, const std::vector<Vec3> &x, const Tool &
   for (size_t b = 0; b < tool.shape->bodies().size(); ++b) {
     place_body(*tool.shape, b, tool.proxy, body);
     const double radius = tool.shape->bodies()[b].radius;
-    Aabb box;
-    for (const Vec3 &v : body) box.add(v);
+    const Aabb box = aabb_of(body);
     for (const Tri &t : model.valve.triangles) {
       const std::array<Vec3, 3> part = {x[t[0]], x[t[1]], x[t[2]]};
       nearest.take(body, box, part, radius);

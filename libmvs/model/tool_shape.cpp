@@ -35,12 +35,6 @@ bool have_same_bits(const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
 // shorter by up to the square root of 3.
 constexpr double least_side = 0.5e-4;
 
-double longest_side(const std::vector<Vec3> &vertices) {
-  Aabb box;
-  for (const Vec3 &v : vertices) box.add(v);
-  return (box.high - box.low).maxCoeff();
-}
-
 bool is_within_extent(const Vec3 &v) {
   return (v.cwiseAbs().array() <= most_body_extent).all();
 }
@@ -95,7 +89,7 @@ bool are_valid(const std::vector<ToolBody> &bodies) {
                          body.radius >= 0 && body.radius <= most_body_radius && !vertices.empty() &&
                          count <= most_tool_vertices;
     if (!is_body || !std::all_of(vertices.begin(), vertices.end(), is_within_extent)) return false;
-    if (vertices.size() > 1 && longest_side(vertices) < least_side) return false;
+    if (vertices.size() > 1 && aabb_of(vertices).longest_side() < least_side) return false;
   }
   return !bodies.empty() && bodies.size() <= most_tool_bodies;
 }

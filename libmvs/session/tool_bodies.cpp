@@ -117,9 +117,7 @@ std::vector<Vec3> BodyReader::hull() const {
            "%s is a hull whose vertices lie in one plane or coincide: it has no volume; use a box, "
            "or give it a thickness",
            name.c_str());
-  Aabb box_of_all;
-  for (const Vec3 &v : points) box_of_all.add(v);
-  const double extent = (box_of_all.high - box_of_all.low).maxCoeff();
+  const double extent = aabb_of(points).longest_side();
   MVS_MUST(extent >= least_size, MVS_E_ARGUMENT, name.c_str(),
            "%s is a hull whose vertices lie within %g m of each other along every axis: a body is "
            "at least %g m long, so that tissue can feel its shape; check the unit, which is m, or "

@@ -177,7 +177,7 @@ TEST_CASE("descent_finds_the_lowest_corner_and_the_same_distances") {
       const Vec3 along = random.vector(1);
       double least = everywhere;
       for (const Vec3 &p : points) least = std::min(least, along.dot(p));
-      CHECK(along.dot(points[lowest_corner(edges, points, along, edges.first)]) == least);
+      CHECK(along.dot(points[lowest_corner(&edges, points, along, edges.first)]) == least);
       Positions part = random.vectors(3, 2e-3);
       for (Vec3 &p : part) p += 5e-3 * along;
       const double cutoff = random(1e-3, 8e-3);

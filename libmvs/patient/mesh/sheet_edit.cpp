@@ -27,12 +27,6 @@ constexpr double fine_cosine = 0.8192;
 // The gain in cosine of a move for the least angle: 0.01 degrees.
 constexpr double least_gain = 1e-4;
 
-Aabb box_of_sheet(const std::vector<Vec3> &x) {
-  Aabb box;
-  for (const Vec3 &p : x) box.add(p);
-  return box;
-}
-
 }  // namespace
 
 double worst_cosine(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
@@ -51,7 +45,7 @@ double worst_cosine(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
 }
 
 SheetEditor::SheetEditor(const InputSheet &input, SheetMesh &mesh, double edge)
-    : input_(input), mesh_(mesh), grid_(box_of_sheet(mesh.x), 1.5 * edge), edge_(edge) {
+    : input_(input), mesh_(mesh), grid_(aabb_of(mesh.x), 1.5 * edge), edge_(edge) {
   for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     grid_.insert(t, aabb_of(mesh.x, mesh.triangles[t]));
   }
