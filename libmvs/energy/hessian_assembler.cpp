@@ -32,31 +32,28 @@ void HessianAssembler::set_pattern(const Model &model, const std::vector<Edge> &
   place_always();
 }
 
-// Sorts the fixed pairs and finds the place of each in the sorted list, row by row with the places
-// of the columns of one row at hand; valid while rows keep their order.
+// Sorts the fixed pairs and finds the place of each in the sorted list, column by column with the
+// places of its rows at hand; valid while rows keep their order.
 void HessianAssembler::find_always(const std::vector<Edge> &pairs) {
   take_rows(pairs);
   always_ = rows_;
   const size_t n = node_of.size();
-  std::vector<Edge> given(pairs.size(), {none, none});  // as rows, the smaller one first
-  std::vector<uint32_t> start(n + 1, 0), of_column(n, none);
-  for (size_t k = 0; k < pairs.size(); ++k) {
-    const uint32_t r = row_of[pairs[k][0]], c = row_of[pairs[k][1]];
-    if (r == none || c == none) continue;
-    given[k] = {std::min(r, c), std::max(r, c)};
-    ++start[given[k][0] + 1];
-  }
-  for (size_t r = 0; r < n; ++r) start[r + 1] += start[r];
-  std::vector<uint32_t> of_row(start[n]), next(start.begin(), start.end() - 1);
-  for (uint32_t k = 0; k < pairs.size(); ++k) {
-    if (given[k][0] != none) of_row[next[given[k][0]]++] = k;
-  }
-  always_of_.assign(pairs.size(), none);
-  for (uint32_t r = 0, i = 0; r < n; ++r) {
-    for (; i < always_.size() && always_[i][0] == r; ++i) of_column[always_[i][1]] = i;
-    for (uint32_t j = start[r]; j < start[r + 1]; ++j) {
-      always_of_[of_row[j]] = of_column[given[of_row[j]][1]];
+  // the column of its block, which is the smaller index, and the row
+  const auto block_of = [&](const Edge &pair) -> Edge {
+    const auto [c, r] = std::minmax(row_of[pair[0]], row_of[pair[1]]);
+    return {c, r};
+  };
+  const Rows of_column = build_rows(n, [&](auto visit) {
+    for (uint32_t k = 0; k < pairs.size(); ++k) {
+      const Edge block = block_of(pairs[k]);
+      if (block[1] != none) visit(block[0], k);
     }
+  });
+  std::vector<uint32_t> of_row(n, none);
+  always_of_.assign(pairs.size(), none);
+  for (uint32_t c = 0, i = 0; c < n; ++c) {
+    for (; i < always_.size() && always_[i][0] == c; ++i) of_row[always_[i][1]] = i;
+    for (const uint32_t k : of_column[c]) always_of_[k] = of_row[block_of(pairs[k])[1]];
   }
 }
 
@@ -184,7 +181,7 @@ void HessianPart::couple(uint32_t i, uint32_t j, const Mat3 &block) const {
   if (c != none && part_.has(j)) system_->boundary_force[c] -= block.transpose() * step[i];
 }
 
-// Blocks of other parts go to a place that nobody reads.
+// Blocks of other parts are written to `aside`, which is not read.
 void HessianPart::add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes,
                                     const Slope &slope, double times) {
   OuterProductTarget to;

@@ -64,18 +64,12 @@ bool EnergyLineSearch::search_shorter_step(const StepStart &start, ProposedStep 
   double share = longest_share(step.rows);
   for (int k = 0; k < set::quarterings && work.left >= set::reserved_passes; ++k) {
     share *= 0.25;
-    if (try_rows(step.rows, share, start, step, work) <= 0) return true;
+    scatter_step(step.matrix, step.rows, step.boundary, step.displacement, share);
+    total_energy_->limit_step(start.x, step.slack, step.displacement, work.stats.work);
+    if (try_share(1, start, step, work) <= 0) return true;
   }
   // the last trial hardly differs from the step of the boundary alone
   return step.boundary.moves;
-}
-
-// Sets the trial at a share of rows that is limited afterwards; returns what try_share() does.
-double EnergyLineSearch::try_rows(const std::vector<Vec3> &rows, double share,
-                                  const StepStart &start, ProposedStep &step, StepWork &work) {
-  scatter_step(step.matrix, rows, step.boundary, step.displacement, share);
-  total_energy_->limit_step(start.x, step.slack, step.displacement, work.stats.work);
-  return try_share(1, start, step, work);
 }
 
 // Sets the trial at a share of the step and returns the energy that it makes beyond rounding and

@@ -34,8 +34,6 @@ class EnergyLineSearch {
 
  private:
   bool search_shorter_step(const StepStart &start, ProposedStep &step, StepWork &work);
-  double try_rows(const std::vector<Vec3> &rows, double share, const StepStart &start,
-                  ProposedStep &step, StepWork &work);
   double try_share(double share, const StepStart &start, const ProposedStep &step, StepWork &work);
   void place(double share, const StepStart &start, const ProposedStep &step, double dt);
   double boundary_energy(const StepStart &start, const BoundaryStep &boundary, SolveStats &stats);
