@@ -42,13 +42,17 @@ Json rows_json(const SensitivityTable &table, const std::vector<size_t> &order) 
   return rows;
 }
 
-// The derivative; of a falling and of a growing parameter where the shown digits differ, as
-// "-4.9/-5.1".
+// The derivatives of a falling and of a growing parameter, as "-4.9/-5.1"; empty where they agree
+// in all shown digits or are not known.
+std::string both_sides(const SensitivityTable &table, size_t at) {
+  const std::string below = text("%.3g", table.below[at]), above = text("%.3g", table.above[at]);
+  return below == above || std::isnan(table.below[at]) ? std::string() : below + "/" + above;
+}
+
 std::string cell(const SensitivityTable &table, size_t q, size_t p) {
   const size_t at = table.index(q, p);
-  const std::string below = text("%.3g", table.below[at]), above = text("%.3g", table.above[at]);
-  if (below == above || std::isnan(table.below[at])) return text("%.4g", table.derivative[at]);
-  return below + "/" + above;
+  const std::string sides = both_sides(table, at);
+  return sides.empty() ? text("%.4g", table.derivative[at]) : sides;
 }
 
 // A switch whose two sides agree in all shown digits is not noted.
@@ -57,8 +61,8 @@ mvs_sensitivity_notes shown_notes(const SensitivityTable &table, size_t p) {
                                              MVS_SENSITIVITY_NOTE_CONTACT |
                                              MVS_SENSITIVITY_NOTE_KINK | MVS_SENSITIVITY_NOTE_SIDES;
   for (size_t q = 0; q < table.quantities.size(); ++q) {
-    if (std::isnan(table.below[table.index(q, p)]) ||
-        cell(table, q, p).find('/') != std::string::npos) {
+    const size_t at = table.index(q, p);
+    if (std::isnan(table.below[at]) || !both_sides(table, at).empty()) {
       return table.parameter_notes[p];
     }
   }

@@ -25,8 +25,8 @@ struct AskedParameters {
 struct SensitivityTable {
   std::vector<AskedQuantity> quantities;
   AskedParameters parameters;
-  // In shown units; a row a quantity. `above`, `below`: for a growing and a falling parameter, NaN
-  // where more places are about to switch than are told apart.
+  // In shown units; a row a quantity. `above`, `below`: for a growing and a falling parameter; NaN
+  // where more than 64 places are about to switch.
   std::vector<double> value, derivative, above, below;
   std::vector<mvs_sensitivity_notes> quantity_notes, parameter_notes;
   mvs_sensitivity_summary summary;
