@@ -32,6 +32,8 @@ PARAMETER = {
     "scallop_constant": 6, "thickness": 7, "prestrain": 8, "pressure": 9, "node": 10, "head": 11,
     "annulus_scale": 12, "mode": 13, "site": 14,
 }
+MOTION, NO_TEST = 1, 4 | 8
+"""Flags of mvs_sensitivity_options: also dx/dp; neither a test of both sides nor the margin."""
 SHOWN = {"m": (1e3, "mm"), "m2": (1e6, "mm2"), "m3": (1e6, "ml"), "N": (1.0, "N"), "Pa": (1e-3, "kPa")}
 """Scale and unit that pictures show."""
 NOTES = {
@@ -169,7 +171,7 @@ def sensitivity(
     """
     rows = _listed(of, lambda item: quantities(self, item))
     columns = _listed(to, lambda item: parameters(self, item))
-    flags = (1 if motion else 0) | (0 if test else 4 | 8)
+    flags = (MOTION if motion else 0) | (0 if test else NO_TEST)
     found = self._sensitivity([r[2] for r in rows], [c[2] for c in columns], flags, slack)
     moved = found.pop("motion")
     nodes = len(self.node_position)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from .. import _core
 from ..errors import ArgumentError, DivergedError, StateError
+from ..sensitivities import MOTION, NO_TEST
 from .quiet import quiet
 from .parameters import Free, Prior, free_parameters
 from .result import Fit, Start, Trace
@@ -93,7 +94,7 @@ class Problem:
         nodes, directions = self.target.residuals(np.array(closed.node_position))[1:]
         try:
             found = closed._sensitivity([(2, 0, 0, None, None, np.zeros((len(closed.node_position), 3)))],
-                                        list(self.free.rows), 1 | 4 | 8, None)
+                                        list(self.free.rows), MOTION | NO_TEST, None)
         except (DivergedError, StateError):
             if self.derivatives is None:
                 raise

@@ -35,11 +35,14 @@ from numpy.typing import NDArray
 
 from .. import _core
 from ..errors import DivergedError, StateError
-from ..sensitivities import PARAMETER, QUANTITY
+from ..sensitivities import MOTION, NO_TEST, PARAMETER, QUANTITY
 from .quiet import quiet
 from .taut import just_taut
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from .fit import Problem
     from .parameters import Free
     from .result import Fit
 
@@ -63,6 +66,7 @@ CLOSED = 30
 PILOT = 3
 """Trajectories from one of these draws to the next."""
 OUTLIER = 2.0
+"""Difference of gradients, of their median, from which on it counts as that many: of a valve near another fold."""
 MOVES = 12
 """Draws that try a tilted posterior; if they do not move, half of the tilt is taken: it may move the mean beyond
 the bounds."""
@@ -174,7 +178,7 @@ def linearised(fit: Fit, trees: bool = True) -> Linear:
     residual, nodes, directions = fit.target.residuals(x)
     quantities = [(QUANTITY["tension"], int(c), 0, None, None, None) for c in of]
     quantities = quantities or [(QUANTITY["linear"], 0, 0, None, None, np.zeros_like(x))]
-    found = at._sensitivity(quantities, list(free.rows), 1 | 4 | 8, None)
+    found = at._sensitivity(quantities, list(free.rows), MOTION | NO_TEST, None)
     motion = found["motion"].reshape(len(z), -1, 3)[:, nodes]
     jacobian = np.einsum("pki,ki->kp", motion, directions) * (free.deviation / fit.noise)
     tension, slope = np.zeros(0), np.zeros((0, len(z)))
@@ -243,36 +247,33 @@ def draw(fit: Fit, count: int, seed: int, thin: int = 6) -> Array:
     return _chain(fit, fit.posterior, count, np.random.default_rng(seed), thin)
 
 
-def _errors(fit: Fit, linear: Linear, drawn: Array) -> Array:
-    """Residuals of closed valves less the linear ones, a row a draw that comes to rest."""
+def _closures(fit: Fit, drawn: Array) -> Iterator[tuple[Array, Problem, _core.Snapshot]]:
+    """The draws that come to rest, with the problem of the fit and their closed valves."""
     from .fit import Problem
 
     problem = Problem(fit.closed, fit.free, fit.target, fit.noise, fit.with_prior, AT_REST)
-    rows = []
     for z in drawn:
         closed = problem.close(z)
         if closed is not None:
-            rows.append(problem.data(closed) - linear.residual_at(z))
-    return np.array(rows)
+            yield z, problem, closed
+
+
+def _errors(fit: Fit, linear: Linear, drawn: Array) -> Array:
+    """Residuals of closed valves less the linear ones, a row a draw that comes to rest."""
+    return np.array([problem.data(closed) - linear.residual_at(z) for z, problem, closed in _closures(fit, drawn)])
 
 
 def _gradients(fit: Fit, linear: Linear, drawn: Array) -> Array:
     """Gradients of minus the logarithm of the posterior at closed valves, by one adjoint solution each, less
     those of its linearisation: a row a draw that comes to rest and is not about to snap."""
-    from .fit import Problem
-
-    problem = Problem(fit.closed, fit.free, fit.target, fit.noise, fit.with_prior, AT_REST)
     rows = []
-    for z in drawn:
-        closed = problem.close(z)
-        if closed is None:
-            continue
+    for z, _, closed in _closures(fit, drawn):
         residual, nodes, directions = fit.target.residuals(np.array(closed.node_position))
         weights = np.zeros((len(closed.node_position), 3))
         np.add.at(weights, nodes, (residual / fit.noise**2)[:, None] * directions)
         linear_part = (QUANTITY["linear"], 0, 0, None, None, weights)
         try:
-            found = closed._sensitivity([linear_part], list(fit.free.rows), 4 | 8, None)
+            found = closed._sensitivity([linear_part], list(fit.free.rows), NO_TEST, None)
         except (DivergedError, StateError):
             continue
         exact = z + np.asarray(found["derivative"][0]) * fit.free.deviation

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .. import _core
 from ..errors import ArgumentError
-from ..sensitivities import SHORT
+from ..sensitivities import NO_TEST, SHORT
 from ..tables import Table
 from ..values import Measures, unit_of
 from .parameters import Free
@@ -162,7 +162,7 @@ class Fit:
         if not 0 < level < 1:
             raise ArgumentError(f"level: a number between 0 and 1 is needed, not {level}", "level")
         name = SHORT.get(of, of)
-        found = self.closed._sensitivity([(8, 0, 0, name, None, None)], list(self.free.rows), 4 | 8, None)
+        found = self.closed._sensitivity([(8, 0, 0, name, None, None)], list(self.free.rows), NO_TEST, None)
         value = float(found["value"][0])
         slope = np.asarray(found["derivative"][0]) * self.free.deviation
         deviation = float(np.sqrt(max(slope @ self.covariance_z @ slope, 0)))
