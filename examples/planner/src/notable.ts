@@ -15,11 +15,16 @@ export function chordValue(map: 'load' | 'pull' | 'strain', chord: Chord): numbe
   return map === 'pull' ? 1000 * chord.tension : 100 * chord.strain;
 }
 
+/** The working limit of a chord in the same unit; infinite for stitches. */
+export function chordLimit(map: 'pull' | 'strain', chord: Chord): number {
+  return map === 'pull' ? 1000 * chord.tensionLimit : 100 * chord.strainLimit;
+}
+
 /** Kinds of chordae by their limit in a colour map, the limit of most chordae first; stitches have none. */
 export function limitsOf(map: 'pull' | 'strain', chords: Chord[]): { limit: number; kinds: number[] }[] {
   const found = new Map<number, { count: number; kinds: Set<number> }>();
   for (const chord of chords) {
-    const limit = map === 'pull' ? 1000 * chord.tensionLimit : 100 * chord.strainLimit;
+    const limit = chordLimit(map, chord);
     if (!Number.isFinite(limit)) continue;
     const one = found.get(limit) ?? { count: 0, kinds: new Set() };
     found.set(limit, one);

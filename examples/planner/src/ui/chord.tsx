@@ -1,5 +1,5 @@
 // The card of a chosen chord, with its figures, also in a form that changes it.
-import { percentOfLimit, shareOfLimit } from '../notable';
+import { chordLimit, chordValue, percentOfLimit, shareOfLimit } from '../notable';
 import { figure, kinds, repairTexts, verdictTexts } from '../text/texts';
 import type { Chord } from '../protocol';
 
@@ -12,15 +12,15 @@ const facts: [string, (chord: Chord) => string, string, ((chord: Chord) => strin
   [repairTexts.rest, (chord) => figure(chord.rest), 'mm'],
   [
     repairTexts.pull,
-    (chord) => figure(1000 * chord.tension, 0),
+    (chord) => figure(chordValue('pull', chord), 0),
     'mN',
-    (chord) => limitIn(1000 * chord.tensionLimit, 'mN', 0),
+    (chord) => limitIn(chordLimit('pull', chord), 'mN', 0),
   ],
   [
     repairTexts.stretch,
-    (chord) => (chord.strain > 0 ? figure(100 * chord.strain) : repairTexts.slack),
+    (chord) => (chord.strain > 0 ? figure(chordValue('strain', chord)) : repairTexts.slack),
     '%',
-    (chord) => limitIn(100 * chord.strainLimit, '%', 1),
+    (chord) => limitIn(chordLimit('strain', chord), '%', 1),
   ],
   [repairTexts.limit, (chord) => String(percentOfLimit(shareOfLimit(chord))), '%'],
 ];

@@ -2,7 +2,7 @@
 import * as state from '../store/state';
 import { figure, kinds, tableTexts } from '../text/texts';
 import type { Figures } from '../protocol';
-import { percentOfLimit, shareOfLimit, suture } from '../notable';
+import { chordValue, percentOfLimit, shareOfLimit, suture } from '../notable';
 import { Section } from './parts';
 
 export function Scallops({ figures }: { figures: Figures }) {
@@ -84,7 +84,7 @@ export function Chordae({ figures }: { figures: Figures }) {
                     <small>{kinds[chord.kind]}</small>
                   </th>
                   <td>{chord.strain <= 0 ? tableTexts.slack : `${percentOfLimit(share)} %`}</td>
-                  <td>{figure(1000 * chord.tension, 0)}</td>
+                  <td>{figure(chordValue('pull', chord), 0)}</td>
                   <td>{figure(chord.rest)}</td>
                 </tr>
               );
