@@ -143,13 +143,21 @@ enum mvs_solver_e {
 };
 typedef uint32_t mvs_solver;
 
+/* What a settle may leave out. The valve at its end has the same bits. */
+enum mvs_settle_flags_e {
+  /* The margins of the stable equilibrium, a tenth of the time of a settle after an operation:
+   * those of mvs_stats are 0, mvs_snapshot_get_stability computes them. */
+  MVS_SETTLE_NO_MARGINS = 1 << 0
+};
+typedef uint32_t mvs_settle_flags;
+
 /* Options of mvs_settle. */
 typedef struct mvs_settle_options {
   uint32_t struct_size;
   mvs_solver solver;       /* MVS_SOLVER_* [newton] */
   uint32_t max_iterations; /* [1000 for newton, 20000 implicit, 2000000 explicit] */
-  uint32_t reserved;
-  double residual; /* N, largest out-of-balance force on a node at rest [1e-5] */
+  mvs_settle_flags flags;  /* MVS_SETTLE_* */
+  double residual;         /* N, largest out-of-balance force on a node at rest [1e-5] */
   double dt; /* s, time step of the dynamic solvers [implicit 1e-3; explicit: stable on this valve,
                 at most 8e-6] */
   double damping; /* 1/s, mass-proportional, of the dynamic solvers [explicit 500] */
@@ -176,7 +184,8 @@ typedef struct mvs_stats {
   double energy;   /* J, total potential energy at the end */
   double kinetic;  /* J, kinetic energy at the end */
   double wall_s;   /* s, elapsed time */
-  /* Margins of mvs_stability at the equilibrium that a settle found; 0 where none was found. */
+  /* Margins of mvs_stability at the equilibrium that a settle found; 0 where none was found, and
+   * with MVS_SETTLE_NO_MARGINS. */
   double stiffness_margin; /* N/m */
   double growth_rate;      /* 1/s */
 } mvs_stats;

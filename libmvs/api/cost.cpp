@@ -50,6 +50,7 @@ SnapshotPtr open_valve(const mvs_snapshot &closed, const mvs_cost_options &optio
   Solver solver(static_cast<Backend>(options.backend));
   SolveOptions how = {};
   how.residual = options.residual;
+  how.margins = false;
   settle_with_mesh_hierarchy(solver, *closed.model, state, how, progress);
   return make_snapshot(after_settle(closed.value, load, how, std::move(state)));
 }

@@ -32,14 +32,17 @@ Load read_load(const mvs_load_case *given) {
 
 SolveOptions read_options(const mvs_settle_options *given) {
   const mvs_settle_options options = read_struct_or_default(given, "options");
-  must_be_zero(options.reserved, "options.reserved");
+  MVS_MUST((options.flags & ~MVS_SETTLE_NO_MARGINS) == 0, MVS_E_ARGUMENT, "options.flags",
+           "options.flags is %#x: it has to be 0 or MVS_SETTLE_NO_MARGINS", options.flags);
   MVS_MUST(options.solver <= MVS_SOLVER_EXPLICIT, MVS_E_ARGUMENT, "options.solver",
            "options.solver is %u: it has to be one of MVS_SOLVER_*, or 0", options.solver);
   must_be_in(options.residual, 1e-12, 1e3, "options.residual");
   must_be_in(options.dt, 1e-9, 1, "options.dt");
   must_be_in(options.damping, 1e-6, 1e6, "options.damping");
-  return {static_cast<SolverKind>(options.solver), options.max_iterations, options.residual,
-          options.dt, options.damping};
+  SolveOptions how{static_cast<SolverKind>(options.solver), options.max_iterations,
+                   options.residual, options.dt, options.damping};
+  how.margins = (options.flags & MVS_SETTLE_NO_MARGINS) == 0;
+  return how;
 }
 
 mvs_stats public_stats(const SolveStats &from) {

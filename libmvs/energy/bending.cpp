@@ -48,6 +48,10 @@ BendingTerm::BendingTerm(const Model &model) {
   }
   for (size_t h = 0; h < topology.hinges.size(); ++h) {
     const auto &node = topology.hinges[h];
+    // its energy is constant, as in the part of a valve that holds a local subproblem
+    if (std::all_of(node.begin(), node.end(), [&](uint32_t i) { return topology.fixed[i] != 0; })) {
+      continue;
+    }
     const uint32_t edge = topology.hinge_edge[h];
     double area = 0, rigidity = 0;
     for (const uint32_t t : topology.edge_triangles[edge]) {

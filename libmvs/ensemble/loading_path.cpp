@@ -64,6 +64,7 @@ class PathRun {
 
   void run(const std::vector<Stage> &stages, const SolveOptions &options, double dt) {
     SolveOptions between = options, step;
+    between.margins = false;
     between.residual = std::max(options.residual, force_between(model_, stages.back().load));
     if (options.solver <= SolverKind::newton) between.max_iterations = between_iterations;
     step.dt = dt;

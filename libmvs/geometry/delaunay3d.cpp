@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "base/types.h"
+#include "geometry/sphere_side.h"
 
 namespace mvs::core {
 namespace {
@@ -27,11 +28,8 @@ int64_t volume(const LatticePoint &a, const LatticePoint &b, const LatticePoint 
          (u[2] * v[0] - u[0] * v[2]) * w[1];
 }
 
-// Returns whether p is strictly inside the sphere through a, b, c, d, which have positive volume.
-// The determinant is evaluated in doubles first: its terms l m, with l and m exact integers, have
-// relative errors of at most 2 u from the conversion of m and the product (u = 2^-53), and the
-// three sums add at most 3 u, so that a value above 1e-15 > 6 u of the sum of magnitudes has the
-// right sign. Otherwise it is evaluated exactly.
+// Whether p is strictly inside the sphere through a, b, c, d, which have positive volume: in exact
+// integers.
 bool in_sphere(const LatticePoint &a, const LatticePoint &b, const LatticePoint &c,
                const LatticePoint &d, const LatticePoint &p) {
   const std::array<Step, 4> row = {step(p, a), step(p, b), step(p, c), step(p, d)};
@@ -42,17 +40,11 @@ bool in_sphere(const LatticePoint &a, const LatticePoint &b, const LatticePoint 
                                          row[2][2] * ad - row[0][2] * cd - row[3][2] * ac,
                                          row[0][2] * bd - row[1][2] * ad + row[3][2] * ab,
                                          row[1][2] * ac - row[0][2] * bc - row[2][2] * ab};
-  double sum = 0, magnitude = 0;
-  std::array<int64_t, 4> lift;
-  for (size_t i = 0; i < 4; ++i) {
-    lift[i] = row[i][0] * row[i][0] + row[i][1] * row[i][1] + row[i][2] * row[i][2];
-    const double term = static_cast<double>(lift[i]) * static_cast<double>(volume[i]);
-    sum += term;
-    magnitude += std::abs(term);
-  }
-  if (std::abs(sum) > 1e-15 * magnitude) return sum > 0;
   Wide exact = 0;
-  for (size_t i = 0; i < 4; ++i) exact += Wide{lift[i]} * volume[i];
+  for (size_t i = 0; i < 4; ++i) {
+    const int64_t lift = row[i][0] * row[i][0] + row[i][1] * row[i][1] + row[i][2] * row[i][2];
+    exact += Wide{lift} * volume[i];
+  }
   return exact > 0;
 }
 
@@ -158,6 +150,7 @@ class DelaunayBuilder {
 
   const LatticePoint &at(uint32_t vertex) const { return point_[vertex]; }
   uint32_t locate(const LatticePoint &p);
+  bool sphere_has(const std::array<uint32_t, 4> &corner, uint32_t vertex) const;
   void find_cavity(uint32_t start, uint32_t vertex);
   void fill_cavity();
   uint32_t vacancy();
@@ -166,6 +159,7 @@ class DelaunayBuilder {
   uint32_t number_in_cavity(uint32_t vertex);
 
   std::vector<LatticePoint> point_;
+  std::vector<SpherePoint> for_sphere_;  // the same
   std::vector<Tetrahedron> tetrahedra_;
   // Of each tetrahedron: 2 * insertion, + 1 if its sphere has the vertex.
   std::vector<uint64_t> seen_;
@@ -186,6 +180,9 @@ DelaunayBuilder::DelaunayBuilder(const std::vector<LatticePoint> &points) : poin
   for (int k = 0; k < 8; ++k) {
     point_.push_back(
         {(k & 1) * lattice_size, (k >> 1 & 1) * lattice_size, (k >> 2 & 1) * lattice_size});
+  }
+  for (const LatticePoint &p : point_) {
+    for_sphere_.push_back({{double(p[0]), double(p[1]), double(p[2]), 0}});
   }
   const std::array<uint32_t, 6> around = {1, 3, 2, 6, 4, 5};
   for (uint32_t k = 0; k < 6; ++k) {
@@ -218,6 +215,14 @@ uint32_t DelaunayBuilder::locate(const LatticePoint &p) {
   }
 }
 
+// Whether the sphere through these corners has a vertex strictly inside.
+bool DelaunayBuilder::sphere_has(const std::array<uint32_t, 4> &c, uint32_t vertex) const {
+  const SphereSide side = sphere_side(for_sphere_[c[0]], for_sphere_[c[1]], for_sphere_[c[2]],
+                                      for_sphere_[c[3]], for_sphere_[vertex]);
+  if (side != SphereSide::unknown) return side == SphereSide::inside;
+  return in_sphere(at(c[0]), at(c[1]), at(c[2]), at(c[3]), at(vertex));
+}
+
 // Finds the cavity: all tetrahedra whose sphere has the vertex, and the faces around them.
 void DelaunayBuilder::find_cavity(uint32_t start, uint32_t vertex) {
   ++insertion_;
@@ -229,19 +234,17 @@ void DelaunayBuilder::find_cavity(uint32_t start, uint32_t vertex) {
     for (uint32_t k = 0; k < 4; ++k) {
       const uint32_t n = here.neighbour[k];
       if (n != none && seen_[n] < 2 * insertion_) {
-        const std::array<uint32_t, 4> &c = tetrahedra_[n].corner;
-        const bool hit = in_sphere(at(c[0]), at(c[1]), at(c[2]), at(c[3]), at(vertex));
+        const bool hit = sphere_has(tetrahedra_[n].corner, vertex);
         seen_[n] = 2 * insertion_ + hit;
         if (hit) cavity_.push_back(n);
       }
       if (n != none && seen_[n] == 2 * insertion_ + 1) continue;
-      CavityFacet facet{here.corner, k, n, 0};
+      CavityFacet &facet = facets_.emplace_back();
+      facet = {here.corner, k, n, 0};
       facet.corner[k] = vertex;
-      if (n != none) {
-        const std::array<uint32_t, 4> &around = tetrahedra_[n].neighbour;
-        while (around[facet.back] != cavity_[i]) ++facet.back;
-      }
-      facets_.push_back(facet);
+      if (n == none) continue;
+      const std::array<uint32_t, 4> &around = tetrahedra_[n].neighbour;
+      while (around[facet.back] != cavity_[i]) ++facet.back;
     }
   }
 }
@@ -275,19 +278,21 @@ uint32_t DelaunayBuilder::number_in_cavity(uint32_t vertex) {
 
 // Links it with the new ones across the edges of the facet that exist already.
 void DelaunayBuilder::join_inside(const CavityFacet &facet, uint32_t t) {
-  std::array<uint32_t, 3> face, number;  // of the tetrahedron; number of its corner in the cavity
-  for (uint32_t k = 0, count = 0; k < 4; ++k) {
-    if (k == facet.place) continue;
-    number[count] = number_in_cavity(facet.corner[k]);
-    face[count++] = k;
-  }
-  for (size_t k = 0; k < 3; ++k) {
-    const EdgeTable::Side *other =
-        table_.match(number[k == 0 ? 1 : 0], number[k == 2 ? 1 : 2], t, face[k]);
-    if (other == nullptr) continue;
-    tetrahedra_[t].neighbour[face[k]] = other->tetrahedron;
+  constexpr std::array<std::array<uint32_t, 3>, 4> others = {
+      {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+  const std::array<uint32_t, 3> &face = others[facet.place];
+  const uint32_t a = number_in_cavity(facet.corner[face[0]]);
+  const uint32_t b = number_in_cavity(facet.corner[face[1]]);
+  const uint32_t c = number_in_cavity(facet.corner[face[2]]);
+  const auto join = [&](uint32_t from, uint32_t to, uint32_t k) {
+    const EdgeTable::Side *other = table_.match(from, to, t, k);
+    if (other == nullptr) return;
+    tetrahedra_[t].neighbour[k] = other->tetrahedron;
     tetrahedra_[other->tetrahedron].neighbour[other->face] = t;
-  }
+  };
+  join(b, c, face[0]);
+  join(a, c, face[1]);
+  join(a, b, face[2]);
 }
 
 void DelaunayBuilder::fill_cavity() {

@@ -51,7 +51,9 @@ Snapshot after_running(mvs_sim &sim, const Snapshot &now, const RecordedEvent &e
   const Model &model = *now.current.model;
   State state = now.current.state;
   if (event.kind == RecordedEvent::settle) {
-    settle_with_mesh_hierarchy(sim.solver, model, state, options_of(event), sim.progress());
+    SolveOptions how = options_of(event);
+    how.margins = false;
+    settle_with_mesh_hierarchy(sim.solver, model, state, how, sim.progress());
   } else if (event.kind == RecordedEvent::step) {
     Stepping(sim, event).run(model, state, event.count);
   } else if (event.kind == RecordedEvent::tool_trajectory) {

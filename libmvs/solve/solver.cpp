@@ -24,7 +24,7 @@ namespace {
 StepOptions step_options(const SolveOptions &options) {
   namespace set = settings::defaults;
   const bool is_explicit = options.solver == SolverKind::explicit_euler;
-  StepOptions how{options.dt, options.damping, options.budget, true};
+  StepOptions how{options.dt, options.damping, options.budget, true, options.margins};
   if (how.dt == 0) how.dt = set::implicit_dt;  // explicit: with_stable_dt
   if (how.damping == 0 && is_explicit) how.damping = set::explicit_damping;
   if (how.budget == 0) how.budget = set::budget;

@@ -19,6 +19,9 @@ struct SolveOptions {
   double damping = 0;            // 1/s
   uint32_t budget = 0;           // of a step
   bool checks_stability = true;  // of the equilibrium that a settle finds
+  // The margins of that equilibrium, which cost more than the proof that it is stable and decide
+  // nothing once there is one. Without them they stay 0.
+  bool margins = true;
 
   // N, the residual at rest, or its default.
   double tolerance() const;

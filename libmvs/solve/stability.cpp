@@ -99,13 +99,17 @@ bool StabilityCheck::factorise(const HessianAssembler &system, const std::vector
 
 Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_energy,
                                 const std::vector<Vec3> &x, const HessianAssembler &system,
-                                SolveStats &stats) {
+                                bool margins, SolveStats &stats) {
   Stability found;
   const std::vector<double> damping = damping_of(model, system);
   std::vector<double> added = damping;
   for (double &number : added) number *= set::max_rate;
   const std::vector<uint8_t> is_loose = loose_rows(model, system);
   const bool is_definite = factorise(system, is_loose, added, stats);
+  if (is_definite && !margins) {
+    last_shift_ = 0;
+    return found;
+  }
   double shift = is_definite ? 0 : last_shift_ / (set::shift_growth * set::shift_growth);
   while (!is_definite) {
     shift = std::max(set::shift_growth * shift, set::min_shift);
@@ -151,7 +155,8 @@ Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_ene
   return found;
 }
 
-Stability check_stability(const Model &model, State &state, ContactLaw law, bool leaves) {
+Stability check_stability(const Model &model, State &state, ContactLaw law, bool leaves,
+                          bool margins) {
   const std::vector<Vec3> &x = state.x;
   TotalEnergy total_energy(model, law);
   SolveStats unseen;
@@ -164,7 +169,7 @@ Stability check_stability(const Model &model, State &state, ContactLaw law, bool
   HessianAssembler system;
   system.place = &x;
   total_energy.hessian(x, Curvature::exact, system, unseen.work);
-  Stability found = StabilityCheck().check(model, total_energy, x, system, unseen);
+  Stability found = StabilityCheck().check(model, total_energy, x, system, margins, unseen);
   if (!found.is_stable && leaves) {
     std::vector<Vec3> step = found.mode;
     for (Vec3 &d : step) d *= set::leave_by;
@@ -179,7 +184,7 @@ Stability check_stability(const Model &valve, const State &valve_state) {
   ToolPoints points;
   const Model &model = points.extend(valve, tool_points(valve_state.tools));
   State state = ToolPoints::extended(valve_state);
-  Stability found = check_stability(model, state, ContactLaw::barrier, false);
+  Stability found = check_stability(model, state, ContactLaw::barrier, false, true);
   found.mode.resize(valve_state.x.size());
   return found;
 }

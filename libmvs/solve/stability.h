@@ -34,9 +34,10 @@ class StabilityCheck {
   // To be called before each factorisation and solution; it may throw.
   void set_poll(std::function<void()> poll) { poll_ = std::move(poll); }
 
-  // Checks the equilibrium x. `system` holds the exact Hessian there.
+  // Checks the equilibrium x. `system` holds the exact Hessian there. Without `margins`, the
+  // eigenvalues and the mode are computed only if they decide: where Ks is indefinite.
   Stability check(const Model &model, const TotalEnergy &total_energy, const std::vector<Vec3> &x,
-                  const HessianAssembler &system, SolveStats &stats);
+                  const HessianAssembler &system, bool margins, SolveStats &stats);
 
  private:
   bool factorise(const HessianAssembler &system, const std::vector<uint8_t> &is_loose,
@@ -51,7 +52,8 @@ class StabilityCheck {
 
 // The same for a state on its own: evaluates forces and Hessian at its positions. If `leaves`,
 // moves the state a little along the mode of an unstable equilibrium.
-Stability check_stability(const Model &model, State &state, ContactLaw law, bool leaves);
+Stability check_stability(const Model &model, State &state, ContactLaw law, bool leaves,
+                          bool margins);
 Stability check_stability(const Model &model, const State &state);
 
 }  // namespace mvs::core

@@ -77,6 +77,30 @@ static void a_settle_reports_how_stable_rest_is(void) {
   mvs_snapshot_release(snapshot);
 }
 
+/* Without margins the rest is the same, and proved to be stable. */
+static void a_settle_leaves_out_margins_where_asked(void) {
+  mvs_settle_options options = {.struct_size = sizeof options, .flags = MVS_SETTLE_NO_MARGINS};
+  mvs_stats stats = {.struct_size = sizeof stats};
+  for (mvs_solver solver = MVS_SOLVER_NEWTON; solver <= MVS_SOLVER_IMPLICIT; ++solver) {
+    options.solver = solver;
+    uint64_t hash[2][2];
+    for (int without = 0; without < 2; ++without) {
+      const mvs_snapshot *snapshot = NULL;
+      new_valve(funnel_load());
+      options.flags = without ? MVS_SETTLE_NO_MARGINS : 0;
+      MUST(mvs_settle(sim, &options, &stats));
+      CHECK(stats.converged == 1 && stats.stable == 1);
+      CHECK((stats.stiffness_margin > 0) == !without && (stats.growth_rate < 0) == !without);
+      MUST(mvs_get_snapshot(sim, &snapshot));
+      MUST(mvs_snapshot_get_hash(snapshot, hash[without]));
+      mvs_snapshot_release(snapshot);
+    }
+    CHECK(hash[0][0] == hash[1][0] && hash[0][1] == hash[1][1]);
+  }
+  options.flags = MVS_SETTLE_NO_MARGINS << 1;
+  MUST_FAIL(mvs_settle(sim, &options, &stats), MVS_E_ARGUMENT, "options.flags");
+}
+
 static mvs_id add_ball(double x) {
   mvs_tool_desc desc = {.struct_size = sizeof desc, .kind = MVS_TOOL_KIND_BALL};
   mvs_id tool = 0;
@@ -187,6 +211,7 @@ int main(void) {
   MUST(mvs_create(NULL, &sim));
   only_a_settle_that_converges_finds_rest();
   a_settle_reports_how_stable_rest_is();
+  a_settle_leaves_out_margins_where_asked();
   load_tools_and_tissue_end_rest();
   a_step_that_moves_ends_rest_and_one_that_stands_keeps_it();
   files_and_snapshots_keep_rest();

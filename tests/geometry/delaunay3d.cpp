@@ -5,12 +5,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <random>
 
 #include "geometry/intersect.h"
 #include "geometry/max_flow.h"
+#include "geometry/sphere_side.h"
 
 using namespace mvs::core;
 
@@ -105,6 +107,52 @@ TEST_CASE("no_point_is_inside_the_sphere_of_a_tetrahedron") {
     }
     CHECK(checked > 10000);
   }
+}
+
+// On few small coordinates many points are cospherical, on large ones products are rounded.
+TEST_CASE("a_side_of_a_sphere_is_right_or_unknown") {
+  __extension__ typedef __int128 Wide;
+  size_t known = 0, checked = 0;
+  for (const int32_t range : {4, 100, lattice_size - 1}) {
+    const std::vector<LatticePoint> points = random_points(25000, range, 11);
+    for (size_t i = 0; i + 5 <= points.size(); i += 5) {
+      std::array<LatticePoint, 5> p;
+      std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(i), 5, p.begin());
+      const int orientation = orient3d_sign(real(p[0]), real(p[1]), real(p[2]), real(p[3]));
+      if (orientation == 0) continue;
+      if (orientation < 0) std::swap(p[0], p[1]);
+      // the determinant of rows (q, |q|2), q = p[k] - p[4], by its last column
+      std::array<std::array<Wide, 4>, 4> row;
+      for (size_t k = 0; k < 4; ++k) {
+        row[k][3] = 0;
+        for (size_t c = 0; c < 3; ++c) {
+          row[k][c] = p[k][c] - p[4][c];
+          row[k][3] += row[k][c] * row[k][c];
+        }
+      }
+      Wide determinant = 0;
+      for (size_t k = 0; k < 4; ++k) {
+        const auto &a = row[k == 0 ? 1 : 0], &b = row[k <= 1 ? 2 : 1], &c = row[k == 3 ? 2 : 3];
+        const Wide minor = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+                           a[2] * (b[0] * c[1] - b[1] * c[0]);
+        determinant += (k % 2 == 0 ? 1 : -1) * minor * row[k][3];
+      }
+      std::array<SpherePoint, 5> q;
+      for (size_t k = 0; k < 5; ++k) {
+        q[k] = {{double(p[k][0]), double(p[k][1]), double(p[k][2]), 0}};
+      }
+      const SphereSide side = sphere_side(q[0], q[1], q[2], q[3], q[4]);
+      ++checked;
+      if (side == SphereSide::unknown) continue;
+      ++known;
+      REQUIRE((side == SphereSide::inside) == (determinant > 0));
+      REQUIRE(determinant != 0);
+    }
+  }
+  CHECK(checked > 12000);
+#if defined(__GNUC__)
+  CHECK(static_cast<double>(known) > 0.9 * static_cast<double>(checked));
+#endif
 }
 
 TEST_CASE("coincident_points_share_a_vertex") {

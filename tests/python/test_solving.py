@@ -34,6 +34,19 @@ def test_rest_is_stable_and_the_mode_is_that_of_a_fold():
     assert np.all(lengths[closed.annulus_nodes] == 0)
 
 
+def test_a_settle_without_margins_has_the_same_shape_and_is_proved_stable():
+    stats, closed = settle_fresh()
+    quick, again = settle_fresh(margins=False)
+    assert again.hash == closed.hash
+    assert quick.stable and (quick.stiffness_margin, quick.growth_rate) == (0, 0)
+    assert again.stability.stiffness_margin == pytest.approx(stats.stiffness_margin, rel=0.02)
+    with mvs.Simulator() as sim:
+        sim.generate(shape="founding")
+        sim.set_load(mvs.SYSTOLE_PA)
+        assert list(sim.settle_slices(3600, margins=False))[-1] == 1
+        assert sim.stats.stable and sim.stats.stiffness_margin == 0
+
+
 def test_workers_give_the_same_bits(monkeypatch):
     monkeypatch.setenv("MVS_WORKERS_LEAST_US", "0")  # a small valve shares its loops, too
     expected = settle_fresh(max_iterations=5)[1].hash

@@ -5,6 +5,8 @@
 #include <doctest/doctest.h>
 #include <mvs/sim.h>
 
+#include <algorithm>
+
 #include "anatomy/parametric.h"
 #include "energy/total_energy.h"
 #include "geometry/intersect.h"
@@ -55,6 +57,15 @@ TEST_CASE("free_nodes_of_a_subproblem_have_the_forces_of_the_whole_valve") {
   CHECK(largest > 0.1);
   // the same sums in another order and about another origin: rounding
   CHECK(difference < 1e-10 * largest);
+
+  // hinges between held nodes are left out: their energy is constant
+  size_t bending = 0;
+  for (const auto &hinge : region.model.topology.hinges) {
+    bending += std::any_of(hinge.begin(), hinge.end(),
+                           [&](uint32_t i) { return region.model.topology.fixed[i] == 0; });
+  }
+  CHECK(BendingTerm(region.model).size() == bending);
+  CHECK(bending < region.model.topology.hinges.size());
 }
 
 TEST_CASE("a_closed_valve_comes_to_rest_after_a_chord_is_cut_or_tightened_with_nothing_crossing") {

@@ -7,6 +7,7 @@
 
 #include "anatomy/parametric.h"
 #include "base/error.h"
+#include "solve/nodes.h"
 #include "tests/model/small_valve.h"
 #include "tests/solve/bench.h"
 
@@ -218,6 +219,11 @@ TEST_CASE("every_solver_leaves_an_unstable_equilibrium") {
     CHECK(settled.stats.stable);
     CHECK(settled.stats.stiffness_margin > 0);
     CHECK(std::abs(settled.state.x[0].z() - z) > 1e-4);
+    options.margins = false;
+    const Settled without = settle(pyramid.model, balanced, options);
+    CHECK(without.stats.stable);
+    CHECK(without.stats.stiffness_margin == 0);
+    CHECK(same_bits(without.state.x.get(), settled.state.x.get()));
   }
   SolveOptions options;
   options.max_iterations = 1;
@@ -296,6 +302,9 @@ TEST_CASE("a_settled_valve_returns_from_a_small_disturbance") {
     const Settled first = settle(model, MVS_SYSTOLE_PA, 1, options);
     CAPTURE(k);
     REQUIRE(first.stats.converged);
+    options.margins = false;
+    CHECK(same_bits(settle(model, MVS_SYSTOLE_PA, 1, options).state.x.get(), first.state.x.get()));
+    options.margins = true;
     CHECK(first.stats.stable);
     State disturbed = first.state;
     for (uint32_t i = 0; i < disturbed.x.size(); ++i) {

@@ -388,6 +388,7 @@ class Simulator:
         residual: Optional[float] = None,
         dt: Optional[float] = None,
         damping: Optional[float] = None,
+        margins: bool = True,
         progress: _Progress = None,
     ) -> Stats: ...
     def begin_settle(
@@ -398,6 +399,7 @@ class Simulator:
         residual: Optional[float] = None,
         dt: Optional[float] = None,
         damping: Optional[float] = None,
+        margins: bool = True,
     ) -> None: ...
     def advance_settle(self, seconds: float) -> float: ...
     def cancel_settle(self) -> None: ...
@@ -411,6 +413,7 @@ class Simulator:
         residual: Optional[float] = None,
         dt: Optional[float] = None,
         damping: Optional[float] = None,
+        margins: bool = True,
     ) -> Iterator[float]: ...
     def step(
         self,

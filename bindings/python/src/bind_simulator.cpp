@@ -28,8 +28,9 @@ py::object stats_of(Simulator &self) {
 }
 
 mvs_settle_options settle_options(const std::string &solver, Count max_iterations, Number residual,
-                                  Number dt, Number damping) {
+                                  Number dt, Number damping, bool margins) {
   auto options = sized<mvs_settle_options>();
+  options.flags = margins ? 0 : MVS_SETTLE_NO_MARGINS;
   options.solver = solver_of(solver);
   options.max_iterations = max_iterations.value_or(0);
   options.residual = residual.value_or(0);
@@ -39,16 +40,16 @@ mvs_settle_options settle_options(const std::string &solver, Count max_iteration
 }
 
 py::object settle(Simulator &self, const std::string &solver, Count max_iterations, Number residual,
-                  Number dt, Number damping, py::object progress) {
-  const auto options = settle_options(solver, max_iterations, residual, dt, damping);
+                  Number dt, Number damping, bool margins, py::object progress) {
+  const auto options = settle_options(solver, max_iterations, residual, dt, damping, margins);
   self.settle(std::move(progress),
               [&](mvs_sim *sim) { return mvs_settle(sim, &options, nullptr); });
   return stats_of(self);
 }
 
 void begin_settle(Simulator &self, const std::string &solver, Count max_iterations, Number residual,
-                  Number dt, Number damping) {
-  const auto options = settle_options(solver, max_iterations, residual, dt, damping);
+                  Number dt, Number damping, bool margins) {
+  const auto options = settle_options(solver, max_iterations, residual, dt, damping, margins);
   self.call([&](mvs_sim *sim) { return mvs_begin_settle(sim, &options); });
 }
 
@@ -79,19 +80,22 @@ void bind_work(py::class_<Simulator> &type) {
   type.def("set_load", &set_load, "pressure_pa"_a, "boundary_fraction"_a = 1.0,
            "Sets the load for settle and step.\n\npressure_pa: ventricle minus atrium, "
            "Pa\nboundary_fraction: position of annulus and heads, 0 open to 1 loaded");
-  type.def("settle", &settle, py::kw_only(), "solver"_a = "newton", "max_iterations"_a = py::none(),
-           "residual"_a = py::none(), "dt"_a = py::none(), "damping"_a = py::none(),
-           "progress"_a = py::none(),
-           "Brings the valve to static equilibrium under the load and returns mvs.Stats. A closure "
-           "that does not converge raises no exception: check Stats.converged.\n\nsolver: "
-           "\"newton\", \"implicit\" or \"explicit\"\nresidual: N, largest out-of-balance force at "
-           "rest [1e-5]\ndt: s, and damping: 1/s, of the dynamic solvers\nprogress: called with "
-           "(share done, residual in N) in this thread; True cancels (CancelledError), an "
-           "exception stops the work and is raised again");
+  type.def(
+      "settle", &settle, py::kw_only(), "solver"_a = "newton", "max_iterations"_a = py::none(),
+      "residual"_a = py::none(), "dt"_a = py::none(), "damping"_a = py::none(), "margins"_a = true,
+      "progress"_a = py::none(),
+      "Brings the valve to static equilibrium under the load and returns mvs.Stats. A closure "
+      "that does not converge raises no exception: check Stats.converged.\n\nsolver: "
+      "\"newton\", \"implicit\" or \"explicit\"\nresidual: N, largest out-of-balance force at "
+      "rest [1e-5]\ndt: s, and damping: 1/s, of the dynamic solvers\nmargins: False leaves the "
+      "margins of stability of Stats at 0, which is quicker and the same shape; "
+      "Snapshot.stability has them\nprogress: called with "
+      "(share done, residual in N) in this thread; True cancels (CancelledError), an "
+      "exception stops the work and is raised again");
   type.def(
       "begin_settle", &begin_settle, py::kw_only(), "solver"_a = "newton",
       "max_iterations"_a = py::none(), "residual"_a = py::none(), "dt"_a = py::none(),
-      "damping"_a = py::none(),
+      "damping"_a = py::none(), "margins"_a = true,
       "Begins a settle in slices, with the arguments of settle; see settle_slices. Until its end "
       "the valve is as before; another call that changes it cancels the settle.");
   type.def(

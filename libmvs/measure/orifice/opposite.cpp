@@ -16,6 +16,8 @@ constexpr double of_cosine = 2;  // 1 / cos(60 degrees)
 // Added to half of each box, as a share of the largest coordinate: 20 roundings of single
 // precision.
 constexpr double margin = 20 * 6e-8;
+// Of distances from p above a thousandth of the limit, a share that is far above that of doubles.
+constexpr double rounding = 1e-6;
 
 // A query in single precision.
 struct BoxFilter {
@@ -68,6 +70,37 @@ MVS_INLINE uint32_t filter_row(const BoxFilter &filter, const Opposite::Boxes &b
   return bits;
 }
 
+// Triangles with a nearest point that may count, found from the corners, seen from p, alone. The
+// nearest point lies between them: its components along the directions are at most their largest
+// ones, and its distance at least their least component towards their middle.
+template <typename V>
+MVS_INLINE uint32_t may_count(const typename SimdPoints<V>::Point (&corner)[3],
+                              const typename SimdPoints<V>::Point &normal,
+                              const typename SimdPoints<V>::Point &out, double limit2) {
+  using Value = typename V::Value;
+  using Points = SimdPoints<V>;
+  const typename Points::Point middle = {corner[0].x + corner[1].x + corner[2].x,
+                                         corner[0].y + corner[1].y + corner[2].y,
+                                         corner[0].z + corner[1].z + corner[2].z};
+  Value most = {}, least, square;
+  Points::dot(middle, middle, square);
+  for (size_t k = 0; k < 3; ++k) {
+    Value up, beyond, ahead;
+    Points::dot(corner[k], normal, up);
+    Points::dot(corner[k], out, beyond);
+    Points::dot(corner[k], middle, ahead);
+    magnitude_of<Value>(up, up);
+    most = most < up ? up : most;
+    most = most < beyond ? beyond : most;
+    if (k == 0) least = ahead;
+    least = ahead < least ? ahead : least;
+  }
+  const Value zero = {}, least2 = (1 - rounding) * (least * least);
+  const auto is_out = (least > zero) & ((of_cosine * of_cosine * (most * most) * square < least2) |
+                                        (limit2 * square < least2));
+  return ~bits_of_doubles<V>(is_out) & ((1u << V::width) - 1);
+}
+
 // Whether a triangle of the group has its nearest point in one of the directions. The triangle on
 // which p lies does not count: the direction to it is rounding error.
 template <typename V>
@@ -83,12 +116,14 @@ MVS_INLINE uint32_t look_at_group(const OppositeQuery &query, double limit2,
   const typename Points::Point out = {zero + query.out[0], zero + query.out[1],
                                       zero + query.out[2]};
   for (size_t first = 0; first < members; first += V::width) {
-    typename Points::Point corner[3], to;
+    typename Points::Point corner[3], seen[3], to;
     for (size_t k = 0; k < 3; ++k) {
       load<V>(corner[k].x, &group.at[k][0][first]);
       load<V>(corner[k].y, &group.at[k][1][first]);
       load<V>(corner[k].z, &group.at[k][2][first]);
+      Points::subtract(corner[k], p, seen[k]);
     }
+    if (may_count<V>(seen, normal, out, limit2) == 0) continue;
     typename Points::Nearest hit;
     Points::nearest(p, corner[0], corner[1], corner[2], hit);
     to.x = hit.u * corner[0].x + hit.v * corner[1].x + hit.w * corner[2].x - p.x;

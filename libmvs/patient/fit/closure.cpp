@@ -4,12 +4,22 @@
 #include "solve/static/mesh_hierarchy.h"
 
 namespace mvs::core {
+namespace {
+
+SolveOptions without_margins() {
+  SolveOptions options;
+  options.margins = false;
+  return options;
+}
+
+}  // namespace
 
 ClosedValve close_open(Solver &solver, ModelPtr model, double pressure) {
   ClosedValve closed{std::move(model), {}, {}};
   closed.state = initial_state(*closed.model);
   closed.state.load = {pressure, 1};
-  closed.stats = settle_with_mesh_hierarchy(solver, *closed.model, closed.state, {}, {});
+  closed.stats =
+      settle_with_mesh_hierarchy(solver, *closed.model, closed.state, without_margins(), {});
   return closed;
 }
 
@@ -17,7 +27,7 @@ ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &va
   ClosedValve closed{make_model(valve, from.model.get()), from.state, {}};
   closed.state.drop_cache();
   closed.state.rest_tolerance = 0;
-  closed.stats = solver.settle(*closed.model, closed.state, {}, {});
+  closed.stats = solver.settle(*closed.model, closed.state, without_margins(), {});
   return closed;
 }
 

@@ -56,7 +56,8 @@ class SettlingInTime final : public Settling {
  private:
   // If not, the valve leaves the equilibrium.
   bool is_stable() {
-    const Stability found = check_stability(*model_, state_, Stepper::contact_law, true);
+    const Stability found =
+        check_stability(*model_, state_, Stepper::contact_law, true, how_.margins);
     stats_.stable = found.is_stable;
     stats_.stiffness_margin = found.stiffness;
     stats_.growth_rate = found.rate;

@@ -13,6 +13,7 @@ struct StepOptions {
   double dt, damping;  // s, 1/s
   uint32_t budget;     // of an implicit step: see ImplicitEuler
   bool may_sleep;      // an implicit step of a valve at rest may do nothing
+  bool margins;        // of a settle: see SolveOptions
 };
 
 // One step at work: its options, its statistics, and the passes and factorisations that its budget

@@ -159,7 +159,7 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
     ++stats_.shifted;
     if (at_.residual > settings::stability::early_residual * forces_.rest) return false;
     if (at_.residual > polish.stable_residual) {
-      const Stability found = check_stability();
+      const Stability found = check_stability(false);
       if (!found.is_stable) {
         leave(found);
         return true;
@@ -178,13 +178,13 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
   return true;
 }
 
-Stability Newton::check_stability() {
-  return check_.check(*model_, total_energy_, at_.x, system_.hessian(), stats_);
+Stability Newton::check_stability(bool margins) {
+  return check_.check(*model_, total_energy_, at_.x, system_.hessian(), margins, stats_);
 }
 
-bool Newton::is_stable() {
+bool Newton::is_stable(bool margins) {
   system_.assemble(Curvature::exact, stats_.work);
-  const Stability found = check_stability();
+  const Stability found = check_stability(margins);
   stats_.stable = found.is_stable;
   stats_.stiffness_margin = found.stiffness;
   stats_.growth_rate = found.rate;

@@ -69,8 +69,8 @@ class Newton {
   void iterate(PolishSchedule &polish);
   void move_boundary(BoundaryRamp &ramp);
   // Whether the present positions, which are in equilibrium, are a stable one. If not, the valve
-  // leaves it.
-  bool is_stable();
+  // leaves it. `margins`: see SolveOptions.
+  bool is_stable(bool margins);
   // Moves the nodes to `state`, with zero velocities; returns the statistics.
   SolveStats finish(State &state);
 
@@ -97,7 +97,7 @@ class Newton {
   };
   void evaluate();
   bool newton_polish_step(PolishSchedule &polish);
-  Stability check_stability();
+  Stability check_stability(bool margins);
   void leave(const Stability &unstable);
   bool search_on_force();
   // `has_exact`: the system holds the exact Hessian of the present positions.

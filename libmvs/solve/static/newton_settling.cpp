@@ -20,6 +20,7 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
     : tolerance_(options.tolerance()),
       most_(max_iterations(options)),
       checks_stability_(options.checks_stability),
+      margins_(options.margins),
       load_(state.load),
       newton_(model, factor),
       ramp_(model, state.load.boundary_fraction),
@@ -43,7 +44,7 @@ bool NewtonSettling::advance() {
   may_presolve_ = false;
   const bool arrived = ramp_.is_there(newton_.x());
   const bool balanced = arrived && newton_.residual() <= tolerance_;
-  converged_ = balanced && (!checks_stability_ || newton_.is_stable());
+  converged_ = balanced && (!checks_stability_ || newton_.is_stable(margins_));
   if (converged_ || newton_.stats().iterations == most_ || newton_.reached_limit()) return false;
   if (still_ > settings::newton::most_still) return false;
   watch_.look(newton_.x(), newton_.residual());

@@ -26,7 +26,7 @@ class NewtonSettling final : public Settling {
   double seconds_ = 0;
   double tolerance_;  // N
   uint32_t most_;     // iterations
-  bool checks_stability_;
+  bool checks_stability_, margins_;
   bool may_presolve_;  // a local subproblem, in the first iteration
   bool converged_ = false;
   Load load_;

@@ -68,7 +68,7 @@ class Relaxation {
                                            settings::settle::boundary_arrival);
     calm_ = is_calm ? calm_ + 1 : 0;
     if (calm_ < settings::settle::calm_steps) return false;
-    const Stability found = check_stability(*model_, *state_, ContactLaw::penalty, true);
+    const Stability found = check_stability(*model_, *state_, ContactLaw::penalty, true, true);
     stats_.converged = stats_.stable = found.is_stable;
     stats_.stiffness_margin = found.stiffness;
     stats_.growth_rate = found.rate;

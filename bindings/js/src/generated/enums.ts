@@ -242,6 +242,16 @@ export const Solver = {
 } as const;
 export type Solver = keyof typeof Solver;
 
+/** What a settle may leave out. The valve at its end has the same bits. */
+export const SettleFlags = {
+  /**
+   * The margins of the stable equilibrium, a tenth of the time of a settle after an operation:
+   * those of mvs_stats are 0, mvs_snapshot_get_stability computes them.
+   */
+  no_margins: 1,
+} as const;
+export type SettleFlags = keyof typeof SettleFlags;
+
 /**
  * Accuracy that a step gave up to stay within its budget, in this order: bits of mvs_stats.lowered.
  * The bounds against crossing and the bound on energy always hold.
@@ -876,6 +886,7 @@ export const enums: Record<string, Record<string, number>> = {
   mvs_log_level: LogLevel,
   mvs_backend: Backend,
   mvs_solver: Solver,
+  mvs_settle_flags: SettleFlags,
   mvs_lowered_flags: LoweredFlags,
   mvs_array_kind: ArrayKind,
   mvs_node_kind: NodeKind,

@@ -310,6 +310,8 @@ export interface SettleOptions {
   solver?: Solver | number;
   /** [1000 for newton, 20000 implicit, 2000000 explicit] */
   max_iterations?: number;
+  /** MVS_SETTLE_* */
+  flags?: number;
   /** N, largest out-of-balance force on a node at rest [1e-5] */
   residual?: number;
   /**
@@ -1552,6 +1554,7 @@ export const layouts: Record<string, Layout> = {
     fields: [
       { name: "solver", kind: "enum", of: "mvs_solver", at: 4 },
       { name: "max_iterations", kind: "u32", at: 8 },
+      { name: "flags", kind: "u32", of: "mvs_settle_flags", at: 12 },
       { name: "residual", kind: "f64", at: 16 },
       { name: "dt", kind: "f64", at: 24 },
       { name: "damping", kind: "f64", at: 32 },

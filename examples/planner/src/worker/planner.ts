@@ -1,6 +1,6 @@
 // The valve of the page: one simulator that holds the plan, and a second one for everything that must not
 // change it: previews, the opening slider, a hand in the valve.
-import { DIASTOLE_PA, MvsError, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
+import { DIASTOLE_PA, MvsError, SettleFlags, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
 import type { CostRequest } from '../calls';
 import type {
   CheckpointList,
@@ -22,8 +22,9 @@ import { ml, mm, mm2, mmHg } from './units';
 
 /** Settles run in slices of this length, s, so that a cancel is heard. */
 const slice = 0.03;
-/** N, largest out-of-balance force at rest: that of the library's recommendation for closures. */
-const settleOptions = { residual: 1e-4 };
+/** N, largest out-of-balance force at rest: that of the library's recommendation for closures. The
+ * page shows no margins of stability. */
+const settleOptions = { residual: 1e-4, flags: SettleFlags.no_margins };
 
 /** Lets the worker receive messages. */
 function breathe(): Promise<void> {
@@ -213,7 +214,7 @@ export class Planner {
     // most of the motion happens at low pressures
     const pressure = share >= 1 ? SYSTOLE_PA : SYSTOLE_PA * share ** 4 - DIASTOLE_PA * (1 - share) ** 2;
     this.second.setLoad({ pressure, boundary_fraction: share });
-    await this.second.settleInSlices({ residual: 1e-3, slice, signal });
+    await this.second.settleInSlices({ ...settleOptions, residual: 1e-3, slice, signal });
     return this.second.read((snapshot) => motionOf(snapshot, share));
   }
 
