@@ -36,6 +36,9 @@ class BroadPhase {
   BroadPhase(const BroadPhase &) = delete;
   BroadPhase &operator=(const BroadPhase &) = delete;
 
+  // The hierarchy of the triangles of the sheet.
+  const BvhTopology &topology() const { return bvh_.topology(); }
+
   // Allows the Verlet list (default) or not: it pays in live steps. It is made by the third call of
   // build(), or by the next one after use_verlet_list_at_once().
   void use_verlet_list(bool use) { uses_verlet_list_ = use; }

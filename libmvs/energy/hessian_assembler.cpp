@@ -35,25 +35,32 @@ void HessianAssembler::set_pattern(const Model &model, const std::vector<Edge> &
 // Sorts the fixed pairs and finds the place of each in the sorted list, column by column with the
 // places of its rows at hand; valid while rows keep their order.
 void HessianAssembler::find_always(const std::vector<Edge> &pairs) {
-  take_rows(pairs);
-  always_ = rows_;
   const size_t n = node_of.size();
   // the column of its block, which is the smaller index, and the row
-  const auto block_of = [&](const Edge &pair) -> Edge {
+  std::vector<Edge> blocks;
+  blocks.reserve(pairs.size());
+  for (const Edge &pair : pairs) {
     const auto [c, r] = std::minmax(row_of[pair[0]], row_of[pair[1]]);
-    return {c, r};
-  };
+    blocks.push_back({c, r});
+  }
   const Rows of_column = build_rows(n, [&](auto visit) {
-    for (uint32_t k = 0; k < pairs.size(); ++k) {
-      const Edge block = block_of(pairs[k]);
-      if (block[1] != none) visit(block[0], k);
+    for (uint32_t k = 0; k < blocks.size(); ++k) {
+      if (blocks[k][1] != none) visit(blocks[k][0], k);
     }
   });
-  std::vector<uint32_t> of_row(n, none);
+  std::vector<uint32_t> seen_in(n, none), of_row(n);  // a column with this row; the last place
+  always_.clear();
   always_of_.assign(pairs.size(), none);
-  for (uint32_t c = 0, i = 0; c < n; ++c) {
-    for (; i < always_.size() && always_[i][0] == c; ++i) of_row[always_[i][1]] = i;
-    for (const uint32_t k : of_column[c]) always_of_[k] = of_row[block_of(pairs[k])[1]];
+  for (uint32_t c = 0; c < n; ++c) {
+    const auto first = static_cast<uint32_t>(always_.size());
+    for (const uint32_t k : of_column[c]) {
+      const uint32_t r = blocks[k][1];
+      if (seen_in[r] != c) always_.push_back(blocks[k]);
+      seen_in[r] = c;
+    }
+    std::sort(always_.begin() + first, always_.end());
+    for (uint32_t i = first; i < always_.size(); ++i) of_row[always_[i][1]] = i;
+    for (const uint32_t k : of_column[c]) always_of_[k] = of_row[blocks[k][1]];
   }
 }
 

@@ -74,7 +74,11 @@ BoxedTriangles::BoxedTriangles(const std::vector<Tri> &triangles, const std::vec
 }
 
 TriangleBvh::TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x)
-    : BoxedTriangles(triangles, x), bvh_(x, triangles, triangles_in_leaf) {
+    : TriangleBvh(triangles, x, BvhTopology(x, triangles, triangles_in_leaf)) {}
+
+TriangleBvh::TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x,
+                         BvhTopology topology_of_triangles)
+    : BoxedTriangles(triangles, x), bvh_(std::move(topology_of_triangles)) {
   const BvhTopology &topology = bvh_.topology();
   bvh_.refit([&](uint32_t leaf, Aabb &volume) {
     for (uint32_t k = topology.leaf_start[leaf]; k < topology.leaf_start[leaf + 1]; ++k) {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/denormals.h"
+#include "linalg/cholesky.h"
 #include "linalg/compact_panel.h"
-#include "linalg/direct_solver.h"
 #include "linalg/panel.h"
 #include "linalg/subtrees.h"
 #include "linalg/symbolic.h"
@@ -40,13 +40,15 @@ void copy_block(const T *from, T *to) {
 // Panels of double, or of float as a preconditioner; those of float may be solved with in 16 bits
 // (compact_panel.h), by one thread.
 template <typename T>
-class BlockFactor final : public DirectSolver {
+class BlockFactor final : public RowSolver {
  public:
   explicit BlockFactor(bool is_compact = false) : is_compact_(is_compact) {}
   void analyse(const BlockMatrix &matrix) override;
   bool factorise(const BlockMatrix &matrix) override;
   bool factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) override;
   void solve(std::vector<Vec3> &b) override;
+  void choose_rows(const std::vector<uint32_t> &rows) override;
+  void solve_rows(std::vector<Vec3> &b) override;
 
  private:
   using Row = Eigen::Matrix<T, 3, 1>;
@@ -81,9 +83,10 @@ class BlockFactor final : public DirectSolver {
   std::vector<int32_t> tiles_;    // the same in 16 bits, with a scale for each column
   std::vector<size_t> tiles_of_;  // supernode -> its first word
   std::vector<float> scale_, inverse_;
-  std::vector<T> x_;          // right-hand side, then solution
-  std::vector<T> local_;      // right-hand side in the rows of one panel
-  std::vector<double> work_;  // products up to the end of each supernode
+  std::vector<T> x_;                  // right-hand side, then solution
+  std::vector<T> local_;              // right-hand side in the rows of one panel
+  std::vector<uint32_t> rows_, way_;  // chosen rows, and the supernodes from them to the root
+  std::vector<double> work_;          // products up to the end of each supernode
   Places places_;
   // for several threads
   Subtrees subtrees_, solved_;  // of a factorisation, of a solution

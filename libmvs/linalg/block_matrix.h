@@ -55,7 +55,9 @@ class BlockMatrix {
       for (const Edge &p : pairs) halfway_[count_[p[key]]++] = p;
       pairs.swap(halfway_);
     }
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    // gcc would compare arrays by a call of memcmp
+    const auto is_same = [](const Edge &a, const Edge &b) { return a[0] == b[0] && a[1] == b[1]; };
+    pairs.erase(std::unique(pairs.begin(), pairs.end(), is_same), pairs.end());
   }
 
   void clear() { std::fill(value.begin(), value.end(), Mat3::Zero()); }

@@ -26,6 +26,8 @@ void BlockFactor<T>::analyse(const BlockMatrix &matrix) {
   x_.resize(3 * matrix.size());
   local_.resize(tallest + panel_slack);
   weigh();
+  rows_.clear();
+  way_.clear();
   is_divided_ = is_solution_divided_ = false;
 }
 
@@ -231,6 +233,39 @@ void BlockFactor<T>::solve(std::vector<Vec3> &b) {
   }
 }
 
+template <typename T>
+void BlockFactor<T>::choose_rows(const std::vector<uint32_t> &rows) {
+  rows_ = rows;
+  way_.clear();
+  std::vector<uint8_t> is_on_way(x_.size() / 3, 0);  // a row of a supernode on the way
+  for (const uint32_t r : rows) is_on_way[r] = 1;
+  for (uint32_t k = 0; k < pattern_.node.size(); ++k) {
+    const Supernode &s = pattern_.node[k];
+    const auto first = is_on_way.begin() + s.first, last = is_on_way.begin() + s.last;
+    if (std::find(first, last, 1) == last) continue;
+    way_.push_back(k);
+    if (s.below() > 0) is_on_way[pattern_.row[s.row_start]] = 1;
+  }
+}
+
+template <typename T>
+void BlockFactor<T>::solve_rows(std::vector<Vec3> &b) {
+  const Rounding<T> rounding;
+  std::fill(x_.begin(), x_.end(), T(0));
+  for (size_t k = 0; k < rows_.size(); ++k) {
+    Eigen::Map<Row>(x_.data() + 3 * rows_[k]) = b[k].cast<T>();
+  }
+  for (const uint32_t k : way_) {
+    solve_forward_at(pattern_.node[k], pattern_.node[k].row_end, local_.data());
+  }
+  for (size_t i = way_.size(); i-- > 0;) {
+    solve_backward_at(pattern_.node[way_[i]], local_.data());
+  }
+  for (size_t k = 0; k < rows_.size(); ++k) {
+    b[k] = Eigen::Map<const Row>(x_.data() + 3 * rows_[k]).template cast<double>();
+  }
+}
+
 // for shared_cholesky.cpp
 template bool BlockFactor<double>::factorise_supernode(const BlockMatrix &, size_t, Places &);
 template bool BlockFactor<float>::factorise_supernode(const BlockMatrix &, size_t, Places &);
@@ -248,6 +283,10 @@ template void BlockFactor<double>::solve_forward_at(const Supernode &, size_t, d
 template void BlockFactor<float>::solve_forward_at(const Supernode &, size_t, float *);
 template void BlockFactor<double>::solve_backward_at(const Supernode &, double *);
 template void BlockFactor<float>::solve_backward_at(const Supernode &, float *);
+
+std::unique_ptr<RowSolver> make_row_solver() {
+  return std::make_unique<BlockFactor<double>>();
+}
 
 std::unique_ptr<DirectSolver> make_block_factor() {
   return std::make_unique<BlockFactor<double>>();

@@ -3,6 +3,7 @@
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
+#include <algorithm>
 
 #include "base/error.h"
 #include "linalg/cholesky.h"
@@ -87,19 +88,32 @@ const char *factor_names() {
 #endif
 }
 
+// The whole symmetric pattern goes to Eigen's minimum degree itself, since Eigen::AMDOrdering adds
+// the transpose of a matrix to it at first.
 std::vector<uint32_t> fill_reducing_order(uint32_t n, const std::vector<Edge> &pairs) {
-  std::vector<Eigen::Triplet<double, int>> entries;
-  entries.reserve(2 * pairs.size() + n);
+  std::vector<int> next(n + 1, 0), rows(2 * pairs.size() + n);
   for (const Edge &p : pairs) {
-    entries.emplace_back(static_cast<int>(p[0]), static_cast<int>(p[1]), 1.0);
-    entries.emplace_back(static_cast<int>(p[1]), static_cast<int>(p[0]), 1.0);
+    for (const uint32_t node : p) ++next[node + 1];
   }
-  for (uint32_t i = 0; i < n; ++i)
-    entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
+  for (uint32_t c = 0; c < n; ++c) next[c + 1] += next[c] + 1;
+  const std::vector<int> start = next;
+  for (uint32_t c = 0; c < n; ++c) rows[next[c]++] = static_cast<int>(c);
+  for (const Edge &p : pairs) {
+    rows[next[p[0]]++] = static_cast<int>(p[1]);
+    rows[next[p[1]]++] = static_cast<int>(p[0]);
+  }
   Sparse graph(static_cast<int>(n), static_cast<int>(n));
-  graph.setFromTriplets(entries.begin(), entries.end());
+  graph.resizeNonZeros(static_cast<Eigen::Index>(rows.size()));
+  std::fill_n(graph.valuePtr(), rows.size(), 1.0);
+  int *at = graph.innerIndexPtr();
+  for (uint32_t c = 0; c < n; ++c) {
+    graph.outerIndexPtr()[c] = static_cast<int>(at - graph.innerIndexPtr());
+    std::sort(rows.begin() + start[c], rows.begin() + start[c + 1]);
+    at = std::unique_copy(rows.begin() + start[c], rows.begin() + start[c + 1], at);
+  }
+  graph.outerIndexPtr()[n] = static_cast<int>(at - graph.innerIndexPtr());
   Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-  Eigen::AMDOrdering<int>()(graph, permutation);
+  Eigen::internal::minimum_degree_ordering(graph, permutation);
   std::vector<uint32_t> order(n);
   for (uint32_t k = 0; k < n; ++k) order[k] = static_cast<uint32_t>(permutation.indices()[k]);
   return order;

@@ -87,6 +87,31 @@ MVS_INLINE void backward_square(const float *a, const float *b, const float *c, 
   x[j] = (sum[2] * a[j + 2] + sum[1] * a[j + 1]) + sum[0] * a[j];
 }
 
+// The same for six columns, two in a register.
+MVS_INLINE void take_rows(const double *a, size_t height, size_t first, size_t last,
+                          const double *x, std::array<double, 6> &sum) {
+  size_t i = last;
+#if defined(__GNUC__)
+  Double2::Value pair[3], of_x, left, right;
+  for (size_t k = 0; k < 3; ++k) load<Double2>(pair[k], sum.data() + 2 * k);
+  for (; i >= first + 2; i -= 2) {
+    load<Double2>(of_x, x + i - 2);
+    for (size_t k = 0; k < 3; ++k) {
+      load<Double2>(left, a + 2 * k * height + i - 2);
+      load<Double2>(right, a + (2 * k + 1) * height + i - 2);
+      left *= of_x;
+      right *= of_x;
+      pair[k] -= Double2::Value{left[1], right[1]};
+      pair[k] -= Double2::Value{left[0], right[0]};
+    }
+  }
+  for (size_t k = 0; k < 3; ++k) store<Double2>(sum.data() + 2 * k, pair[k]);
+#endif
+  while (i-- > first) {
+    for (size_t k = 0; k < 6; ++k) sum[k] -= a[k * height + i] * x[i];
+  }
+}
+
 // Solves for columns first .. last, without the products with rows from `last` on: three at a time,
 // so that their sums are independent.
 template <typename T>
@@ -98,6 +123,23 @@ MVS_INLINE void backward_block(const T *panel, size_t height, size_t first, size
     take_rows(a, height, j, rows, x, sum);
     backward_square(a, b, c, j - 3, sum, x);
   }
+}
+
+// The bits of backward_block() with half of the wait for the sums: six columns share the rows below
+// them, then the first three take those of the other three.
+MVS_INLINE void backward_by_six(const double *panel, size_t width, size_t height, double *x) {
+  size_t j = width;
+  for (; j >= 6; j -= 6) {
+    const double *a = panel + (j - 6) * height, *d = a + 3 * height;
+    std::array<double, 6> sum;
+    for (size_t k = 0; k < 6; ++k) sum[k] = x[j - 6 + k];
+    take_rows(a, height, j, height, x, sum);
+    backward_square(d, d + height, d + 2 * height, j - 3, {sum[3], sum[4], sum[5]}, x);
+    std::array<double, 3> rest = {sum[0], sum[1], sum[2]};
+    take_rows(a, height, j - 3, j, x, rest);
+    backward_square(a, a + height, a + 2 * height, j - 6, rest, x);
+  }
+  backward_block(panel, height, 0, j, height, x);
 }
 
 struct Sums {
@@ -139,7 +181,7 @@ MVS_INLINE void take_below(const float *a, size_t height, size_t first, const fl
 template <typename T>
 MVS_INLINE void backward_columns(const T *panel, size_t width, size_t height, T *x) {
   if constexpr (std::is_same_v<T, double>) {
-    backward_block(panel, height, 0, width, height, x);
+    backward_by_six(panel, width, height, x);
   } else {
     for (size_t last = width; last > 0;) {
       const size_t first = (last - 1) / solve_columns * solve_columns;

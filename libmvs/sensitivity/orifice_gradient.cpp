@@ -37,15 +37,18 @@ std::vector<Vec3> area_variation(const Orifice &orifice) {
 }  // namespace
 
 double orifice_area_gradient(const Model &model, const std::vector<Vec3> &x, const Orifice &orifice,
-                             NodeField &g) {
+                             const BvhTopology *sheet, NodeField &g) {
   if (orifice.triangles.empty()) return 0;
-  const TriangleBvh tree(model.valve.triangles, x);
+  const TriangleBvh tree = sheet != nullptr ? TriangleBvh(model.valve.triangles, x, *sheet)
+                                            : TriangleBvh(model.valve.triangles, x);
   const std::vector<uint8_t> is_rim = rim_of(orifice);
   const std::vector<Vec3> variation = area_variation(orifice);
   const double reach = model.valve.contact_thickness;
+  uint32_t near = none;
   for (size_t v = 0; v < is_rim.size(); ++v) {
     if (!is_rim[v]) continue;
-    const TriangleBvh::Hit hit = tree.closest(orifice.vertices[v]);
+    const TriangleBvh::Hit hit = tree.closest(orifice.vertices[v], near);
+    near = hit.triangle;
     // on the wall around the annulus, which stands
     if (hit.distance2 > reach * reach) continue;
     const TrianglePoint foot = tree.closest_on(hit.triangle, orifice.vertices[v]);

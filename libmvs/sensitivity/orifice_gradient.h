@@ -13,7 +13,8 @@
 namespace mvs::core {
 
 // Adds the gradient to g, m, and returns the area, m2; `orifice` is that of the positions x.
+// `sheet`: nullable, a hierarchy of the triangles at any positions.
 double orifice_area_gradient(const Model &model, const std::vector<Vec3> &x, const Orifice &orifice,
-                             NodeField &g);
+                             const BvhTopology *sheet, NodeField &g);
 
 }  // namespace mvs::core

@@ -116,7 +116,7 @@ void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_t
 }
 
 void measure(const Model &model, const State &state, const Quantity &quantity,
-             QuantityGradient &q) {
+             const BvhTopology *sheet, QuantityGradient &q) {
   const mvs_field_info &field = *quantity.measure;
   if (is_named(field, "leaflet_area")) return leaflet_area(model, state.x, q);
   if (is_named(field, "max_chord_tension")) return largest_of_chords(model, state.x, true, q);
@@ -126,10 +126,10 @@ void measure(const Model &model, const State &state, const Quantity &quantity,
     return;
   }
   if (is_named(field, "regurgitant_orifice_area")) {
-    q.value =
-        quantity.orifice != nullptr
-            ? orifice_area_gradient(model, state.x, *quantity.orifice, q.by_position)
-            : orifice_area_gradient(model, state.x, measure_orifice(model, state.x), q.by_position);
+    const Orifice measured =
+        quantity.orifice != nullptr ? Orifice() : measure_orifice(model, state.x);
+    const Orifice &orifice = quantity.orifice != nullptr ? *quantity.orifice : measured;
+    q.value = orifice_area_gradient(model, state.x, orifice, sheet, q.by_position);
     q.notes |= MVS_SENSITIVITY_NOTE_ENVELOPE;
     return;
   }
@@ -196,8 +196,8 @@ void check_quantity(const Model &model, const Quantity &q, size_t place) {
   }
 }
 
-QuantityGradient quantity_gradient(const Model &model, const State &state,
-                                   const Quantity &quantity) {
+QuantityGradient quantity_gradient(const Model &model, const State &state, const Quantity &quantity,
+                                   const BvhTopology *sheet) {
   const std::vector<Vec3> &x = state.x;
   QuantityGradient q;
   q.by_position.assign(x.size(), Vec3::Zero());
@@ -238,7 +238,7 @@ QuantityGradient quantity_gradient(const Model &model, const State &state,
       head_force(model, quantity, x, q);
       break;
     case QuantityKind::measure:
-      measure(model, state, quantity, q);
+      measure(model, state, quantity, sheet, q);
       break;
   }
   return q;

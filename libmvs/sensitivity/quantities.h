@@ -61,8 +61,9 @@ struct QuantityGradient {
   std::vector<ChordEnd> by_end;  // part of by_position, for ends that leave their nodes
   mvs_sensitivity_notes notes = 0;
 };
-QuantityGradient quantity_gradient(const Model &model, const State &state,
-                                   const Quantity &quantity);
+// `sheet`, nullable: a hierarchy of the triangles at any positions, which saves one.
+QuantityGradient quantity_gradient(const Model &model, const State &state, const Quantity &quantity,
+                                   const BvhTopology *sheet = nullptr);
 
 // The derivative of a quantity at fixed positions.
 double explicit_derivative(const Model &model, const std::vector<Vec3> &x,

@@ -18,7 +18,7 @@ namespace mvs::core {
 namespace set = settings::sensitivity;
 
 EquilibriumTangent::EquilibriumTangent(const Model &model, const State &state)
-    : model_(&model), state_(&state), total_energy_(model), factor_(make_block_factor()) {
+    : model_(&model), state_(&state), total_energy_(model), factor_(make_row_solver()) {
   const NodeField &x = state.x;
   total_energy_.use_verlet_list(false);
   total_energy_.set_pressure(state.load.pressure);
@@ -33,6 +33,7 @@ EquilibriumTangent::EquilibriumTangent(const Model &model, const State &state)
   total_energy_.hessian(x, Curvature::exact, free_, profile_);
   hold_loose_rows();
   factorise();
+  find_edge();
 }
 
 // Branch points whose chordae are all slack have no stiffness: they get one, and do not move.
@@ -68,6 +69,20 @@ void EquilibriumTangent::factorise() {
   }
 }
 
+// The rows that N couples: those of the free edges.
+void EquilibriumTangent::find_edge() {
+  std::vector<uint8_t> is_edge(free_.node_of.size(), 0);
+  for (const std::vector<uint32_t> &loop : model_->topology.free_edges) {
+    for (const uint32_t node : loop) {
+      if (free_.row_of[node] != none) is_edge[free_.row_of[node]] = 1;
+    }
+  }
+  for (uint32_t r = 0; r < is_edge.size(); ++r) {
+    if (is_edge[r]) edge_.push_back(r);
+  }
+  factor_->choose_rows(edge_);
+}
+
 // y = K v by rows of the free nodes.
 void EquilibriumTangent::apply(const NodeField &rows, bool transposed, NodeField &y) {
   product_.multiply(free_.matrix, rows, y);
@@ -85,17 +100,8 @@ void EquilibriumTangent::expect_solutions(size_t count) {
   if (dense_ || shift_ != 0 || count < set::many_solutions) return;
   const size_t nodes = model_->node_count();
   NodeField unit(nodes, Vec3::Zero()), column(nodes);
-  std::vector<uint8_t> is_edge(free_.node_of.size(), 0);
-  for (const std::vector<uint32_t> &loop : model_->topology.free_edges) {
-    for (const uint32_t node : loop) {
-      if (free_.row_of[node] != none) is_edge[free_.row_of[node]] = 1;
-    }
-  }
-  for (uint32_t r = 0; r < is_edge.size(); ++r) {
-    if (is_edge[r]) edge_.push_back(r);
-  }
   const size_t n = 3 * edge_.size();
-  if (n == 0 || n > set::most_dense_rows || n > 6 * count) return edge_.clear();
+  if (n == 0 || n > set::most_dense_rows || n > 6 * count) return;
   std::vector<double> matrix(n * n, 0);
   for (size_t c = 0; c < n; ++c) {
     unit[free_.node_of[edge_[c / 3]]][static_cast<int>(c % 3)] = 1;
@@ -129,9 +135,40 @@ void EquilibriumTangent::eliminate_skew(NodeField &r) {
   factor_->solve(r);
 }
 
+// GMRES in the rows of the free edge alone, which N has no other of: with c = Ks^-1 r the edge of
+// the solution is y_E = c_E - (Ks^-1 N y)_E, and the solution Ks^-1 (r - N y).
+void EquilibriumTangent::iterate_on_edge(bool transposed, double tolerance, NodeField &r) {
+  NodeField whole = r, y;
+  factor_->solve(whole);
+  for (const uint32_t row : edge_) y.push_back(whole[row]);
+  const double size = std::sqrt(dot(y, y));
+  if (size == 0) return r.swap(whole);
+  const auto skew = [&](const NodeField &v) {
+    direction_.assign(model_->node_count(), Vec3::Zero());
+    for (size_t k = 0; k < edge_.size(); ++k) direction_[free_.node_of[edge_[k]]] = v[k];
+    skew_.assign(model_->node_count(), Vec3::Zero());
+    total_energy_.add_skew(state_->x, direction_, skew_);
+    NodeField rows;
+    const double sign = transposed ? -1 : 1;
+    for (const uint32_t row : edge_) rows.push_back(sign * skew_[free_.node_of[row]]);
+    return rows;
+  };
+  const auto preconditioned = [&](const NodeField &v) {
+    NodeField w = skew(v);
+    factor_->solve_rows(w);
+    for (size_t k = 0; k < w.size(); ++k) w[k] += v[k];
+    return w;
+  };
+  gmres(preconditioned, y, set::gmres_iterations, tolerance * std::sqrt(dot(whole, whole)) / size);
+  const NodeField moved = skew(y);
+  for (size_t k = 0; k < edge_.size(); ++k) r[edge_[k]] -= moved[k];
+  factor_->solve(r);
+}
+
 // Solves for a residual in place, to `tolerance`.
 void EquilibriumTangent::approximate(bool transposed, double tolerance, NodeField &r) {
   if (dense_ && !transposed) return eliminate_skew(r);
+  if (shift_ == 0) return iterate_on_edge(transposed, tolerance, r);
   factor_->solve(r);
   const auto preconditioned = [&](const NodeField &v) {
     NodeField y(v.size());

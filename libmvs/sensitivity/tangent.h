@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "energy/total_energy.h"
-#include "linalg/direct_solver.h"
+#include "linalg/cholesky.h"
 #include "linalg/spmv.h"
 #include "sensitivity/dense_factor.h"
 
@@ -48,10 +48,12 @@ class EquilibriumTangent {
 
  private:
   void factorise();
+  void find_edge();
   void hold_loose_rows();
   void apply(const NodeField &rows, bool transposed, NodeField &y);
   void approximate(bool transposed, double tolerance, NodeField &r);
   void eliminate_skew(NodeField &r);
+  void iterate_on_edge(bool transposed, double tolerance, NodeField &r);
   double refine(const NodeField &b, bool transposed, double tolerance, NodeField &x);
 
   const Model *model_;
@@ -59,12 +61,12 @@ class EquilibriumTangent {
   TotalEnergy total_energy_;
   Profile profile_;
   HessianAssembler free_, all_;  // rows of the free nodes; rows of all nodes, made when needed
-  std::unique_ptr<DirectSolver> factor_;
+  std::unique_ptr<RowSolver> factor_;
   BlockSpmv product_;
   NodeField gradient_, trial_;              // at the equilibrium; of gradient_at()
   NodeField direction_, skew_, residuals_;  // work space
   std::vector<uint8_t> is_loose_;           // rows without stiffness
-  std::vector<uint32_t> edge_;              // rows that N couples, while there is a dense factor
+  std::vector<uint32_t> edge_;              // rows that N couples
   std::unique_ptr<DenseFactor> dense_;
   double shift_ = 0;  // N/m on the diagonal of the factor, where Ks is indefinite
   double residual_ = 0, linear_error_ = 0;

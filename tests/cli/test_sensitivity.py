@@ -32,6 +32,34 @@ class Sensitivity(Shell):
             self.assertIn(f"\n  {name} ", text)
             self.assertRegex(text, r"coaptation = \d+\.?\d* mm2")
 
+    def test_sites_of_a_neochord(self):
+        self.ok("op", "closed.obj", "neochord", "--head", "PM1", "--site", "P2:0.5:0.9", "--length", 18,
+                "--name", "gore", "--settle", 120, "-o", "neo.obj")
+        found = self.json("sensitivity", "neo.obj", "--to", "sites")["parameters"]
+        rows = self.json("sensitivity", "neo.obj", "--to", "sites", "--chord", "gore")["parameters"]
+        # an inner vertex has about six edges, one of the free edge about four
+        self.assertGreaterEqual(len(rows), 3)
+        self.assertTrue(all(row["parameter"].startswith("gore to ") for row in rows))
+        self.assertEqual(rows, [row for row in found if row["parameter"].startswith("gore to ")])
+        self.assertTrue(any(row["d_coaptation_area_mm2_per_mm"] != 0 for row in rows))
+        text = self.ok("sensitivity", "neo.obj", "--to", "sites", "--chord", "gore").stdout
+        for row in rows:
+            self.assertIn(f"\n  {row['parameter']} ", text)
+        alone = self.json("sensitivity", "neo.obj", "--chord", "gore")["parameters"]
+        self.assertEqual([row["parameter"] for row in alone], ["gore"])
+
+    def test_a_chord_without_a_site_is_refused(self):
+        # of this valve: a chord between a head and a branch point
+        found = self.json("sensitivity", "closed.obj", "--to", "sites")["parameters"]
+        inserted = {row["parameter"].split(" to ")[0] for row in found}
+        chords = [row["parameter"] for row in self.json("sensitivity", "closed.obj")["parameters"]]
+        trunk = next(name for name in chords if name not in inserted)
+        self.assertIn("does not end on a leaflet",
+                      self.refused("closed.obj", "--to", "sites", "--chord", trunk, code=1))
+        self.assertIn("--to chords or --to sites",
+                      self.refused("closed.obj", "--to", "heads", "--chord", trunk, code=1))
+        self.assertIn("x1", self.refused("closed.obj", "--chord", "x1", code=1))
+
     def test_both_sides_are_printed_where_they_differ(self):
         # this valve has contact about to switch, which matters to some of its chordae
         self.ok("generate", "--vertices", 300, "-o", "near.obj")

@@ -5,6 +5,8 @@
 #include "linalg/spmv.h"
 
 #include <Eigen/Dense>
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +15,7 @@
 #include "base/error.h"
 #include "linalg/gmres.h"
 #include "linalg/mixed_precision.h"
+#include "linalg/panel.h"
 #include "tests/solve/bench.h"
 
 using namespace mvs::core;
@@ -211,6 +214,66 @@ TEST_CASE("a_factor_computed_in_parts_has_the_same_bits") {
     whole->solve(x);
     parts->solve(y);
     CHECK(x == y);
+  }
+}
+
+TEST_CASE("a_solution_for_a_few_rows_has_the_bits_of_the_whole_one") {
+  Random random(11);
+  for (const uint32_t n : {1u, 40u, 200u}) {
+    const BlockMatrix m = random_matrix(random, n, n < 2 ? 0 : 2 * n);
+    const std::unique_ptr<RowSolver> factor = make_row_solver();
+    factor->analyse(m);
+    REQUIRE(factor->factorise(m));
+    for (const uint32_t count : {0u, 1u, n / 10, n}) {
+      std::vector<uint32_t> rows;
+      for (uint32_t k = 0; k < count; ++k) rows.push_back(k * n / std::max(count, 1u));
+      factor->choose_rows(rows);
+      Positions whole(n, Vec3::Zero()), some = random.vectors(count, 1), other = some;
+      for (uint32_t k = 0; k < count; ++k) whole[rows[k]] = some[k];
+      factor->solve(whole);
+      factor->solve_rows(some);
+      factor->solve_rows(other);  // the first one left nothing behind
+      for (uint32_t k = 0; k < count; ++k) CHECK(some[k] == whole[rows[k]]);
+      CHECK(some == other);
+    }
+  }
+}
+
+// panel.h states the order of the sums, on which the bits of a solution rest.
+TEST_CASE("a_backward_solution_sums_from_the_last_row_on") {
+  Random random(12);
+  for (size_t width = 3; width <= 36; width += 3) {
+    const size_t height = (width + 20 + panel_rows - 1) / panel_rows * panel_rows;
+    std::vector<double> panel(width * height), x(height + panel_slack);
+    for (double &number : panel) number = random(-1, 1);
+    for (size_t i = 0; i < height; ++i) x[i] = random(-1, 1);
+    std::vector<double> expected = x;
+    for (size_t j = width; j-- > 0;) {
+      const double *column = panel.data() + j * height;
+      double sum = expected[j];
+      for (size_t i = height; i-- > j + 1;) sum -= column[i] * expected[i];
+      expected[j] = sum * column[j];  // the diagonal is an inverse
+    }
+    solve_backward(panel.data(), width, height, x.data());
+    CHECK(x == expected);
+  }
+}
+
+TEST_CASE("an_elimination_order_is_that_of_the_graph") {
+  Random random(13);
+  for (const uint32_t n : {1u, 2u, 30u, 300u}) {
+    std::vector<Edge> pairs = n < 2 ? std::vector<Edge>{} : random_pairs(random, n, 3 * n);
+    pairs.insert(pairs.end(), pairs.begin(), pairs.begin() + static_cast<long>(pairs.size() / 2));
+    Eigen::SparseMatrix<double> graph(n, n);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const Edge &p : pairs) entries.emplace_back(p[0], p[1], 1.0);
+    for (uint32_t i = 0; i < n; ++i) entries.emplace_back(i, i, 1.0);
+    graph.setFromTriplets(entries.begin(), entries.end());
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> expected;
+    Eigen::AMDOrdering<int>()(graph, expected);
+    const std::vector<uint32_t> order = fill_reducing_order(n, pairs);
+    for (uint32_t k = 0; k < n; ++k)
+      CHECK(order[k] == static_cast<uint32_t>(expected.indices()[k]));
   }
 }
 

@@ -118,7 +118,7 @@ def test_intervals_and_report(found, truth, tmp_path):
     assert len(drawn.samples) == 4 and drawn.low <= drawn.high
     found.save_report(tmp_path / "fit.html")
     page = (tmp_path / "fit.html").read_text()
-    for words in ("Predicted measures", "90 % interval", "chords ", "Covariance", "set by their priors"):
+    for words in ("Predicted measures", "90 % interval", "chords ", "Correlation", "set by their priors"):
         assert words in page
 
 
@@ -245,3 +245,5 @@ def test_bad_input_is_refused(start, truth):
         sim.generate(shape="founding", vertices=220)  # 80 chordae without branches
         with pytest.raises(mvs.StateError, match="not at rest"):
             mvs.fit(sim.snapshot(), mvs.Points(nodes, places))
+        with pytest.raises(mvs.ArgumentError, match="target: the snapshot is not at rest"):
+            mvs.fit(start, sim.snapshot())

@@ -9,7 +9,7 @@ namespace cli {
 namespace {
 
 struct SensitivityOptions {
-  std::string file, to = "chords", sort;
+  std::string file, to = "chords", chord, sort;
   std::vector<std::string> of = {"coaptation"};
   size_t top = 0;
 };
@@ -113,7 +113,7 @@ size_t sort_row(const SensitivityTable &table, const std::string &name) {
 
 void run_sensitivity(const SensitivityOptions &options, const Console &console) {
   const mvs::Snapshot valve = load(options.file);
-  const SensitivityTable table = sensitivity_table(valve, options.of, options.to);
+  const SensitivityTable table = sensitivity_table(valve, options.of, options.to, options.chord);
   const size_t by = sort_row(table, options.sort);
   std::vector<size_t> order(table.parameters.names.size());
   for (size_t p = 0; p < order.size(); ++p) order[p] = p;
@@ -159,11 +159,16 @@ void add_sensitivity(CLI::App &app, Console &console) {
       ->delimiter(',')
       ->capture_default_str();
   command
-      ->add_option("--to", options->to,
-                   "chords (rest lengths), heads (positions), scallops (thickness), pressure, "
-                   "annulus_scale (growth of annulus or ring)")
+      ->add_option(
+          "--to", options->to,
+          "chords (rest lengths), sites (insertion of each chord, moved along an edge of the "
+          "leaflet to the vertex that the row names), heads (positions), scallops "
+          "(thickness), pressure, annulus_scale (growth of annulus or ring)")
       ->capture_default_str()
       ->check(one_of(parameter_words()));
+  command->add_option(
+      "--chord", options->chord,
+      "only this chord, with --to chords or sites, as a neochord by its name [all]");
   command->add_option("--sort", options->sort, "measure to sort by [the first]");
   command->add_option("--top", options->top, "print this number of parameters [all]");
 }

@@ -1,5 +1,8 @@
 #include "valve/sensitivity.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <set>
 #include <utility>
 
 #include "text/readouts.h"
@@ -45,7 +48,60 @@ AskedParameters single(const std::string &name, mvs_parameter_kind kind, const s
   return {{name}, {parameter}, unit, scale};
 }
 
+// The vertex of the leaflet at which a chord inserts; UINT32_MAX for a chord between other nodes.
+uint32_t insertion_of(const mvs::Snapshot &valve, uint32_t chord) {
+  const auto kind = valve.view<uint8_t>(MVS_ARRAY_NODE_KIND);
+  const uint32_t *ends = valve.view<uint32_t>(MVS_ARRAY_CHORD_NODES).row(chord);
+  const bool first = *kind.row(ends[0]) == MVS_NODE_KIND_LEAFLET;
+  const bool second = *kind.row(ends[1]) == MVS_NODE_KIND_LEAFLET;
+  return first == second ? UINT32_MAX : ends[first ? 0 : 1];
+}
+
+// The insertion of each chord along each edge that leaves it, named by the vertex at its end.
+AskedParameters sites(const mvs::Snapshot &valve) {
+  AskedParameters asked{{}, {}, "mm", 1e-3};
+  const auto triangles = valve.view<uint32_t>(MVS_ARRAY_TRIANGLE_NODES);
+  for (const mvs_part &part : valve.parts(MVS_PART_CHORD)) {
+    const uint32_t node = insertion_of(valve, part.index);
+    std::set<uint32_t> around;
+    for (size_t t = 0; t < triangles.rows(); ++t) {
+      const uint32_t *corner = triangles.row(t);
+      if (std::find(corner, corner + 3, node) != corner + 3) around.insert(corner, corner + 3);
+    }
+    around.erase(node);
+    for (const uint32_t toward : around) {
+      mvs_parameter parameter = {};
+      parameter.kind = MVS_PARAMETER_CHORD_SITE;
+      parameter.index = part.index;
+      parameter.component = toward;
+      asked.list.push_back(parameter);
+      asked.names.push_back(text("%s to %u", part.name, toward));
+    }
+  }
+  return asked;
+}
+
+// Keeps the parameters of one chord; fails where there are none.
+AskedParameters of_chord(const mvs::Snapshot &valve, const std::string &to,
+                         const std::string &chord, const AskedParameters &all) {
+  if (to != "chords" && to != "sites") {
+    fail(MVS_E_ARGUMENT, "--chord", "--chord " + chord + ": it needs --to chords or --to sites");
+  }
+  const uint32_t index = valve.find(MVS_PART_CHORD, chord).index;
+  AskedParameters kept{{}, {}, all.unit, all.scale};
+  for (size_t p = 0; p < all.list.size(); ++p) {
+    if (all.list[p].index != index) continue;
+    kept.list.push_back(all.list[p]);
+    kept.names.push_back(all.names[p]);
+  }
+  if (kept.list.empty()) {
+    fail(MVS_E_ARGUMENT, "--chord", "--chord " + chord + ": this chord does not end on a leaflet");
+  }
+  return kept;
+}
+
 AskedParameters parameters_of(const mvs::Snapshot &valve, const std::string &to) {
+  if (to == "sites") return sites(valve);
   if (to == "chords") return of_parts(valve, MVS_PART_CHORD, MVS_PARAMETER_CHORD_REST_LENGTH);
   if (to == "heads") return of_parts(valve, MVS_PART_HEAD, MVS_PARAMETER_HEAD_POSITION);
   if (to == "scallops") return of_parts(valve, MVS_PART_SCALLOP, MVS_PARAMETER_SCALLOP_THICKNESS);
@@ -64,11 +120,11 @@ std::vector<Number> array_of(const mvs::Sensitivity &found, mvs_sensitivity_arra
 }  // namespace
 
 std::vector<std::string> parameter_words() {
-  return {"chords", "heads", "scallops", "pressure", "annulus_scale"};
+  return {"chords", "sites", "heads", "scallops", "pressure", "annulus_scale"};
 }
 
 SensitivityTable sensitivity_table(const mvs::Snapshot &valve, const std::vector<std::string> &of,
-                                   const std::string &to) {
+                                   const std::string &to, const std::string &chord) {
   SensitivityTable table = {};
   std::vector<mvs_quantity> list;
   for (const std::string &name : of) table.quantities.push_back(quantity_of(name));
@@ -79,6 +135,7 @@ SensitivityTable sensitivity_table(const mvs::Snapshot &valve, const std::vector
     list.push_back(quantity);
   }
   table.parameters = parameters_of(valve, to);
+  if (!chord.empty()) table.parameters = of_chord(valve, to, chord, table.parameters);
   const mvs::Sensitivity found(valve, list, table.parameters.list);
   table.summary = found.summary();
   table.value = array_of<double>(found, MVS_SENSITIVITY_ARRAY_VALUE);

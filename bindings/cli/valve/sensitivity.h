@@ -37,9 +37,10 @@ struct SensitivityTable {
 // Values of --to.
 std::vector<std::string> parameter_words();
 
-// Measures by their names, or "coaptation" and "orifice".
+// Measures by their names, or "coaptation" and "orifice". `chord`: the only one whose parameters
+// are asked for; empty: all.
 SensitivityTable sensitivity_table(const mvs::Snapshot &valve, const std::vector<std::string> &of,
-                                   const std::string &to);
+                                   const std::string &to, const std::string &chord);
 
 // Words of MVS_SENSITIVITY_NOTE_*.
 std::vector<std::string> note_words(mvs_sensitivity_notes notes);

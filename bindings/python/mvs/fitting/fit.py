@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .. import _core
 from ..errors import ArgumentError, DivergedError, StateError
 from ..sensitivities import MOTION, NO_TEST
+from .checks import MOST_NOISE, checked_count, checked_groups, checked_number, checked_priors, checked_start
 from .quiet import quiet
 from .parameters import Free, Prior, free_parameters
 from .result import Fit, Start, Trace
@@ -128,7 +129,7 @@ def fit(
     free: groups of parameters: "chords" (rest lengths), "tissue" (constants of each leaflet), "thickness",
         "heads" (coordinates), "prestrain"
     noise: m, standard deviation of the data
-    priors: mvs.Prior by group [mvs.PRIORS]; False: no priors, for which the data must have as many
+    priors: mvs.Prior by free group [mvs.PRIORS]; False: no priors, for which the data must have as many
         residuals as there are parameters
     starts: folds to start from: the closure itself and members of its ensemble; the best is returned
     residual: N, at rest; most: closures of a start; tolerance: of the cost, relative
@@ -139,14 +140,13 @@ def fit(
         from scipy.optimize import least_squares
     except ImportError as error:
         raise ImportError("mvs.fit needs scipy: pip install 'libmvs[fit]'") from error
-    groups = [free] if isinstance(free, str) else list(free)
-    if not noise > 0:
-        raise ArgumentError(f"noise: a positive number of m is needed, not {noise}", "noise")
-    if starts < 1:
-        raise ArgumentError("starts: at least 1 is needed", "starts")
+    start, groups = checked_start(start), checked_groups(free)
+    noise = checked_number("noise", noise, MOST_NOISE)
+    residual, tolerance = checked_number("residual", residual), checked_number("tolerance", tolerance)
+    starts, most = checked_count("starts", starts), checked_count("most", most)
     if not start.at_rest:
         raise StateError("fit: the start is not at rest under its load: settle it first", "start")
-    rows = free_parameters(start, groups, priors if isinstance(priors, Mapping) else None)
+    rows = free_parameters(start, groups, checked_priors(priors, groups))
     data = target_of(start, target)
     with_prior = priors is not False
     count = len(data.residuals(np.array(start.node_position))[0])

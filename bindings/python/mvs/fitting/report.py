@@ -38,7 +38,7 @@ $warnings
 <h2>Predicted measures</h2>$measures
 <h2>What the data determine</h2>$singular
 <h2>Parameters</h2>$parameters
-<h2>Covariance</h2>$covariance
+<h2>Correlation</h2>$covariance
 <h2>Trace</h2>$trace
 </body></html>
 """)
@@ -50,7 +50,7 @@ def page_of(found: Fit, measures: Optional[Iterable[str]] = None) -> str:
         warnings="".join(f'<p class="warning">{html.escape(w)}</p>' for w in warnings_of(found)),
         summary=_summary(found),
         shape=_shape(found),
-        measures=_measures(found, tuple(measures or MEASURES)),
+        measures=_measures(found, (measures,) if isinstance(measures, str) else tuple(measures or MEASURES)),
         singular=_singular(found),
         parameters=_parameters(found),
         covariance=_covariance(found),
@@ -63,6 +63,9 @@ def warnings_of(found: Fit) -> list[str]:
     from .result import ILL_CONDITIONED
 
     sentences = []
+    if not found.converged:
+        sentences.append(f"The search stopped at its number of closures ({found.closures} in all) before it "
+                         "converged: repeat the fit with a larger most.")
     weak = int((found.determined < WEAK).sum())
     if weak:
         sentences.append(f"{weak} of {len(found.z)} parameters are set by their priors more than by the data.")
@@ -89,8 +92,9 @@ def _summary(found: Fit) -> str:
                           f"{found.rms * 1e3:.3f} mm after"),
         ("closures", str(found.closures)),
         ("CPU time", f"{found.cpu_seconds:.1f} s"),
-        ("starts", "; ".join(f"cost {s.cost:.4g} after {s.closures} closures ({s.message})"
-                             for s in found.starts)),
+        ("priors", "normal" if found.with_prior else "none"),
+        ("starts", "; ".join(f"cost {s.cost:.4g} after {s.closures} closures"
+                             f"{'' if s.converged else ', not converged'}" for s in found.starts)),
     ]
     return table(f"<tr>{cells(map(html.escape, row))}</tr>" for row in rows)
 
@@ -113,7 +117,11 @@ def _parameters(found: Fit) -> str:
     for row in found.table():
         unit, value, deviation = row["unit"], row["value"], row["deviation"]
         rows.append(f"<tr>{cells([html.escape(row['parameter']), _shown(row['start'], unit), _shown(value, unit), _shown(deviation, unit), f'{_shown(value - 1.645 * deviation, unit)} to {_shown(value + 1.645 * deviation, unit)}', format(row['determined'], '.0%') + (' at a bound' if row['at_bound'] else '')])}</tr>")
-    return table(rows)
+    note = "To first order. " if not found.with_prior else (
+        "To first order about the fit. A chord that hangs slack may be longer by any amount that its prior "
+        "allows: Fit.sample draws from its one-sided posterior. ")
+    return table(rows) + (f"<p>{note}Determined: the share of the prior variance that the data remove.</p>"
+                          if found.with_prior else f"<p>{note}Without priors the data determine all.</p>")
 
 
 def _picture(draw: Any, caption: str, width: float = 8, height: float = 3.2) -> str:
@@ -128,17 +136,40 @@ def _picture(draw: Any, caption: str, width: float = 8, height: float = 3.2) -> 
     return figure(to_png(made), caption)
 
 
-def _shape(found: Fit) -> str:
-    def draw(made: Any) -> None:
-        ax = made.subplots()
-        reach = float(np.abs(found.residuals_before).max()) * 1e3 or 1.0
-        bins = np.linspace(-reach, reach, 61)
-        ax.hist(found.residuals_before * 1e3, bins, color="#b9c6d2", label="before")
-        ax.hist(found.residuals_after * 1e3, bins, color="#3d6fa3", alpha=0.8, label="after")
-        ax.set_xlabel("residual, mm")
-        ax.legend(frameon=False)
+def _by_node(found: Fit, closed: Any, residuals: Any) -> tuple[Any, Any]:
+    """Nodes with data and their distance from these, mm, at a closed valve."""
+    nodes = found.target.residuals(np.array(closed.node_position))[1]
+    listed, row = np.unique(nodes, return_inverse=True)
+    return listed, 1e3 * np.sqrt(np.bincount(row, residuals**2))
 
-    return _picture(draw, "Residuals of all data before and after the fit.")
+
+def _shape(found: Fit) -> str:
+    cases = [("before", found.start, found.residuals_before), ("after", found.closed, found.residuals_after)]
+    of_nodes = [_by_node(found, closed, residuals) for _, closed, residuals in cases]
+    # the plane of the annulus: the two directions in which it extends most
+    annulus = np.array(found.start.node_position)[found.start.annulus_nodes]
+    plane = np.linalg.svd(annulus - annulus.mean(axis=0))[2][:2].T
+
+    def draw(made: Any) -> None:
+        *axes, bar, counts = made.subplots(1, 4, gridspec_kw={"width_ratios": [1, 1, 0.05, 0.9]})
+        most = max(float(of_nodes[0][1].max()), 1e-9)
+        for ax, (name, closed, _), (nodes, size) in zip(axes, cases, of_nodes):
+            at = 1e3 * (np.array(closed.node_position)[nodes] - annulus.mean(axis=0)) @ plane
+            dots = ax.scatter(at[:, 0], at[:, 1], 9, np.minimum(size, most), cmap="viridis", vmin=0, vmax=most)
+            ax.set_title(f"{name}: largest {size.max():.2f} mm", fontsize=10)
+            ax.set_aspect("equal")
+            ax.set_xlabel("mm")
+        made.colorbar(dots, cax=bar, label="distance, mm")
+        bins = np.linspace(-1, 1, 61) * (float(np.abs(found.residuals_before).max()) * 1e3 or 1.0)
+        counts.hist(found.residuals_after * 1e3, bins, color="#8fb3d9", label="after")
+        counts.hist(found.residuals_before * 1e3, bins, histtype="step", linewidth=1.5, color="#c8553d",
+                    label="before")
+        counts.set_xlabel("residual, mm")
+        counts.set_ylabel("data")
+        counts.legend(frameon=False)
+
+    return _picture(draw, "Distance of each node from its data, seen along the axis of the annulus, and residuals of all "
+                          "data, before and after the fit.", 11, 3.4)
 
 
 def _singular(found: Fit) -> str:
@@ -148,12 +179,17 @@ def _singular(found: Fit) -> str:
     def draw(made: Any) -> None:
         ax = made.subplots()
         ax.semilogy(np.arange(1, len(values) + 1), np.maximum(values, 1e-6), "o-", markersize=3)
-        ax.axhline(1, color="#c8553d")
-        ax.set_xlabel("direction")
+        if found.with_prior:
+            ax.axhline(1, color="#c8553d")
+        ax.xaxis.get_major_locator().set_params(integer=True)
+        ax.set_xlabel("direction of the parameters, best determined first")
         ax.set_ylabel("singular value")
 
-    return _picture(draw, f"Singular values in standard deviations of data and prior: the data determine "
-                          f"{count} of {len(values)} directions better than the prior.")
+    caption = (f"Singular values in standard deviations of data and prior; above the line the data determine a "
+               f"direction better than the prior: {count} of {len(values)}.")
+    if not found.with_prior:
+        caption = "Singular values in standard deviations of the data, for steps of a default prior's deviation."
+    return _picture(draw, caption)
 
 
 def _covariance(found: Fit) -> str:
@@ -161,6 +197,8 @@ def _covariance(found: Fit) -> str:
         ax = made.subplots()
         d = np.sqrt(np.diag(found.covariance_z))
         image = ax.imshow(found.covariance_z / np.outer(d, d), vmin=-1, vmax=1, cmap="coolwarm")
+        ax.set_xlabel("row of the table of parameters")
+        ax.set_ylabel("row")
         made.colorbar(image, label="correlation")
 
     return _picture(draw, "Posterior correlation of the parameters, in the order of the table.", 6, 5)
@@ -170,4 +208,5 @@ def _trace(found: Fit) -> str:
     rows = [f"<tr>{heads(['closures', 'data, squares', 'prior, squares', 'at rest'])}</tr>"]
     rows += [f"<tr>{cells([t.closures, f'{t.data:.5g}', f'{t.prior:.5g}', 'yes' if t.at_rest else 'no'])}</tr>"
              for t in found.trace]
-    return table(rows)
+    return table(rows) + ("<p>Sums of squares in standard deviations of each trial; the cost is half of their sum"
+                          f"{'' if found.with_prior else ', without that of the priors'}.</p>")

@@ -13,9 +13,11 @@ from numpy.typing import NDArray
 
 from .. import _core
 from ..errors import ArgumentError
-from ..sensitivities import NO_TEST, SHORT
+from ..sensitivities import NO_TEST, SHORT, measure_names
 from ..tables import Table
 from ..values import Measures, unit_of
+from ..words import did_you_mean, listed, shown
+from .checks import checked_count
 from .parameters import Free
 from .targets import Target
 
@@ -161,7 +163,7 @@ class Fit:
         """
         if not 0 < level < 1:
             raise ArgumentError(f"level: a number between 0 and 1 is needed, not {level}", "level")
-        name = SHORT.get(of, of)
+        name = _measure(of)
         found = self.closed._sensitivity([(8, 0, 0, name, None, None)], list(self.free.rows), NO_TEST, None)
         value = float(found["value"][0])
         slope = np.asarray(found["derivative"][0]) * self.free.deviation
@@ -170,13 +172,14 @@ class Fit:
         if samples == 0:
             reach = _normal_quantile(0.5 + level / 2) * deviation
             return Interval(name, unit, value, deviation, value - reach, value + reach, level)
-        drawn = self.draws(name, samples, seed)
+        drawn = self.draws(name, checked_count("samples", samples), seed)
         low, high = np.quantile(drawn, [0.5 - level / 2, 0.5 + level / 2])
         return Interval(name, unit, value, float(np.std(drawn)), float(low), float(high), level, drawn)
 
     def draws(self, measure: str, samples: int, seed: int = 0) -> Array:
         """The measure of closed valves with parameters drawn from the posterior, within the bounds."""
-        found = [getattr(closed.measures, measure) for closed in self.closures_of(self.sample(samples, seed))]
+        name = _measure(measure)
+        found = [getattr(closed.measures, name) for closed in self.closures_of(self.sample(samples, seed))]
         if not found:
             raise ArgumentError("interval: no draw came to rest; use samples=0", "samples")
         return np.array(found)
@@ -186,6 +189,7 @@ class Fit:
         slack have their one-sided posterior (fitting/posterior.py), which covariance does not describe."""
         from .posterior import draw
 
+        count = checked_count("count", count)
         if self.with_prior:
             return draw(self, count, seed)
         random = np.random.default_rng(seed)
@@ -215,6 +219,17 @@ class Fit:
     def __repr__(self) -> str:
         return (f"<mvs.Fit: {len(self.z)} parameters, residual {self.rms * 1e3:.3f} mm RMS, "
                 f"{self.closures} closures{'' if self.converged else ', not converged'}>")
+
+
+def _measure(name: str) -> str:
+    """A measure that has a derivative, from its name or its short name."""
+    full = SHORT.get(name, name) if isinstance(name, str) else None
+    if full not in measure_names():
+        known = [*SHORT, *measure_names()]
+        near = did_you_mean(name, known) if isinstance(name, str) else ""
+        raise ArgumentError(f"of: {shown(name)} is no measure with a derivative{near}; there are {listed(known)}",
+                            "of")
+    return str(full)
 
 
 def _normal_quantile(p: float) -> float:

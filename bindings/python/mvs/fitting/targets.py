@@ -105,16 +105,13 @@ def target_of(start: _core.Snapshot, given: Any) -> Target:
     elif isinstance(given, Surface):
         target = SurfaceTarget(given.points, given.triangles, leaflet)
     elif isinstance(given, _core.Snapshot):
+        if not given.at_rest:
+            raise ArgumentError("target: the snapshot is not at rest: settle it first", "target")
         target = SurfaceTarget(given.node_position, given.triangle_nodes, leaflet)
     elif type(given).__module__.startswith("mvs.imaging") and hasattr(given, "masks"):
         target = _labelled(given, leaflet)
     elif isinstance(given, tuple) and len(given) == 2:
-        points, triangles = np.asarray(given[0], float), np.asarray(given[1])
-        if points.ndim != 2 or points.shape[1] != 3 or triangles.ndim != 2 or triangles.shape[1] != 3:
-            raise ArgumentError("target: points (k, 3) and triangles (t, 3) are needed", "target")
-        if not np.isfinite(points).all() or triangles.min() < 0 or triangles.max() >= len(points):
-            raise ArgumentError("target: a point is not finite, or a triangle has no such point", "target")
-        target = SurfaceTarget(points, triangles, leaflet)
+        target = SurfaceTarget(*_checked_surface(*given), leaflet)
     else:
         raise ArgumentError(
             "target: mvs.Points, a mvs.Surface, a closed mvs.Snapshot, a mvs.imaging.LabelMap, or (points, "
@@ -142,8 +139,37 @@ def _labelled(labels: Any, leaflet: NDArray[np.int64]) -> Target:
     return SurfaceTarget(sheet.points, sheet.triangles, leaflet)
 
 
+def _numbers(values: Any, what: str) -> Array:
+    try:
+        return np.asarray(values, float)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"target: {what} have to be numbers, in m", "target") from None
+
+
+def _whole(values: Any, what: str) -> NDArray[np.int64]:
+    """Indices; a mask or fractions are not."""
+    found = np.asarray(values)
+    if found.dtype.kind not in "iu":
+        raise ArgumentError(f"target: {what} have to be whole numbers, not {found.dtype}", "target")
+    return found.astype(np.int64)
+
+
+def _checked_surface(points: Any, triangles: Any) -> tuple[Array, NDArray[np.int64]]:
+    points, triangles = _numbers(points, "points"), _whole(triangles, "triangles")
+    if points.ndim != 2 or points.shape[1] != 3 or triangles.ndim != 2 or triangles.shape[1] != 3:
+        raise ArgumentError("target: points (k, 3) and triangles (t, 3) are needed", "target")
+    if len(triangles) == 0:
+        raise ArgumentError("target: the surface has no triangles", "target")
+    if not np.isfinite(points).all() or triangles.min() < 0 or triangles.max() >= len(points):
+        raise ArgumentError("target: a point is not finite, or a triangle has no such point", "target")
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    if not np.cross(b - a, c - a).any():
+        raise ArgumentError("target: no triangle of the surface has an area", "target")
+    return points, triangles
+
+
 def _checked_points(start: _core.Snapshot, given: Points) -> Points:
-    nodes, places = np.asarray(given.nodes), np.asarray(given.places, float)
+    nodes, places = _whole(given.nodes, "nodes of Points"), _numbers(given.places, "places of Points")
     count = len(start.node_position)
     if nodes.ndim != 1 or places.shape != (len(nodes), 3) or not np.isfinite(places).all():
         raise ArgumentError("target: Points need nodes (k,) and finite places (k, 3)", "target")
@@ -151,4 +177,4 @@ def _checked_points(start: _core.Snapshot, given: Points) -> Points:
         raise ArgumentError(
             f"target: Points name a node outside of 0 to {count - 1}: they are of another valve", "target"
         )
-    return Points(nodes.astype(np.int64), places)
+    return Points(nodes, places)
