@@ -66,7 +66,20 @@ typedef struct mvs_build_options {
                              notches that were filled] */
   double thickness_error; /* m, up to 2e-3: by how much the leaflets may be thicker or thinner
                              than the thickness says; widens the interval of leaks [0] */
+  uint32_t without_leak;  /* 1: no closures and no findings on the leak, for a caller who replaces
+                             the chordae; mvs_find_leak_interval gives them later [0] */
+  uint32_t reserved2;
 } mvs_build_options;
+
+/* How far a valve may be from the one of its patient. */
+typedef struct mvs_leak_errors {
+  uint32_t struct_size;
+  uint32_t reserved;
+  double lengths;   /* 1e-3 to 0.5: share of the rest lengths, of all chordae and of a group
+                       together [0.1] */
+  double single;    /* 1e-3 to 0.5: share, of a chord beside its group [0.03] */
+  double thickness; /* m, up to 2e-3: of the leaflets, thicker or thinner [0] */
+} mvs_leak_errors;
 
 /* Where a finding comes from. */
 enum mvs_finding_source_e {
@@ -98,6 +111,14 @@ typedef struct mvs_build mvs_build;
  * progress callback of the simulator cancelled. */
 MVS_API mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
                                    const mvs_build_options *options, mvs_build **build);
+
+/* Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other lengths
+ * and leaflets of other thicknesses, up to `errors` (nullable): up to 11 closures, 3 if the valve
+ * is sealed with the first ones. `found` gets findings as those of a build: "leak" and
+ * "leak_interval", m2; release it with mvs_build_release. The simulator is unchanged.
+ * MVS_E_CANCELLED if the progress callback of the simulator cancelled. */
+MVS_API mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors,
+                                          mvs_build **found);
 
 /* The findings of a build, in the order in which they were made. */
 MVS_API mvs_result mvs_build_get_finding_count(const mvs_build *build, uint32_t *count);

@@ -30,13 +30,8 @@ inline BuildFinding build_finding(const mvs_build *build, std::uint32_t index) {
   return finding;
 }
 
-// Replaces the valve of `sim`; returns the findings.
-inline std::vector<BuildFinding> build_valve(Simulator &sim, mvs_surface_desc surface,
-                                             mvs_build_options options = {}) {
-  surface.struct_size = sizeof surface;
-  options.struct_size = sizeof options;
-  mvs_build *build = nullptr;
-  must(mvs_build_valve(sim.get(), &surface, &options, &build));
+// The findings of a build, which is released.
+inline std::vector<BuildFinding> take_findings(mvs_build *build) {
   struct Release {
     mvs_build *build;
     ~Release() { mvs_build_release(build); }
@@ -46,6 +41,24 @@ inline std::vector<BuildFinding> build_valve(Simulator &sim, mvs_surface_desc su
   std::vector<BuildFinding> findings;
   for (std::uint32_t k = 0; k < count; ++k) findings.push_back(build_finding(build, k));
   return findings;
+}
+
+// Replaces the valve of `sim`; returns the findings.
+inline std::vector<BuildFinding> build_valve(Simulator &sim, mvs_surface_desc surface,
+                                             mvs_build_options options = {}) {
+  surface.struct_size = sizeof surface;
+  options.struct_size = sizeof options;
+  mvs_build *build = nullptr;
+  must(mvs_build_valve(sim.get(), &surface, &options, &build));
+  return take_findings(build);
+}
+
+// Closes the valve of `sim` with other lengths and thicknesses; returns its leak and the interval.
+inline std::vector<BuildFinding> find_leak_interval(Simulator &sim, mvs_leak_errors errors = {}) {
+  errors.struct_size = sizeof errors;
+  mvs_build *found = nullptr;
+  must(mvs_find_leak_interval(sim.get(), &errors, &found));
+  return take_findings(found);
 }
 
 }  // namespace mvs

@@ -5,6 +5,7 @@
 #include "base/array_view.h"
 #include "model/law.h"
 #include "patient/build_valve.h"
+#include "patient/fit/thickness_range.h"
 #include "session/commit.h"
 
 using namespace mvs::core;
@@ -76,7 +77,11 @@ PatientSurface read_surface(const mvs_surface_desc *given) {
 BuildSettings read_options(const mvs_build_options *given) {
   const mvs_build_options options = read_struct_or_default(given, "options");
   must_be_zero(options.reserved, "options.reserved");
+  must_be_zero(options.reserved2, "options.reserved2");
   BuildSettings settings;
+  MVS_MUST(options.without_leak <= 1, MVS_E_ARGUMENT, "options.without_leak",
+           "options.without_leak is %u: it has to be 0 or 1", options.without_leak);
+  settings.finds_leak = options.without_leak == 0;
   if (options.leaflet_law != 0) {
     settings.law = static_cast<LeafletLawId>(options.leaflet_law);
     MVS_MUST(find_leaflet_law(settings.law) != nullptr, MVS_E_ARGUMENT, "options.leaflet_law",
@@ -107,6 +112,22 @@ BuildSettings read_options(const mvs_build_options *given) {
   return settings;
 }
 
+// Range of lengths and thickness over which the leak of a valve is found.
+struct LeakErrors {
+  LengthRange lengths;
+  double thickness;
+};
+
+LeakErrors read_errors(const mvs_leak_errors *given) {
+  const mvs_leak_errors errors = read_struct_or_default(given, "errors");
+  must_be_zero(errors.reserved, "errors.reserved");
+  LengthRange range;
+  range.all = or_default(errors.lengths, range.all, 1e-3, 0.5, "errors.lengths");
+  range.single = or_default(errors.single, range.single, 1e-3, 0.5, "errors.single");
+  must_be_in(errors.thickness, 1e-6, 2e-3, "errors.thickness");
+  return {range, errors.thickness};
+}
+
 }  // namespace
 
 extern "C" {
@@ -120,6 +141,18 @@ mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
     State state = initial_state(*built.model);
     replace_valve(s, {{std::move(built.model), std::move(state)}, {}});
     if (build) *build = found.release();
+  });
+}
+
+mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors, mvs_build **found) {
+  return call_at_boundary(sim, [&](mvs_sim &s) {
+    must_point(found, "found");
+    const LeakErrors range = read_errors(errors);
+    auto build = std::make_unique<mvs_build>();
+    report_thickness_error(range.thickness, build->findings);
+    leak_interval(s.current().model, range.lengths, {}, range.thickness, {}, build->findings,
+                  [&, progress = s.progress()](double share) { tell_progress(progress, share); });
+    *found = build.release();
   });
 }
 

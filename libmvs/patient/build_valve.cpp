@@ -229,12 +229,6 @@ PatientGeometry find_geometry(const PatientSurface &surface, const BuildSettings
   return g;
 }
 
-// Tells the host the share of the work that is done; throws if it cancels.
-void tell_progress(const Progress &progress, double share) {
-  MVS_MUST(!progress || progress(share, 0), MVS_E_CANCELLED, "progress",
-           "cancelled by the progress callback: the valve is as before");
-}
-
 // If the free edge is not exact, `g` and the valve get the tissue that the closed surface shows.
 ChordFit fit_chords(const ClosedSurface &closed, bool edge_is_exact, const Progress &progress,
                     PatientGeometry &g, Valve &valve, Findings &findings) {
@@ -248,6 +242,11 @@ ChordFit fit_chords(const ClosedSurface &closed, bool edge_is_exact, const Progr
 }
 
 }  // namespace
+
+void tell_progress(const Progress &progress, double share) {
+  MVS_MUST(!progress || progress(share, 0), MVS_E_CANCELLED, "progress",
+           "cancelled by the progress callback: the valve is as before");
+}
 
 BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &settings,
                        const Progress &progress) {
@@ -275,11 +274,12 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
     done = 0.8;
   }
   built.model = make_model(std::move(valve));
+  if (!settings.finds_leak) return built;
   begin_stage(settings, "leak");
   report_thickness_error(settings.thickness_error, findings);
-  built.leak = leak_interval(
-      built.model, range, edge, settings.thickness_error, leaks, findings,
-      [&](uint32_t k, uint32_t of) { tell_progress(progress, done + (1 - done) * k / of); });
+  built.leak =
+      leak_interval(built.model, range, edge, settings.thickness_error, leaks, findings,
+                    [&](double share) { tell_progress(progress, done + (1 - done) * share); });
   return built;
 }
 

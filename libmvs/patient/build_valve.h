@@ -36,14 +36,18 @@ struct BuildSettings {
   double edge_lost = 0;   // m, of tissue below it that may be missing; 0: from its filled notches
   double thickness_error = 0;  // m, of the leaflets, thicker or thinner
   uint32_t chords = 100;
+  bool finds_leak = true;
   std::function<void(const char *)> on_stage;  // called with the name of each stage as it begins
 };
 
 struct BuiltValve {
   ModelPtr model;
   Findings findings;
-  LeakInterval leak;
+  LeakInterval leak;  // zeros unless it is found
 };
+
+// Tells the host the share of the work that is done; throws MVS_E_CANCELLED if it cancels.
+void tell_progress(const Progress &progress, double share);
 
 BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &settings,
                        const Progress &progress);

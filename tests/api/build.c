@@ -1,4 +1,5 @@
-/* mvs_build_valve: a surface and landmarks become a valve that closes; findings; refusals. */
+/* mvs_build_valve: a surface and landmarks become a valve that closes; findings; its leak over
+ * errors of lengths and thickness; refusals. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -142,6 +143,67 @@ static void an_edge_and_a_thickness_that_are_not_sure_change_findings_only(surfa
   mvs_destroy(unsure);
 }
 
+static int32_t cancel(void *user, double share, double residual) {
+  (void)user;
+  (void)share;
+  (void)residual;
+  return 1;
+}
+
+static void the_leak_is_found_in_the_build_or_later_with_the_same_figures(surface *s) {
+  mvs_sim *with = NULL, *without = NULL, *stopped = NULL;
+  mvs_build *build = NULL, *found = NULL;
+  mvs_build_finding finding = {.struct_size = sizeof finding};
+  const mvs_surface_desc desc = desc_of(s);
+  mvs_build_options options = {.struct_size = sizeof options, .edge = 3.2e-3};
+  double leak[3], interval[2];
+  MUST(mvs_create(NULL, &with));
+  MUST(mvs_build_valve(with, &desc, &options, &build));
+  CHECK(find(build, "leak", &finding) != UINT32_MAX && finding.values.count == 3);
+  memcpy(leak, finding.values.data, sizeof leak);
+  CHECK(find(build, "leak_interval", &finding) != UINT32_MAX && finding.values.count == 2);
+  memcpy(interval, finding.values.data, sizeof interval);
+  mvs_build_release(build);
+  options.without_leak = 1;
+  MUST(mvs_create(NULL, &without));
+  MUST(mvs_build_valve(without, &desc, &options, &build));
+  CHECK(find(build, "leak", &finding) == UINT32_MAX);
+  CHECK(find(build, "leak_interval", &finding) == UINT32_MAX);
+  CHECK(same_hash(sim_hash(with), sim_hash(without)));
+  mvs_build_release(build);
+  MUST(mvs_find_leak_interval(without, NULL, &found));
+  CHECK(same_hash(sim_hash(with), sim_hash(without)));
+  CHECK(find(found, "leak", &finding) != UINT32_MAX);
+  CHECK(memcmp(leak, finding.values.data, sizeof leak) == 0);
+  CHECK(find(found, "leak_interval", &finding) != UINT32_MAX);
+  CHECK(memcmp(interval, finding.values.data, sizeof interval) == 0);
+  mvs_build_release(found);
+  const mvs_leak_errors errors = {
+      .struct_size = sizeof errors, .lengths = 0.02, .thickness = 0.1e-3};
+  MUST(mvs_find_leak_interval(without, &errors, &found));
+  CHECK(find(found, "leak", &finding) != UINT32_MAX);
+  CHECK(strstr(finding.sentence, "chordae of 98, 100 and 102 %") != NULL);
+  CHECK(((const double *)finding.values.data)[1] == leak[1]);
+  CHECK(find(found, "thickness_error", &finding) != UINT32_MAX);
+  mvs_build_release(found);
+  found = NULL;
+  const mvs_leak_errors wide = {.struct_size = sizeof wide, .lengths = 0.6};
+  MUST_FAIL(mvs_find_leak_interval(without, &wide, &found), MVS_E_ARGUMENT, "errors.lengths");
+  MUST_FAIL(mvs_find_leak_interval(without, NULL, NULL), MVS_E_ARGUMENT, "found");
+  options.without_leak = 2;
+  MUST_FAIL(mvs_build_valve(without, &desc, &options, NULL), MVS_E_ARGUMENT,
+            "options.without_leak");
+  const mvs_sim_desc host = {.struct_size = sizeof host, .progress = cancel};
+  MUST(mvs_create(&host, &stopped));
+  MUST_FAIL(mvs_find_leak_interval(stopped, NULL, &found), MVS_E_STATE, "valve");
+  MUST(mvs_generate_valve(stopped, NULL));
+  MUST_FAIL(mvs_find_leak_interval(stopped, NULL, &found), MVS_E_CANCELLED, "progress");
+  CHECK(found == NULL);
+  mvs_destroy(with);
+  mvs_destroy(without);
+  mvs_destroy(stopped);
+}
+
 static void bad_input_is_refused_and_changes_nothing(surface *s) {
   mvs_sim *sim = NULL;
   mvs_build *build = NULL;
@@ -199,6 +261,7 @@ int main(void) {
   take_surface(&s);
   a_surface_becomes_a_valve_that_closes(&s);
   an_edge_and_a_thickness_that_are_not_sure_change_findings_only(&s);
+  the_leak_is_found_in_the_build_or_later_with_the_same_figures(&s);
   bad_input_is_refused_and_changes_nothing(&s);
   return finish("build");
 }

@@ -176,6 +176,16 @@ TEST_CASE("clean_surface_takes_bodies_apart_that_touch_along_an_edge") {
                        doctest::Contains("2 pieces that are not connected, of 1350, 1350"), Error);
 }
 
+TEST_CASE("clean_surface_refuses_a_cloud_of_triangles_with_a_sentence_of_its_own") {
+  // 400 triangles apart from each other: no piece has a share that counts
+  Surface s;
+  for (uint32_t k = 0; k < 400; ++k) {
+    const Vec3 at(50e-3 * (k % 20), 50e-3 * (k / 20), 0);
+    add_triangle(s, at, at + Vec3(30e-3, 0, 0), at + Vec3(0, 30e-3, 0));
+  }
+  CHECK_THROWS_WITH_AS(cleaned(s), doctest::Contains("a cloud of 400 pieces"), Error);
+}
+
 TEST_CASE("clean_surface_splits_an_edge_of_a_body_that_touches_itself") {
   // two plates, joined by two blocks between them that touch along an edge: both ends of the edge
   // are on one fan of triangles each

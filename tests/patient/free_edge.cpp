@@ -1,6 +1,7 @@
 // Notches of torn free edges.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
@@ -98,6 +99,32 @@ TEST_CASE("a_valley_of_the_edge_that_is_wider_than_a_notch_is_kept") {
   SheetRims rims = rims_of(sheet);
   CHECK(fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0)).last.empty());
   CHECK(sheet.triangles == valley.triangles);
+}
+
+TEST_CASE("the_valley_of_a_commissure_is_kept_where_the_edge_is_torn") {
+  // V-shaped, 6 mm deep with sides at 45 degrees: 1.4 of its length along the edge, which is a
+  // gentle notch beside three sharp ones; and narrower than the valley of the test above
+  constexpr uint32_t round = 80, bottom = 30;
+  const auto torn = [](uint32_t i, uint32_t row) {
+    return (i == 5 && row < 1) || (i >= 50 && i < 52 && row < 2) || (i >= 65 && i < 68 && row < 3);
+  };
+  LeafletSheet sheet = band(round, torn);
+  const double angle_of_step = 6.283185307179586 / round;
+  for (Vec3 &x : sheet.x) {
+    double off = math::atan2(x.y(), x.x()) / angle_of_step - bottom;
+    off = std::abs(off - round * std::round(off / round));
+    x.z() *= (10e-3 - std::max(0.0, 6e-3 - 1e-3 * off)) / 10e-3;
+  }
+  SheetRims rims = rims_of(sheet);
+  const double before = surface_area(sheet.x, sheet.triangles);
+  const FilledNotches filled = fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0));
+  CHECK(filled.last.size() == 3);
+  CHECK(filled.area == doctest::Approx(14e-6).epsilon(0.05));  // of the notches alone
+  CHECK(surface_area(sheet.x, sheet.triangles) == doctest::Approx(before + filled.area));
+  for (uint32_t i = bottom - 6; i <= bottom + 6; ++i) {
+    const uint32_t at = 10 * round + i;
+    CHECK(std::count(rims.free_edge.begin(), rims.free_edge.end(), at) == 1);
+  }
 }
 
 TEST_CASE("notches_whose_filling_crosses_are_marked") {

@@ -1,6 +1,5 @@
 """mvs.imaging: label maps become mid-surfaces of leaflets; faults are refused with a sentence."""
 
-import json
 import types
 
 import mvs
@@ -11,49 +10,13 @@ sitk = pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleI
 pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
 pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 
+from label_images import NAMES, VOXEL, funnel, image_of  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging import mesh  # noqa: E402
-from mvs.imaging.command import main  # noqa: E402
 from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
 from mvs.imaging.page import distance_histogram  # noqa: E402
 from mvs.imaging.requests import edge_of_labels, thickness_of_labels  # noqa: E402
 from mvs.imaging.valve import check_closed, distance_from_image  # noqa: E402
-
-VOXEL = 0.7  # mm, of ultrasound
-
-
-def funnel(voxel=VOXEL, thickness=1.4, gap=0.0, seed=None):
-    """Labels of an open valve: a cone around z, wide at the annulus (top); 1 anterior, 2 posterior.
-
-    Distances from the cone are exact, so that its mid-surface and thickness are known.
-    """
-    n = int(40 / voxel)
-    z, y, x = np.meshgrid(*[(np.arange(n) - n / 2 + 0.5) * voxel] * 3, indexing="ij")
-    radius = np.hypot(x, y)
-    # from (16, 8) at the annulus to (8, -8) at the free edge, in the plane (radius, z)
-    along = np.array([-8, -16]) / np.hypot(8, 16)
-    share = (radius - 16) * along[0] + (z - 8) * along[1]
-    away = np.abs((radius - 16) * along[1] - (z - 8) * along[0])
-    tissue = (away < thickness / 2) & (share > 0) & (share < np.hypot(8, 16))
-    labels = np.where(tissue, np.where(y > gap, 1, 2), 0).astype(np.uint8)
-    if seed is not None:
-        random = np.random.default_rng(seed)
-        edge = tissue ^ (np.pad(tissue, 1)[2:, 1:-1, 1:-1] | tissue)
-        labels[tissue & (random.random(labels.shape) < 0.03)] = 0
-        labels[edge & (random.random(labels.shape) < 0.1)] = 1
-    return labels, np.stack([x, y, z], -1)
-
-
-def image_of(labels, voxel=VOXEL):
-    image = sitk.GetImageFromArray(labels)
-    image.SetSpacing([voxel] * 3)
-    n = labels.shape[0]
-    image.SetOrigin([(0.5 - n / 2) * voxel] * 3)
-    return image
-
-
-NAMES = {1: "anterior leaflet", 2: "posterior leaflet"}
-
 
 def away_from_cone(points):
     """Distance (mm) of points from the cone's mid-surface."""
@@ -215,132 +178,6 @@ def test_the_histogram_of_the_page_shows_the_distance_of_the_table(monkeypatch):
     assert drawn == [pytest.approx(1e3 * distance_from_image(closed, loaded).values[0])]
 
 
-def test_spacing_in_metres_or_cm_and_other_files_are_refused(tmp_path):
-    labels, _ = funnel()
-    for scale, words in ((1e-3, "metres"), (0.1, "cm"), (20, "at most 3 mm")):
-        image = image_of(labels, VOXEL * scale)
-        with pytest.raises(mvs.ArgumentError, match=words):
-            imaging.labels_of(image)
-    grey = sitk.GetImageFromArray(np.random.default_rng(0).random((30, 30, 30)))
-    with pytest.raises(mvs.FormatError, match="no label map"):
-        imaging.labels_of(grey)
-    path = tmp_path / "a.nrrd"
-    path.write_text("no image")
-    with pytest.raises(mvs.FormatError, match="no volume that SimpleITK reads"):
-        imaging.read_volume(path)
-    with pytest.raises(mvs.IoError, match="no such file"):
-        imaging.read_labels(tmp_path / "b.seg.nrrd")
-
-
-def test_every_volume_format_gives_the_same_positions(tmp_path):
-    image = image_of(funnel(2.0)[0], 2.0)
-    image.SetDirection([0, -1, 0, 1, 0, 0, 0, 0, 1])
-    for ending in ("nrrd", "nii.gz", "mha"):
-        sitk.WriteImage(image, str(tmp_path / f"a.{ending}"))
-        read = imaging.read_labels(tmp_path / f"a.{ending}", NAMES)
-        for index in ((0, 0, 0), (3, 5, 7)):
-            # NIfTI holds single precision
-            assert read.image.TransformIndexToPhysicalPoint(index) == pytest.approx(
-                image.TransformIndexToPhysicalPoint(index), abs=1e-4)
-        assert np.array_equal(read.masks["anterior leaflet"],
-                              sitk.GetArrayFromImage(image) == 1)
-
-
-def dicom_series(folder, image):
-    """One file for each slice, as scanners write them."""
-    folder.mkdir()
-    writer = sitk.ImageFileWriter()
-    writer.KeepOriginalImageUIDOn()
-    rows = np.array(image.GetDirection()).reshape(3, 3)
-    for k in range(image.GetDepth()):
-        one = image[:, :, k]
-        place = image.TransformIndexToPhysicalPoint((0, 0, k))
-        for tag, value in {
-            "0020|000e": f"1.2.826.0.1.3680043.2.1125.{sum(map(ord, folder.name))}",
-            "0020|0032": "\\".join(f"{x:.6f}" for x in place),
-            "0020|0037": "\\".join(f"{x:g}" for x in (*rows[:, 0], *rows[:, 1])),
-            "0020|0013": str(k), "0008|0060": "CT", "0018|0050": f"{image.GetSpacing()[2]:g}",
-        }.items():
-            one.SetMetaData(tag, value)
-        # the names are in no order of the slices
-        writer.SetFileName(str(folder / f"{(7 * k) % 100:03d}.dcm"))
-        writer.Execute(one)
-
-
-def test_a_dicom_series_is_read_in_the_order_of_its_slices(tmp_path):
-    image = sitk.Cast(image_of(funnel(2.0)[0], 2.0), sitk.sitkUInt16)
-    image.SetDirection([0, -1, 0, 1, 0, 0, 0, 0, 1])
-    dicom_series(tmp_path / "a", image)
-    assert len(list((tmp_path / "a").iterdir())) == image.GetDepth()
-    read = imaging.read_volume(tmp_path / "a")
-    assert np.array_equal(sitk.GetArrayFromImage(read), sitk.GetArrayFromImage(image))
-    for index in ((0, 0, 0), (3, 5, 7)):
-        # positions are written with six digits
-        assert read.TransformIndexToPhysicalPoint(index) == pytest.approx(
-            image.TransformIndexToPhysicalPoint(index), abs=1e-5)
-    labels = imaging.read_labels(tmp_path / "a", NAMES)
-    assert np.array_equal(labels.masks["anterior leaflet"], sitk.GetArrayFromImage(image) == 1)
-    dicom_series(tmp_path / "b", image)
-    for file in (tmp_path / "b").iterdir():
-        file.rename(tmp_path / "a" / f"b{file.name}")
-    with pytest.raises(mvs.FormatError, match="2 DICOM series .*folder of its own"):
-        imaging.read_volume(tmp_path / "a")
-    with pytest.raises(mvs.FormatError, match="no DICOM series"):
-        imaging.read_volume(tmp_path / "b")
-
-
-def test_segments_of_slicer_may_overlap_in_layers(tmp_path):
-    nrrd = pytest.importorskip("nrrd")
-    labels, _ = funnel(2.0)
-    header = {"space": "left-posterior-superior", "kinds": ["list", "domain", "domain", "domain"],
-              "space directions": np.array([[np.nan] * 3, [2, 0, 0], [0, 2, 0], [0, 0, 2]]),
-              "space origin": np.array([1.0, 2, 3])}
-    for row, (name, layer) in enumerate((("Anterior leaflet", 0), ("Posterior leaflet", 1))):
-        header.update({f"Segment{row}_ID": f"S{row}", f"Segment{row}_Name": name,
-                       f"Segment{row}_LabelValue": "1", f"Segment{row}_Layer": str(layer),
-                       f"Segment{row}_Extent": "0 1 0 1 0 1", f"Segment{row}_Color": "1 0 0",
-                       f"Segment{row}_Tags": "|"})
-    layers = np.stack([labels.T == 1, labels.T > 0]).astype(np.uint8)
-    path = tmp_path / "a.seg.nrrd"
-    nrrd.write(str(path), layers, header)
-    read = imaging.read_labels(path)
-    assert np.array_equal(read.masks["Anterior leaflet"], labels == 1)
-    assert np.array_equal(read.masks["Posterior leaflet"], labels > 0)  # overlaps
-    assert read.image.GetOrigin() == (1, 2, 3) and read.image.GetSpacing() == (2, 2, 2)
-
-
-def markups(path, points, frame):
-    rows = [{"id": str(k), "label": f"P{k}", "position": [float(c) for c in p],
-             "positionStatus": "defined"} for k, p in enumerate(points)]
-    path.write_text(json.dumps({"markups": [{
-        "type": "Fiducial", "coordinateSystem": frame, "coordinateUnits": "mm",
-        "controlPoints": rows}]}))
-    return path
-
-
-def test_landmarks_of_another_frame_or_patient_are_refused(tmp_path):
-    path = markups(tmp_path / "tips.mrk.json", [[30, 30, 0], [30, 20, 0]], "")
-    with pytest.raises(mvs.ArgumentError, match="LPS or RAS"):
-        imaging.read_part(path, "tips")
-    assert imaging.read_part(path, "tips", "RAS")[0] == pytest.approx([-0.03, -0.03, 0])
-    tissue = np.array([[0.03, 0.03, 0], [0.04, 0.03, 0.01]])
-    from mvs.imaging.landmarks import check_near
-
-    with pytest.raises(mvs.ArgumentError, match="x and y mirrored"):
-        check_near({"annulus": -tissue * [1, 1, -1]}, tissue)
-    with pytest.raises(mvs.ArgumentError, match="another patient"):
-        check_near({"commissures": tissue + 0.2}, tissue)
-
-
-def test_registration_by_landmarks_recovers_a_rigid_motion():
-    random = np.random.default_rng(2)
-    start = random.normal(scale=0.02, size=(9, 3))
-    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
-    turn *= np.sign(np.linalg.det(turn))
-    motion, rms = imaging.motion_of_landmarks(start, start @ turn.T + [0.1, 0, -0.2])
-    assert motion.turn == pytest.approx(turn, abs=1e-12) and rms < 1e-12
-
-
 @pytest.mark.parametrize(("voxel", "lost"), [(0.2e-3, 1.4e-3), (0.7e-3, 1.4e-3), (1e-3, 2e-3), (4e-3, 5e-3)])
 def test_fine_labels_may_lack_as_much_of_the_free_edge_as_coarse_ones(voxel, lost):
     """The errors of networks are lengths, not voxels; above 5 mm a build refuses the value."""
@@ -348,47 +185,6 @@ def test_fine_labels_may_lack_as_much_of_the_free_edge_as_coarse_ones(voxel, los
     assert found["edge_lost"].values[0] == pytest.approx(lost)
     assert f"{1e3 * lost:.2f} mm" in found["edge_lost"].sentence
     assert found["edge_error"].values[0] == pytest.approx(voxel / 2)
-
-
-def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
-    """Two images, one command; findings that are read back give the same valve."""
-    labels, _ = funnel()
-    sitk.WriteImage(image_of(labels), str(tmp_path / "open.nrrd"))
-    tips = markups(tmp_path / "tips.mrk.json", [[12, 0, -20], [-12, 0, -20]], "LPS")
-    call = [str(tmp_path / "open.nrrd"), "--anterior-label", "1", "--posterior-label", "2",
-            "--tips", str(tips), "--edge", "2.5", "--json"]
-    assert main([*call, "-o", str(tmp_path / "a.h5")]) == 0
-    output = capsys.readouterr()
-    made = json.loads(output.out)
-    assert made["converged"] and "mid-surface" in output.err
-    assert {"image_thickness", "mesh", "mesh_distance"} <= {row["name"] for row in made["findings"]}
-    rows = {row["name"]: row for row in made["findings"]}
-    assert rows["edge_error"]["source"] == rows["edge_lost"]["source"] == "assumed"
-    # half a voxel and two voxels of 0.7 mm
-    assert "0.35 mm" in rows["edge_error"]["sentence"] and "1.40 mm" in rows["edge_lost"]["sentence"]
-    assert "1.8 mm farther out" in rows["leak_interval"]["sentence"]
-    # 1.4 mm are two voxels, from which no thickness is concluded
-    assert rows["thickness"]["source"] == rows["thickness_error"]["source"] == "assumed"
-    assert "0.80 mm everywhere" in rows["thickness"]["sentence"]
-    assert "2.0 voxels" in rows["thickness"]["sentence"]
-    assert "0.25 mm thicker" in rows["leak_interval"]["sentence"]
-    again = [*call, "--with", str(tmp_path / "a.import.json"), "-o", str(tmp_path / "b.h5"), "--quiet"]
-    with mvs.Simulator() as sim:
-        sim.load(tmp_path / "a.h5")
-        sim.apply("annulus_scale", factor=0.9)
-        sim.snapshot().save_plan(tmp_path / "plan.json")
-    page = tmp_path / "page.html"
-    again += ["--plan", str(tmp_path / "plan.json"), "--report", str(page)]
-    assert main(again) == 0
-    output = capsys.readouterr()
-    second = json.loads(output.out)
-    assert second["hash"] == made["hash"] and output.err == ""
-    assert second["repair"]["operations"] == 1 and second["repair"]["converged"]
-    text = page.read_text(encoding="utf-8")
-    assert "The repaired valve" in text and "Repaired, closed, from the atrium" in text
-    assert "Interval: " in text and "farther out" in text
-    assert main([str(tmp_path / "none.nrrd"), "-o", str(tmp_path / "c.h5"), "--quiet"]) == 1
-    assert "no such file" in capsys.readouterr().err
 
 
 def test_a_real_closed_leaflet_agrees_with_the_medial_surface_of_another_program(real_valves):

@@ -361,6 +361,15 @@ class Simulator:
         edge_lost: Optional[float] = None,
         thickness_error: Optional[float] = None,
         chords: Optional[int] = None,
+        leak: bool = True,
+        progress: _Progress = None,
+    ) -> tuple[Finding, ...]: ...
+    def find_leak_interval(
+        self,
+        *,
+        lengths: Optional[float] = None,
+        single: Optional[float] = None,
+        thickness: Optional[float] = None,
         progress: _Progress = None,
     ) -> tuple[Finding, ...]: ...
     def refine(self, times: int = 1) -> None: ...

@@ -79,7 +79,7 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
                       const py::object &closed_points, const py::object &closed_triangles,
                       const py::object &leaflet, Number edge, Number chord_factor,
                       Number coaptation_length, Number edge_error, Number edge_lost,
-                      Number thickness_error, Count chords, py::object progress) {
+                      Number thickness_error, Count chords, bool leak, py::object progress) {
   SurfaceArrays arrays;
   auto surface = sized<mvs_surface_desc>();
   surface.kind = kind_of(kind);
@@ -112,11 +112,25 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
   options.edge_lost = edge_lost.value_or(0);
   options.thickness_error = thickness_error.value_or(0);
   options.chords = chords.value_or(0);
+  options.without_leak = leak ? 0 : 1;
   mvs_build *build = nullptr;
   self.call_with(std::move(progress),
                  [&](mvs_sim *sim) { return mvs_build_valve(sim, &surface, &options, &build); });
   const std::unique_ptr<mvs_build, void (*)(mvs_build *)> held(build, &mvs_build_release);
   return findings_of(build);
+}
+
+py::tuple find_leak_interval(Simulator &self, Number lengths, Number single, Number thickness,
+                             py::object progress) {
+  auto errors = sized<mvs_leak_errors>();
+  errors.lengths = lengths.value_or(0);
+  errors.single = single.value_or(0);
+  errors.thickness = thickness.value_or(0);
+  mvs_build *found = nullptr;
+  self.call_with(std::move(progress),
+                 [&](mvs_sim *sim) { return mvs_find_leak_interval(sim, &errors, &found); });
+  const std::unique_ptr<mvs_build, void (*)(mvs_build *)> held(found, &mvs_build_release);
+  return findings_of(found);
 }
 
 }  // namespace
@@ -130,7 +144,7 @@ void bind_build(py::class_<Simulator> &type) {
       "closed_triangles"_a = py::none(), "leaflet"_a = py::none(), "edge"_a = py::none(),
       "chord_factor"_a = py::none(), "coaptation_length"_a = py::none(),
       "edge_error"_a = py::none(), "edge_lost"_a = py::none(), "thickness_error"_a = py::none(),
-      "chords"_a = py::none(), "progress"_a = py::none(),
+      "chords"_a = py::none(), "leak"_a = true, "progress"_a = py::none(),
       "Replaces the valve by one that is built from a surface of open, unloaded leaflets, and "
       "returns what was found, guessed and assumed (tuple of mvs.Finding). All in one frame, "
       "in m.\n\npoints: (n, 3)\ntriangles: (m, 3) uint32; None: each three points in turn are "
@@ -148,7 +162,16 @@ void bind_build(py::class_<Simulator> &type) {
       "that may be missing at the free edge; widens the interval of leaks; None: half of the mean "
       "depth of its filled notches\nthickness_error: m, by how much the leaflets may be thicker or "
       "thinner; widens the interval of leaks [0]\nchords: about this number of segments "
-      "[100]\nprogress: as in settle");
+      "[100]\nleak: whether the leak is found over the plausible lengths of chordae; takes 3 to 13 "
+      "closures\nprogress: as in settle");
+  type.def(
+      "find_leak_interval", &find_leak_interval, py::kw_only(), "lengths"_a = py::none(),
+      "single"_a = py::none(), "thickness"_a = py::none(), "progress"_a = py::none(),
+      "Closes the valve from open under 120 mmHg with chordae of other lengths and leaflets of "
+      "other thicknesses, and returns findings (tuple of mvs.Finding): \"leak\" and "
+      "\"leak_interval\", m2. The valve stays as it is.\n\nlengths: share by which all rest "
+      "lengths, and those of a group, may be off together [0.1]\nsingle: share, of a chord "
+      "beside its group [0.03]\nthickness: m, of the leaflets [0]\nprogress: as in settle");
 }
 
 }  // namespace mvs_python

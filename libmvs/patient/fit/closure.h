@@ -14,8 +14,10 @@ struct ClosedValve {
   SolveStats stats;
 };
 
-// From the rest shape, as a caller closes a new valve.
-ClosedValve close_open(Solver &solver, ModelPtr model, double pressure);
+// From the rest shape, as a caller closes a new valve. `most_iterations` 0: the default of the
+// solver.
+ClosedValve close_open(Solver &solver, ModelPtr model, double pressure,
+                       uint32_t most_iterations = 0, const Progress &progress = {});
 
 // From a closed valve with the same nodes and other rest lengths.
 ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &valve);

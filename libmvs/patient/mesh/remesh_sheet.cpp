@@ -242,7 +242,7 @@ RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
       "a wanted edge of %g mm makes about %.0f triangles of %g mm2 of tissue, at most %.0f are "
       "made: is the surface in m?",
       goal.edge * 1e3, count, area * 1e6, most_triangles);
-  const InputSheet input(sheet, rims);
+  const InputSheet input(sheet, rims, goal.edge);
   SheetMesh mesh = mesh_of(input, rims);
   SheetEditor editor(input, mesh, goal.edge);
   const auto repeat = [](auto pass) {

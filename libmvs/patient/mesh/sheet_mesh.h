@@ -10,9 +10,10 @@ enum class Rim : uint8_t { inside, annulus, free_edge };
 
 // The sheet that is remeshed.
 struct InputSheet {
-  InputSheet(const LeafletSheet &sheet_in, const SheetRims &rims)
+  // `edge`: of the new mesh, m; normals of a much finer input are averaged over it.
+  InputSheet(const LeafletSheet &sheet_in, const SheetRims &rims, double edge)
       : sheet(sheet_in),
-        walk(sheet_in.x, sheet_in.triangles),
+        walk(sheet_in.x, sheet_in.triangles, edge),
         annulus(sheet_in, rims.annulus, "annulus"),
         free_edge(sheet_in, rims.free_edge, "free edge") {}
   const RimCurve &curve(Rim rim) const { return rim == Rim::annulus ? annulus : free_edge; }

@@ -11,6 +11,11 @@
 namespace mvs::core {
 namespace {
 
+// Sides of triangles within a scale from which on normals are averaged over it: below it a triangle
+// shows as much of the shape as the normal there.
+constexpr double least_sides = 2;
+constexpr int most_rounds = 30;  // of averaging: 5 sides far
+
 // The triangle with both vertices on a side; `none` unless exactly one has.
 uint32_t only_triangle_at(const std::vector<Tri> &triangles, const Rows &stars, uint32_t a,
                           uint32_t b) {
@@ -26,16 +31,42 @@ uint32_t only_triangle_at(const std::vector<Tri> &triangles, const Rows &stars, 
 
 }  // namespace
 
-SurfaceWalk::SurfaceWalk(const std::vector<Vec3> &x, const std::vector<Tri> &triangles)
+SurfaceWalk::SurfaceWalk(const std::vector<Vec3> &x, const std::vector<Tri> &triangles,
+                         double scale)
     : x_(x), triangles_(triangles), stars_(rows_of(x.size(), triangles)) {
   normal_.assign(x.size(), Vec3::Zero());
   for (const Tri &t : triangles) {
     const Vec3 area = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
     for (const uint32_t corner : t) normal_[corner] += area;
   }
+  if (scale > 0) average_normals(scale);
   for (Vec3 &n : normal_) {
     const double norm = n.norm();
     if (norm > 0) n /= norm;
+  }
+}
+
+// Adds the area vectors of the neighbours to those of each vertex, in rounds: a walk of k steps
+// goes about sqrt(k) sides far. Folds and needles that are smaller vanish in the sums.
+void SurfaceWalk::average_normals(double scale) {
+  double sum = 0;
+  for (const Tri &t : triangles_) {
+    for (size_t k = 0; k < 3; ++k) sum += (x_[t[(k + 1) % 3]] - x_[t[k]]).norm();
+  }
+  const double sides = scale / (sum / static_cast<double>(3 * triangles_.size()));
+  const int rounds = static_cast<int>(std::min(sides * sides, double(most_rounds)));
+  if (sides < least_sides) return;
+  std::vector<Vec3> next(normal_.size());
+  for (int round = 0; round < rounds; ++round) {
+    for (size_t i = 0; i < x_.size(); ++i) {
+      next[i] = Vec3::Zero();
+      for (const uint32_t t : stars_[i]) {
+        const auto &[a, b, c] = triangles_[t];
+        next[i] += normal_[a] + normal_[b] + normal_[c];
+      }
+    }
+    std::swap(next, normal_);
+    for (Vec3 &n : normal_) n /= 18;  // corners around a vertex inside: no overflow
   }
 }
 

@@ -15,10 +15,11 @@ struct SurfacePlace {
 // Keeps references to vertices and triangles: they must outlive it.
 class SurfaceWalk {
  public:
-  SurfaceWalk(const std::vector<Vec3> &x, const std::vector<Tri> &triangles);
+  // Normals are averaged over about `scale` (m) around each vertex, if triangles are much smaller.
+  SurfaceWalk(const std::vector<Vec3> &x, const std::vector<Tri> &triangles, double scale = 0);
 
   Vec3 at(const SurfacePlace &place) const;
-  // The vertex normals (area-weighted means), interpolated; a unit vector.
+  // The vertex normals (means weighted by area), interpolated; a unit vector.
   Vec3 normal_at(const SurfacePlace &place) const;
 
   // Descends from `start` to the place whose distance from p no neighbouring triangle improves. The
@@ -27,6 +28,8 @@ class SurfaceWalk {
   SurfacePlace closest_from(const SurfacePlace &start, const Vec3 &p) const;
 
  private:
+  void average_normals(double scale);
+
   const std::vector<Vec3> &x_;
   const std::vector<Tri> &triangles_;
   Rows stars_;

@@ -170,6 +170,12 @@ void refuse_pieces(const std::vector<double> &area, double least, const SurfaceJ
   std::copy_if(area.begin(), area.end(), std::back_inserter(large),
                [&](double a) { return a >= least; });
   if (large.size() == 1) return;
+  MVS_MUST(
+      !large.empty(), MVS_E_OP, "triangles",
+      "the surface is a cloud of %zu pieces that are not connected, none of them above 1 %% of "
+      "its area: its triangles do not fit its points, or it has no common points where "
+      "triangles meet: weld it",
+      area.size());
   std::sort(large.rbegin(), large.rend());
   std::string list;
   for (size_t k = 0; k < std::min<size_t>(large.size(), 5); ++k) {

@@ -24,6 +24,10 @@ constexpr double bottom = 0.3e-3;  // m: vertices of a cleft less above its deep
 // notch: a notch is no deeper there. Straight sides with the detour of a notch are 0.56 of the
 // chord deep.
 constexpr double widest_valley = 1.5 * widest_notch, valley_depth = 0.5;
+// m: the edge beyond both ends of a notch is looked at so far. Where it goes on outward on both
+// sides, by this share of the depth, the bottom is that of a wider valley: the one at a commissure,
+// which a torn edge has as well. The edge beside a tear goes on along its mouth.
+constexpr double shoulder = 4e-3, rising = 0.4;
 constexpr size_t most_vertices = 60;  // of a notch; three voxels a mm over 20 mm
 // Along the edge: 13 mm deep. A cleft of a coarse edge may be longer, so that the corner of a
 // narrow orifice is one.
@@ -103,7 +107,8 @@ class FreeEdge {
       if (step < 2 || width > widest_notch || way < detour_ * width) continue;
       if (way - width <= best.saved) continue;
       Notch notch{first, step + 1, way - width, width, 0};
-      if (is_inward(notch, normal) && notch.depth <= deepest_notch) best = notch;
+      if (!is_inward(notch, normal) || notch.depth > deepest_notch) continue;
+      if (!is_in_valley(notch, normal)) best = notch;
     }
     return best;
   }
@@ -124,6 +129,23 @@ class FreeEdge {
       notch.depth = std::max(notch.depth, depth_of(notch, k));
     }
     return true;
+  }
+
+  // Whether the edge rises beyond both ends of a notch, seen from its mouth.
+  bool is_in_valley(const Notch &notch, const Vec3 &normal) const {
+    const size_t n = loop_.size(), last = notch.first + notch.count - 1;
+    const Vec3 outward = (at(last) - at(notch.first)).cross(normal).normalized();
+    const auto rise = [&](size_t from, size_t step) {
+      double way = 0, most = 0;
+      size_t k = from;
+      for (size_t steps = 0; way < shoulder && steps < n - notch.count; ++steps, k += step) {
+        way += (at(k + step) - at(k)).norm();
+        most = std::max(most, (at(k + step) - at(from)).dot(outward));
+      }
+      return most;
+    };
+    const double least = rising * notch.depth;
+    return rise(notch.first, n - 1) > least && rise(last, 1) > least;
   }
 
   // m, of a vertex of a notch from the straight line over its mouth.

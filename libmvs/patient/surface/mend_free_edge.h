@@ -21,8 +21,9 @@ struct FilledNotches {
 
 // Closes the free edge over its notches: in the order of the length that it becomes shorter by, a
 // notch is filled with triangles up to the straight line between both ends of its mouth: sharp
-// ones, and gentle ones as well if the edge is torn in several places. Vertices with a mark in
-// `kept` stay on the edge. Labels of new triangles are those beside them.
+// ones, and gentle ones as well if the edge is torn in several places. The bottoms of valleys, of
+// which the edge goes on rising beyond both ends of the mouth, stay as they are at a commissure.
+// Vertices with a mark in `kept` stay on the edge. Labels of new triangles are those beside them.
 FilledNotches fill_notches(LeafletSheet &sheet, SheetRims &rims, const std::vector<uint8_t> &kept);
 
 // Marks the vertices of the notches whose filling is in one of the pairs of crossing triangles, or

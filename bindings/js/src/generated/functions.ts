@@ -32,6 +32,7 @@ import type {
   HistoryEntry,
   Law,
   LeafletDesc,
+  LeakErrors,
   LoadCase,
   LoadCaseInput,
   Measures,
@@ -915,6 +916,15 @@ const signatures: Record<string, Signature> = {
       { name: "build", nullable: true, how: "outHandle", of: "mvs_build", freedBy: "mvs_build_release" },
     ],
   },
+  mvs_find_leak_interval: {
+    name: "mvs_find_leak_interval",
+    returns: "mvs_result",
+    steps: [
+      { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
+      { name: "errors", nullable: false, how: "inStruct", of: "mvs_leak_errors" },
+      { name: "found", nullable: false, how: "outHandle", of: "mvs_build", freedBy: "mvs_build_release" },
+    ],
+  },
   mvs_build_get_finding_count: {
     name: "mvs_build_get_finding_count",
     returns: "mvs_result",
@@ -1684,6 +1694,17 @@ export class Functions extends Calls {
    */
   mvs_build_valve(sim: SimHandle, surface: SurfaceDesc, options?: BuildOptions | null): BuildHandle {
     return this.invoke(signatures.mvs_build_valve!, [sim, surface, options]) as never;
+  }
+
+  /**
+   * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
+   * lengths and leaflets of other thicknesses, up to `errors` (nullable): up to 11 closures, 3 if
+   * the valve is sealed with the first ones. `found` gets findings as those of a build: "leak" and
+   * "leak_interval", m2; release it with mvs_build_release. The simulator is unchanged.
+   * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
+   */
+  mvs_find_leak_interval(sim: SimHandle, errors: LeakErrors): BuildHandle {
+    return this.invoke(signatures.mvs_find_leak_interval!, [sim, errors]) as never;
   }
 
   /** The findings of a build, in the order in which they were made. */

@@ -1325,6 +1325,22 @@ export interface BuildOptions {
    * widens the interval of leaks [0]
    */
   thickness_error?: number;
+  /**
+   * 1: no closures and no findings on the leak, for a caller who replaces the chordae;
+   * mvs_find_leak_interval gives them later [0]
+   */
+  without_leak?: number;
+  reserved2?: number;
+}
+
+/** How far a valve may be from the one of its patient. */
+export interface LeakErrors {
+  /** 1e-3 to 0.5: share of the rest lengths, of all chordae and of a group together [0.1] */
+  lengths?: number;
+  /** 1e-3 to 0.5: share, of a chord beside its group [0.03] */
+  single?: number;
+  /** m, up to 2e-3: of the leaflets, thicker or thinner [0] */
+  thickness?: number;
 }
 
 /**
@@ -2214,7 +2230,7 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_build_options: {
-    size: 72,
+    size: 80,
     sized: true,
     fields: [
       { name: "leaflet_law", kind: "enum", of: "mvs_leaflet_law", at: 4 },
@@ -2226,6 +2242,17 @@ export const layouts: Record<string, Layout> = {
       { name: "edge_error", kind: "f64", at: 48 },
       { name: "edge_lost", kind: "f64", at: 56 },
       { name: "thickness_error", kind: "f64", at: 64 },
+      { name: "without_leak", kind: "u32", at: 72 },
+      { name: "reserved2", kind: "u32", at: 76 },
+    ],
+  },
+  mvs_leak_errors: {
+    size: 32,
+    sized: true,
+    fields: [
+      { name: "lengths", kind: "f64", at: 8 },
+      { name: "single", kind: "f64", at: 16 },
+      { name: "thickness", kind: "f64", at: 24 },
     ],
   },
   mvs_build_finding: {

@@ -84,6 +84,7 @@ def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[She
     landmarks: positions (n, 3) in m by part: annulus, commissures, anterior, papillary_tips; those
         that are None are guessed
     loaded: the closed leaflets; chords get the lengths with which the valve closes to them
+    progress: called with the share that is done, of the build and then of the closure
     options: edge, chords, leaflet, ... of mvs.Simulator.build_valve
     """
     sheet = leaflets.sheet
@@ -104,7 +105,7 @@ def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[She
                                 kind="mid", name=name, progress=progress, **arguments)
         opened = sim.snapshot()
         sim.set_load(pressure)
-        stats = sim.settle()
+        stats = sim.settle(progress=progress)
         closed = sim.snapshot()
     every = [*leaflets.findings, *findings, *found, _distance_of_meshes(opened, sheet)]
     if loaded is not None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mvs
+from ..console import Console
 from ..findings import finding
 from ..needs import need
 from .chords import ChordNetwork
@@ -57,7 +58,8 @@ def ways_of(network: ChordNetwork) -> list[Way]:
 
 
 def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNetwork,
-                        loaded: Loaded) -> tuple[mvs.Snapshot, mvs.Snapshot, mvs.Stats, mvs.Finding]:
+                        loaded: Loaded, console: Console
+                        ) -> tuple[mvs.Snapshot, mvs.Snapshot, mvs.Stats, mvs.Finding]:
     """Rest lengths with which the simulated chordae are as long as those in the loaded image.
 
     Fixed-point iteration on the closed valve: the loaded length over the stretch that the law of the
@@ -88,7 +90,7 @@ def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNe
             last = chain[-1]
             rest[last] = max(wanted - rest[chain[:-1]].sum(), LEAST_SEGMENT * open_rest[last])
         valve.chord_rest_length = rest.copy()
-        opened, closed, stats = settled(valve)
+        opened, closed, stats = settled(valve, console)
     assert stats is not None
     found = np.array([rest[list(way.segments)].sum() / open_rest[list(way.segments)].sum() - 1
                       for way, _ in pairs])

@@ -10,6 +10,7 @@ import dataclasses
 from typing import Optional
 
 import mvs
+from ..console import Console
 from ..findings import finding
 from ..mesh import Sheet
 from ..valve import distance_from_image
@@ -20,7 +21,8 @@ CANDIDATES = (mvs.LeafletLaw.BILINEAR, mvs.LeafletLaw.FUNG, mvs.LeafletLaw.MAY_N
 """Membranes of mitral tissue, each with the published constants of the library"""
 
 
-def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet) -> tuple[mvs.Finding, Closure]:
+def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet,
+                         console: Console) -> tuple[mvs.Finding, Closure]:
     """Sets the law of all leaflets of a valve to that whose closure is nearest to the loaded image, and
     closes the valve.
 
@@ -31,8 +33,9 @@ def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet) -> tuple[mvs.Finding, 
     nearest: Optional[Closure] = None
     for law in CANDIDATES:
         valve.leaflets = _with_law(given, law)
+        console.stage(f"closing the valve with the tissue {law.name.lower()}")
         try:
-            closure = settled(valve)
+            closure = settled(valve, console)
         except mvs.Error:
             continue
         _, closed, stats = closure
@@ -44,7 +47,7 @@ def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet) -> tuple[mvs.Finding, 
     if nearest is None:
         valve.leaflets = given
         return finding("tissue", mvs.FindingSource.ASSUMED, 0.2,
-                       "with no tissue did the leaflets come to rest under load; theirs was kept"), settled(valve)
+                       "with no tissue did the leaflets come to rest under load; theirs was kept"), settled(valve, console)
     order = sorted(away, key=lambda law: away[law])
     best = order[0]
     valve.leaflets = _with_law(given, best)

@@ -1,0 +1,41 @@
+"""Label maps of an open valve of known shape for the tests of mvs.imaging."""
+
+import numpy as np
+import pytest
+
+sitk = pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleITK)")
+
+VOXEL = 0.7  # mm, of ultrasound
+
+
+def funnel(voxel=VOXEL, thickness=1.4, gap=0.0, seed=None):
+    """Labels of an open valve: a cone around z, wide at the annulus (top); 1 anterior, 2 posterior.
+
+    Distances from the cone are exact, so that its mid-surface and thickness are known.
+    """
+    n = int(40 / voxel)
+    z, y, x = np.meshgrid(*[(np.arange(n) - n / 2 + 0.5) * voxel] * 3, indexing="ij")
+    radius = np.hypot(x, y)
+    # from (16, 8) at the annulus to (8, -8) at the free edge, in the plane (radius, z)
+    along = np.array([-8, -16]) / np.hypot(8, 16)
+    share = (radius - 16) * along[0] + (z - 8) * along[1]
+    away = np.abs((radius - 16) * along[1] - (z - 8) * along[0])
+    tissue = (away < thickness / 2) & (share > 0) & (share < np.hypot(8, 16))
+    labels = np.where(tissue, np.where(y > gap, 1, 2), 0).astype(np.uint8)
+    if seed is not None:
+        random = np.random.default_rng(seed)
+        edge = tissue ^ (np.pad(tissue, 1)[2:, 1:-1, 1:-1] | tissue)
+        labels[tissue & (random.random(labels.shape) < 0.03)] = 0
+        labels[edge & (random.random(labels.shape) < 0.1)] = 1
+    return labels, np.stack([x, y, z], -1)
+
+
+def image_of(labels, voxel=VOXEL):
+    image = sitk.GetImageFromArray(labels)
+    image.SetSpacing([voxel] * 3)
+    n = labels.shape[0]
+    image.SetOrigin([(0.5 - n / 2) * voxel] * 3)
+    return image
+
+
+NAMES = {1: "anterior leaflet", 2: "posterior leaflet"}
