@@ -143,7 +143,7 @@ enum mvs_solver_e {
 };
 typedef uint32_t mvs_solver;
 
-/* What a settle may leave out. The valve at its end has the same bits. */
+/* Parts of a settle that may be left out; the valve at its end has the same bits. */
 enum mvs_settle_flags_e {
   /* The margins of the stable equilibrium, a tenth of the time of a settle after an operation:
    * those of mvs_stats are 0, mvs_snapshot_get_stability computes them. */

@@ -11,8 +11,8 @@ struct alignas(32) SpherePoint {
 
 enum class SphereSide { inside, outside, unknown };
 
-// Of p to the sphere through a, b, c, d, which have positive volume. The answer depends on the
-// points alone; `unknown` if rounding could change it.
+// Returns on which side of the sphere through a, b, c, d, which have positive volume, p lies. The
+// answer depends on the points alone; `unknown` if rounding could change it.
 SphereSide sphere_side(const SpherePoint &a, const SpherePoint &b, const SpherePoint &c,
                        const SpherePoint &d, const SpherePoint &p);
 

@@ -118,8 +118,8 @@ static void options_out_of_range(void) {
   REFUSED(mvs_set_load(sim, &load), MVS_E_ARGUMENT, "boundary_fraction is nan");
   mvs_settle_options settle = {.struct_size = sizeof settle, .solver = 4};
   REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.solver is 4");
-  settle = (mvs_settle_options){.struct_size = sizeof settle, .reserved = 1};
-  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "reserved");
+  settle = (mvs_settle_options){.struct_size = sizeof settle, .flags = 2};
+  REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.flags");
   settle = (mvs_settle_options){.struct_size = sizeof settle, .residual = -1};
   REFUSED(mvs_settle(sim, &settle, NULL), MVS_E_ARGUMENT, "options.residual is -1");
   settle.residual = NAN;

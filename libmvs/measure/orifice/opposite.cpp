@@ -16,7 +16,8 @@ constexpr double of_cosine = 2;  // 1 / cos(60 degrees)
 // Added to half of each box, as a share of the largest coordinate: 20 roundings of single
 // precision.
 constexpr double margin = 20 * 6e-8;
-// Of distances from p above a thousandth of the limit, a share that is far above that of doubles.
+// Share of a distance from p: far above the rounding of doubles where the distance is at least a
+// thousandth of the limit, since coordinates are less than a million limits.
 constexpr double rounding = 1e-6;
 
 // A query in single precision.

@@ -59,28 +59,47 @@ std::vector<uint8_t> free_nodes(const Model &whole, const std::vector<Vec3> &x,
   return free;
 }
 
+// Boxes in groups, so that most of them need no test of their own.
+class LocalBoxes {
+ public:
+  void add(const LocalBox &box) {
+    if (boxes_.size() % group == 0) {
+      around_.push_back(box);
+    } else {
+      around_.back() = around(around_.back(), box);
+    }
+    boxes_.push_back(box);
+  }
+  bool any_near(const LocalBox &box, double distance) const {
+    for (size_t g = 0; g < around_.size(); ++g) {
+      if (!around_[g].near(box, distance)) continue;
+      const size_t first = group * g, last = std::min(first + group, boxes_.size());
+      for (size_t k = first; k < last; ++k) {
+        if (boxes_[k].near(box, distance)) return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr size_t group = 8;
+  std::vector<LocalBox> boxes_, around_;
+};
+
 // Triangles with a free corner, and the triangles that these could meet.
 std::vector<uint8_t> included_triangles(const Model &whole, const std::vector<Vec3> &x,
                                         const std::vector<uint8_t> &free, double distance) {
   const auto &triangles = whole.valve.triangles.get();
   std::vector<uint8_t> included(triangles.size(), 0);
-  std::vector<LocalBox> moving;
-  LocalBox all{};
+  LocalBoxes moving;
   for (size_t t = 0; t < triangles.size(); ++t) {
     const Tri &tri = triangles[t];
     if (!free[tri[0]] && !free[tri[1]] && !free[tri[2]]) continue;
     included[t] = 1;
-    moving.push_back(box_of(x, tri));
-    all = moving.size() == 1 ? moving[0] : around(all, moving.back());
+    moving.add(box_of(x, tri));
   }
   for (size_t t = 0; t < triangles.size(); ++t) {
-    const LocalBox box = box_of(x, triangles[t]);
-    if (included[t] || moving.empty() || !box.near(all, distance)) continue;
-    for (const LocalBox &m : moving) {
-      if (!m.near(box, distance)) continue;
-      included[t] = 1;
-      break;
-    }
+    if (!included[t]) included[t] = moving.any_near(box_of(x, triangles[t]), distance);
   }
   return included;
 }

@@ -242,7 +242,7 @@ export const Solver = {
 } as const;
 export type Solver = keyof typeof Solver;
 
-/** What a settle may leave out. The valve at its end has the same bits. */
+/** Parts of a settle that may be left out; the valve at its end has the same bits. */
 export const SettleFlags = {
   /**
    * The margins of the stable equilibrium, a tenth of the time of a settle after an operation:
