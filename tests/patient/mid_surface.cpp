@@ -11,7 +11,6 @@
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
-#include "patient/surface/skin_holes.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 #include "tests/patient/voxel_skin.h"
@@ -303,32 +302,6 @@ TEST_CASE("mid_of_skin_takes_the_skin_of_a_label_map") {
   CHECK(shape_of(mid, rims.free_edge).length ==
         doctest::Approx(shape_of(truth, tissue.rims.free_edge).length).epsilon(0.03));
   CHECK(find_intersections(mid.x, mid.triangles).empty());
-}
-
-TEST_CASE("small_holes_of_a_skin_are_filled_and_rims_of_a_sheet_are_not") {
-  const Tissue tissue = tissue_of(funnel(48, 12));
-  const Surface whole = skin_of(tissue, 2);
-  Findings findings;
-  LeafletSheet skin = clean_surface(whole.x, whole.triangles, {}, {}, findings);
-  const double area = surface_area(skin.x, skin.triangles);
-  // a triangle, and all triangles around a vertex
-  const uint32_t at = skin.triangles[skin.triangles.size() / 2][0];
-  skin.triangles.erase(skin.triangles.begin() + 7);
-  std::erase_if(skin.triangles,
-                [&](const Tri &t) { return std::count(t.begin(), t.end(), at) > 0; });
-  skin.label.assign(skin.triangles.size(), LeafletLabel::unknown);
-  REQUIRE(boundary_loops(skin).size() == 2);
-  findings.clear();
-  fill_skin_holes(skin, findings);
-  CHECK(boundary_loops(skin).empty());
-  CHECK(surface_area(skin.x, skin.triangles) == doctest::Approx(area).epsilon(0.01));
-  REQUIRE(find(findings, "skin_holes"));
-  LeafletSheet sheet = tissue.sheet;
-  const std::vector<Tri> before = sheet.triangles;
-  findings.clear();
-  fill_skin_holes(sheet, findings);
-  CHECK(sheet.triangles == before);
-  CHECK(findings.empty());
 }
 
 TEST_CASE("mid_of_skin_refuses_surfaces_that_are_no_skin_of_a_ring") {
