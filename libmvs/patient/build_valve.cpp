@@ -22,6 +22,7 @@
 #include "patient/surface/mend_free_edge.h"
 #include "patient/surface/mid_surface.h"
 #include "patient/surface/rims.h"
+#include "patient/surface/skin_holes.h"
 
 namespace mvs::core {
 namespace {
@@ -95,6 +96,7 @@ MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &sett
   begin_stage(settings, "clean");
   mid.sheet =
       clean_surface(surface.points, surface.triangles, surface.label, surface.thickness, findings);
+  fill_skin_holes(mid.sheet, findings);
   const RimLandmarks landmarks = {surface.annulus, surface.tips};
   const SurfaceKind kind = kind_of(surface, mid.sheet, findings);
   begin_stage(settings, "mid");

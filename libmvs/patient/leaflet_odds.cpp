@@ -26,8 +26,9 @@ constexpr Cue height_ratio = {0.55, 0.25};
 constexpr Cue attachment = {0.42, 0.08};
 // Way from the line between the commissures to the middle of the anterior annulus, over that from
 // there to the middle of the posterior annulus: the annulus is D-shaped, flat at the aorta. 0.33 in
-// a valve from CT, 0.38 in one from ultrasound, 0.42 to 0.5 in parametric ones.
-constexpr Cue flatness = {0.4, 0.08};
+// a valve from CT, 0.38 in one from ultrasound, 0.42 to 0.5 in parametric ones; 0.2 to 0.25 where
+// the anterior leaflet has the third of the annulus that textbooks give it.
+constexpr Cue flatness = {0.36, 0.1};
 // Distance of the commissures over the largest width of the annulus: they end its long axis.
 constexpr Cue end_distance = {0.95, 0.08};
 // Place of the papillary tips from the middle of the annulus towards the A point, over the AP

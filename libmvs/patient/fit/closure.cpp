@@ -14,14 +14,12 @@ SolveOptions without_margins() {
 
 }  // namespace
 
-ClosedValve close_open(Solver &solver, ModelPtr model, double pressure, uint32_t most_iterations,
-                       const Progress &progress) {
+ClosedValve close_open(Solver &solver, ModelPtr model, double pressure, const Progress &progress) {
   ClosedValve closed{std::move(model), {}, {}};
   closed.state = initial_state(*closed.model);
   closed.state.load = {pressure, 1};
-  SolveOptions options = without_margins();
-  options.max_iterations = most_iterations;
-  closed.stats = settle_with_mesh_hierarchy(solver, *closed.model, closed.state, options, progress);
+  closed.stats =
+      settle_with_mesh_hierarchy(solver, *closed.model, closed.state, without_margins(), progress);
   return closed;
 }
 

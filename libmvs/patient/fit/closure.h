@@ -14,10 +14,9 @@ struct ClosedValve {
   SolveStats stats;
 };
 
-// From the rest shape, as a caller closes a new valve. `most_iterations` 0: the default of the
-// solver.
+// From the rest shape, as a caller closes a new valve.
 ClosedValve close_open(Solver &solver, ModelPtr model, double pressure,
-                       uint32_t most_iterations = 0, const Progress &progress = {});
+                       const Progress &progress = {});
 
 // From a closed valve with the same nodes and other rest lengths.
 ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &valve);

@@ -22,9 +22,6 @@ constexpr double same_leak_confidence = 0.8, unknown_leak = 20e-6;
 constexpr double sealed = 0.5e-6;
 constexpr double least_thickness = 0.3;  // share of the thickness that thinner tissue keeps
 constexpr uint32_t most_draws = 6;
-// The bound of a closure, three times what closures take (build_valve.cpp, contact_stiffness):
-// without it, an interval of a valve whose leaflets creep takes thirteen times a thousand.
-constexpr uint32_t most_iterations = 300;
 constexpr double widening = 0.25;  // of the range, on both sides
 constexpr uint64_t seed = 22;
 const double half_range = std::sqrt(3.0);  // of a uniform deviate, in standard deviations
@@ -50,8 +47,8 @@ Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRan
   for (size_t c = 0; c < factor.size(); ++c) changed.chords[c].rest_length *= factor[c];
   Solver solver(Backend::fastest);
   try {
-    const ClosedValve closed = close_open(solver, make_model(std::move(changed)), systolic_pressure,
-                                          most_iterations, progress);
+    const ClosedValve closed =
+        close_open(solver, make_model(std::move(changed)), systolic_pressure, progress);
     return {measure_orifice(*closed.model, closed.state.x).area, closed.stats.converged,
             closed.stats.iterations};
   } catch (const Error &error) {

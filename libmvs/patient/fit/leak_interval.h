@@ -8,8 +8,8 @@
 // one for each chord, and with a random edge and thickness; the interval is the range of all leaks,
 // a quarter wider on both sides: of nine closures alone, one valve in five would lie outside
 // (exchangeable samples). Both ends move out by what meshes of one valve differ by, too, but not
-// below 0. Every closure starts from the open shape, so that none depends on another; one that is
-// not at rest after 300 iterations is left out, and the findings say so.
+// below 0. Every closure starts from the open shape, so that none depends on another; one that does
+// not come to rest is left out, and the findings say so.
 #pragma once
 
 #include <array>

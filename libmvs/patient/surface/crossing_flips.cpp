@@ -1,28 +1,29 @@
-// Greedy flips, each tested against all triangles.
+// Greedy flips, each tested against the triangles near it.
 #include "patient/surface/crossing_flips.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/intersect.h"
 #include "model/compressed_rows.h"
+#include "model/sides.h"
 #include "patient/mesh/sheet_edit.h"
+#include "patient/mesh/triangle_grid.h"
 
 namespace mvs::core {
 namespace {
 
 // Number of pairs of one or both of two triangles, given as they would be, with all others.
-size_t crossings_of(const LeafletSheet &sheet, const Edge &id, const std::array<Tri, 2> &shape) {
+size_t crossings_of(const LeafletSheet &sheet, const TriangleGrid &grid, const Edge &id,
+                    const std::array<Tri, 2> &shape) {
   size_t count = triangles_cross(sheet.x, shape[0], shape[1]) ? 1 : 0;
-  const std::array<Aabb, 2> box = {aabb_of(sheet.x, shape[0]), aabb_of(sheet.x, shape[1])};
-  for (uint32_t t = 0; t < sheet.triangles.size(); ++t) {
-    if (t == id[0] || t == id[1]) continue;
-    const Aabb other = aabb_of(sheet.x, sheet.triangles[t]);
-    for (size_t k = 0; k < 2; ++k) {
-      if (box[k].overlaps(other) && mesh_triangles_cross(sheet.x, shape[k], sheet.triangles[t])) {
-        ++count;
-      }
-    }
+  for (const Tri &mine : shape) {
+    grid.any_near(aabb_of(sheet.x, mine), [&](uint32_t t, const Aabb &) {
+      const bool other = t != id[0] && t != id[1];
+      if (other && mesh_triangles_cross(sheet.x, mine, sheet.triangles[t])) ++count;
+      return false;
+    });
   }
   return count;
 }
@@ -39,7 +40,7 @@ double worst_of(const LeafletSheet &sheet, const std::array<Tri, 2> &shape) {
 }
 
 // Flips side k of triangle t if that removes a crossing.
-bool flip_side(LeafletSheet &sheet, const Rows &stars, uint32_t t, size_t k) {
+bool flip_side(LeafletSheet &sheet, TriangleGrid &grid, const Rows &stars, uint32_t t, size_t k) {
   const Tri tri = sheet.triangles[t];
   const uint32_t a = tri[k], b = tri[(k + 1) % 3], c = tri[(k + 2) % 3];
   uint32_t u = none, d = none;
@@ -62,21 +63,32 @@ bool flip_side(LeafletSheet &sheet, const Rows &stars, uint32_t t, size_t k) {
   const Vec3 whole = area_vector(sheet, before[0]) + area_vector(sheet, before[1]);
   if (n0.dot(n1) <= 0 || n0.dot(whole) <= 0 || n1.dot(whole) <= 0) return false;
   if (worst_of(sheet, after) > worst_of(sheet, before)) return false;
-  if (crossings_of(sheet, {t, u}, after) >= crossings_of(sheet, {t, u}, before)) return false;
-  sheet.triangles[t] = after[0];
-  sheet.triangles[u] = after[1];
+  const Edge pair = {t, u};
+  if (crossings_of(sheet, grid, pair, after) >= crossings_of(sheet, grid, pair, before))
+    return false;
+  for (size_t l = 0; l < 2; ++l) {
+    sheet.triangles[pair[l]] = after[l];
+    grid.remove(pair[l]);
+    grid.insert(pair[l], aabb_of(sheet.x, after[l]));
+  }
   return true;
 }
 
 }  // namespace
 
 std::vector<Edge> flip_crossings(LeafletSheet &sheet, std::vector<Edge> pairs) {
+  const double side = std::sqrt(surface_area(sheet.x, sheet.triangles) /
+                                static_cast<double>(sheet.triangles.size()));
+  TriangleGrid grid(aabb_of(sheet.x), 2 * side);
+  for (uint32_t t = 0; t < sheet.triangles.size(); ++t) {
+    grid.insert(t, aabb_of(sheet.x, sheet.triangles[t]));
+  }
   const auto flip_one = [&] {
     const Rows stars = rows_of(sheet.x.size(), sheet.triangles);
     for (const Edge &pair : pairs) {
       for (const uint32_t t : pair) {
         for (size_t k = 0; k < 3; ++k) {
-          if (flip_side(sheet, stars, t, k)) return true;
+          if (flip_side(sheet, grid, stars, t, k)) return true;
         }
       }
     }
