@@ -46,7 +46,8 @@ def main() -> None:
     valve.leaflets = [dataclasses.replace(leaf, law="fung", constants=()) for leaf in valve.leaflets]
     start = closed(valve)
     length, nodes = start.chord_rest_length, np.unique(start.triangle_nodes)
-    print("| seed | cost of the truth | one start | CPU s | converged | each of several | CPU s |\n|---|---|---|---|---|---|---|")
+    print("| seed | cost of the truth | one start | CPU s | converged | each of several | CPU s |\n"
+          "|---|---|---|---|---|---|---|")
     for seed in range(options.first, options.first + options.seeds):
         random = np.random.default_rng(seed)
         z = random.normal(size=len(length))
