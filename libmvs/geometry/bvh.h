@@ -46,7 +46,7 @@ class Bvh {
   Bvh(const std::vector<Vec3> &x, const std::vector<Tri> &triangles, uint32_t leaf_size)
       : topology_(x, triangles, leaf_size), volume_(topology_.nodes.size()) {}
 
-  // Of a topology that was made for other positions.
+  // A hierarchy with a topology made for other positions.
   explicit Bvh(BvhTopology topology)
       : topology_(std::move(topology)), volume_(topology_.nodes.size()) {}
 
@@ -235,7 +235,8 @@ class TriangleBvh : public BoxedTriangles {
  public:
   // Keeps references to both: they must outlive the hierarchy.
   TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
-  // With the topology of these triangles at other positions: what it finds does not depend on it.
+  // The same with the topology of these triangles at other positions: the results do not depend on
+  // the topology.
   TriangleBvh(const std::vector<Tri> &triangles, const std::vector<Vec3> &x, BvhTopology topology);
 
   // Calls visit(triangle) for every triangle whose box overlaps `box`.

@@ -6,10 +6,11 @@ namespace mvs::core::settings::sensitivity {
 // Share of the contact thickness: the slack of the broad phase around the equilibrium.
 inline constexpr double broad_phase_slack = 0.1;
 
-// Solutions. GMRES reduces the preconditioned residual by gmres_tolerance, two iterations more than
-// 1e-10 would take and a second round less in most cases; a round of refinement reduces the rest to refined_share of solve_tolerance, below it since the true residual is
-// not that which is preconditioned. solve_tolerance is seldom reached: soft folds have
-// displacements whose forces cancel to 1e-11. solve_limit is the error that is refused.
+// Solutions. GMRES reduces the preconditioned residual by gmres_tolerance: two iterations more than
+// 1e-10 takes, and in most cases no second round of refinement. Such a round reduces the rest to
+// refined_share of solve_tolerance, below it since the true residual is not that which is
+// preconditioned. solve_tolerance is seldom reached where folds are soft: they have displacements
+// whose forces cancel to 1e-11. solve_limit is the error that is refused.
 inline constexpr int gmres_iterations = 100, refinements = 4;
 inline constexpr double gmres_tolerance = 1e-12, solve_tolerance = 1e-12, refined_share = 0.1,
                         solve_limit = 1e-6;

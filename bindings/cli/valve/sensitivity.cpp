@@ -81,7 +81,7 @@ AskedParameters sites(const mvs::Snapshot &valve) {
   return asked;
 }
 
-// Keeps the parameters of one chord; fails where there are none.
+// Keeps the parameters of one chord; fails if the chord has no insertion to move.
 AskedParameters of_chord(const mvs::Snapshot &valve, const std::string &to,
                          const std::string &chord, const AskedParameters &all) {
   if (to != "chords" && to != "sites") {

@@ -50,7 +50,7 @@ def checked_start(start: Any) -> _core.Snapshot:
 
 def checked_groups(free: Any) -> list[str]:
     """Names of groups."""
-    groups = [free] if isinstance(free, str) else list(free) if isinstance(free, Iterable) else [None]
+    groups: list[Any] = [free] if isinstance(free, str) else list(free) if isinstance(free, Iterable) else [None]
     if not all(isinstance(group, str) for group in groups):
         raise ArgumentError(f"free: a name or a list of names is needed, not {shown(free)}", "free")
     return groups

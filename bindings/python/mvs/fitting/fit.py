@@ -25,8 +25,11 @@ LOST = 10.0
 """Residual in standard deviations of every datum of a trial that does not come to rest: worse than any
 trial that does, so that the step is refused."""
 
-FIRST_RADIUS = 8.0
-"""First trust region, in standard deviations of the prior: about the length of a draw of 80 parameters."""
+RADII = (8.0, 2.0, 0.5)
+"""First trust regions, in standard deviations of the prior: about the length of a draw of 80 parameters; and, for
+further starts, shorter ones, which follow a fold where a long step leaves it (tests/bench/fit/fit_starts.py)."""
+SHORT_SEARCH = 2
+"""Closures of a start with a short first step, times those of the first one."""
 
 
 class Problem:
@@ -131,8 +134,10 @@ def fit(
     noise: m, standard deviation of the data
     priors: mvs.Prior by free group [mvs.PRIORS]; False: no priors, for which the data must have as many
         residuals as there are parameters
-    starts: folds to start from: the closure itself and members of its ensemble; the best is returned
-    residual: N, at rest; most: closures of a start; tolerance: of the cost, relative
+    starts: searches, of which the best is returned: up to three from the closure itself, with shorter and shorter
+        first steps; further ones from other equilibria of its ensemble
+    residual: N, at rest; most: closures of the first search, twice as many with shorter steps; tolerance: of
+        the cost, relative
 
     The closure of each trial starts from the closed shape of the best one so far. The start is not changed.
     """
@@ -157,18 +162,26 @@ def fit(
         )
     begun = time.process_time()
     fits, problems = [], []
-    for first in _folds(start, starts):
+    for first, radius in _searches(start, starts):
         problem = Problem(first, rows, data, noise, with_prior, residual)
         z = np.zeros(len(rows.labels))
         before = problem.residuals(z)
         fits.append(least_squares(problem.residuals, z, problem.jacobian, (-rows.reach, rows.reach),
-                                  method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6, max_nfev=most,
+                                  method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6,
+                                  max_nfev=most if radius == RADII[0] else SHORT_SEARCH * most,
                                   # "exact" is a dense SVD at each trial, whose BLAS threads take more
                                   # CPU than the closures where cores are shared; "lsmr" takes a step in a
                                   # plane, which one parameter does not have
-                                  tr_solver="lsmr" if len(z) > 1 else "exact", x_scale=FIRST_RADIUS))
+                                  tr_solver="lsmr" if len(z) > 1 else "exact", x_scale=radius))
         problems.append((problem, before))
     return _result(start, rows, data, noise, with_prior, fits, problems, begun)
+
+
+def _searches(start: _core.Snapshot, starts: int) -> list[tuple[_core.Snapshot, float]]:
+    """The valve and the first trust region of each search."""
+    searches = [(start, radius) for radius in RADII[:starts]]
+    others = _folds(start, 1 + max(starts - len(RADII), 0))[1:]
+    return searches + [(fold, RADII[0]) for fold in others]
 
 
 def _folds(start: _core.Snapshot, starts: int) -> list[_core.Snapshot]:

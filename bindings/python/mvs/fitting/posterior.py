@@ -72,6 +72,7 @@ MOVES = 12
 the bounds."""
 MOVING = 0.7
 """Share of different draws from which a chain is taken to move; most have 0.9 or more."""
+PATIENCE = 5
 AT_REST = 1e-5
 """N, as in a fit."""
 
@@ -243,8 +244,14 @@ def _moves(drawn: Array) -> bool:
 
 
 def draw(fit: Fit, count: int, seed: int, thin: int = 6) -> Array:
-    """Parameters z (count, p) from the posterior within the bounds, each `thin` trajectories after the last."""
-    return _chain(fit, fit.posterior, count, np.random.default_rng(seed), thin)
+    """Parameters z (count, p) from the posterior within the bounds, each `thin` trajectories after the last, or
+    PATIENCE times as many where a chain seldom moves; from the fit if it does not move at all."""
+    random = np.random.default_rng(seed)
+    for first, times in ((fit.posterior.first, 1), (fit.posterior.first, PATIENCE), (None, PATIENCE)):
+        drawn = _chain(fit, dataclasses.replace(fit.posterior, first=first), count, random, times * thin)
+        if _moves(drawn):
+            break
+    return drawn
 
 
 def _closures(fit: Fit, drawn: Array) -> Iterator[tuple[Array, Problem, _core.Snapshot]]:
@@ -282,27 +289,30 @@ def _gradients(fit: Fit, linear: Linear, drawn: Array) -> Array:
 
 
 def _chain(fit: Fit, linear: Linear, count: int, random: np.random.Generator, thin: int) -> Array:
-    """Draws from the posterior of a linearisation by Hamiltonian Monte Carlo."""
+    """Draws from the posterior of a linearisation by Hamiltonian Monte Carlo. The complementarity problem may have
+    several solutions; each is sought from one guess, so that the energy is a function of z alone, without which
+    these are no draws: with the last solution as a guess chains fell into one that was never found again."""
     reach = fit.free.reach
+    guess = linear.tension < SLACK
     # the mass is the posterior precision of a valve whose chordae are all taut
     inverse = np.linalg.inv(np.linalg.cholesky(linear.normal + np.eye(len(fit.z))))
     z = np.clip(fit.z if linear.first is None else linear.first, -0.999 * reach, 0.999 * reach)
-    value, slope, slack = linear.energy(z, linear.tension < SLACK)
+    value, slope, _ = linear.energy(z, guess)
     drawn = []
     for number in range((count + 4) * thin):
         momentum = random.normal(size=len(z))
-        begun, there, now = value + 0.5 * momentum @ momentum, z, slack
+        begun, there = value + 0.5 * momentum @ momentum, z
         grade, energy = slope, value
         step = STEP * random.uniform(0.6, 1.2)
         for _ in range(STEPS):
             momentum = momentum - 0.5 * step * (inverse @ grade)
             there = there + step * (momentum @ inverse)
-            energy, grade, now = linear.energy(there, now)
+            energy, grade, _ = linear.energy(there, guess)
             momentum = momentum - 0.5 * step * (inverse @ grade)
         # bounds at the end only: most paths of a hundred parameters touch one
         inside = bool((np.abs(there) <= reach).all())
         if inside and np.log(random.uniform()) < begun - energy - 0.5 * momentum @ momentum:
-            z, value, slope, slack = there, energy, grade, now
+            z, value, slope = there, energy, grade
         if number >= 4 * thin and number % thin == 0:
             drawn.append(z.copy())
     return np.array(drawn)

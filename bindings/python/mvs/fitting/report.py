@@ -168,8 +168,8 @@ def _shape(found: Fit) -> str:
         counts.set_ylabel("data")
         counts.legend(frameon=False)
 
-    return _picture(draw, "Distance of each node from its data, seen along the axis of the annulus, and residuals of all "
-                          "data, before and after the fit.", 11, 3.4)
+    return _picture(draw, "Distance of each node from its data, seen along the axis of the annulus, and residuals "
+                          "of all data, before and after the fit.", 11, 3.4)
 
 
 def _singular(found: Fit) -> str:
