@@ -7,7 +7,7 @@ import { strFromU8, unzipSync } from 'fflate';
 import { closed, figures, page_path, sharePlanner, temporaryFile, withPlanner } from './browser.mjs';
 import { answered, apply, begin, openPanel, save, open, startAfresh, undo } from './person.mjs';
 
-/** Waits until a page holds what is expected. */
+/** Waits until a page holds the expected value. */
 async function eventually(look, expected, limit = 20_000) {
   const end = Date.now() + limit;
   for (;;) {

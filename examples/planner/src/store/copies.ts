@@ -1,6 +1,6 @@
 // Copies of sessions in the browser, for recovery after a crash. Every plan has a copy under a key of its own, so that
-// neither a second tab nor the next plan writes over it. A tab holds a lock on the keys it writes to: copies whose lock
-// nobody holds were left behind. A browser without locks offers all of them.
+// neither a second tab nor the next plan writes over it. A tab holds a lock on the keys it writes to: copies without a
+// held lock were left behind. A browser without locks offers all of them.
 
 const database = 'mvs-planner-1';
 const store = 'session';

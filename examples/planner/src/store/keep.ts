@@ -141,7 +141,7 @@ function keepCopy(session: Promise<Uint8Array>): Promise<void> {
   return copying;
 }
 
-/** The copy of a plan that gives way to another one stays if it has what was saved nowhere else. */
+/** The copy of a plan that gives way to another one stays if it has changes that are saved nowhere else. */
 function leaveCopy(unsaved: boolean): void {
   const key = ownKey;
   ownKey = null;
@@ -207,7 +207,7 @@ function keepFileOfPlan(): void {
   if (!handle) return;
   const { name } = handle;
   leaveKeptFile();
-  // beside what is said about the plan that was opened
+  // beside the notice about the plan that was opened
   queueMicrotask(() => {
     const said = state.notice.value;
     state.notice.value = {

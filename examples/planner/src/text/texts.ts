@@ -447,7 +447,7 @@ export const appTexts = {
   repair: 'Repair',
   plan: 'Plan',
   tour: 'Learn',
-  notApplied: 'A preview, not applied yet',
+  notApplied: 'Not applied yet',
   apply: 'Apply',
   discard: 'Discard',
   close: 'Close',
