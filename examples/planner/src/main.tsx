@@ -5,7 +5,7 @@ import { render } from 'preact';
 import { App } from './ui/app';
 import { openShipped } from './store/files';
 import { connect, fail, request } from './store/requests';
-import { findCopy, keepFollowing, visited } from './store/keep';
+import { findCopies, keepFollowing, visited } from './store/keep';
 import * as state from './store/state';
 import { watchOpening } from './store/opening';
 import { watchTour } from './store/tour';
@@ -45,7 +45,7 @@ async function start(): Promise<void> {
   }
   watchTour();
   watchOpening();
-  await findCopy();
+  await findCopies();
   keepFollowing();
 }
 

@@ -5,9 +5,9 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { describe, it } from 'node:test';
-import { strFromU8, unzipSync } from 'fflate';
+import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
 import { figures, sharePlanner, temporaryFile } from './browser.mjs';
-import { answered, apply, begin, open, openPanel, save, undo } from './person.mjs';
+import { answered, apply, begin, open, openPanel, save, startAfresh, undo } from './person.mjs';
 
 /** Repeats a session with the native command; returns the hash that it finds. */
 function nativeHash(session) {
@@ -63,6 +63,21 @@ describe('sessions', () => {
     await open(page, temporaryFile('broken.mvsplan', 'not an archive'));
     assert.match(await page.getByTestId('notice').innerText(), /not a session/);
     assert.equal((await figures(page)).hash, hash);
+  });
+
+  it('says_what_is_wrong_with_the_version_of_a_session', async () => {
+    const files = unzipSync(readFileSync(await save(page)));
+    const described = JSON.parse(strFromU8(files['session.json']));
+    for (const [version, sentence] of [
+      [2, /saved by a newer planner, as a session of version 2/],
+      ['1', /its version is "1", and this page reads 1/],
+    ]) {
+      files['session.json'] = strToU8(JSON.stringify({ ...described, version }));
+      await open(page, temporaryFile('other.mvsplan', zipSync(files)));
+      await page.getByTestId('notice').getByText('other.mvsplan was not opened').waitFor();
+      assert.match(await page.getByTestId('notice').innerText(), sentence);
+      await startAfresh(page);
+    }
   });
 
   it('deletes_a_checkpoint_by_keyboard_and_puts_it_back_into_its_place', async () => {

@@ -125,7 +125,7 @@ export async function openFile(file: File): Promise<void> {
   state.notice.value = null;
   const left = await leave();
   const bytes = new Uint8Array(await file.arrayBuffer());
-  if (/\.mvsplan$|\.zip$/i.test(file.name)) return openSession(bytes, left, file.name);
+  if (/\.mvsplan$|\.zip$/i.test(file.name)) return void (await openSession(bytes, left, file.name));
   const head = new TextDecoder().decode(bytes.subarray(0, 4000));
   if (/\.obj$/i.test(file.name) && /^#mvs|^# ?mvs|mvs:/m.test(head)) {
     const shown = await run(t.closing, 'open_file', { name: file.name, bytes });
@@ -198,13 +198,14 @@ export async function buildValve(): Promise<void> {
   state.panel.value = 'import';
 }
 
-export async function openSession(bytes: Uint8Array, left: Left | null = null, name = ''): Promise<void> {
+/** Whether it was opened. */
+export async function openSession(bytes: Uint8Array, left: Left | null = null, name = ''): Promise<boolean> {
   const opened = await run(t.replaying, 'open_session', { bytes });
   if (!opened) {
     const { value } = state.notice;
     if (value?.kind === 'error' && name)
       state.notice.value = { ...value, text: t.refusedFile(name, value.text) };
-    return;
+    return false;
   }
   leaveSurface();
   show(opened.shown, true);
@@ -219,4 +220,5 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
     ? { kind: 'info', text: t.sessionOpened }
     : { kind: 'error', text: t.sessionDiffers };
   offerReturn(left);
+  return true;
 }

@@ -4,17 +4,25 @@ import { discard } from './edit';
 import { change, fail, request } from './requests';
 import * as state from './state';
 
+let steps: Promise<void> = Promise.resolve();
+
+/** Steps that are asked for quickly are made one after the other, each from the valve that the one before left. */
+function step(possible: () => boolean, text: string, name: 'undo' | 'redo'): Promise<void> {
+  steps = steps.then(async () => {
+    if (!possible()) return;
+    await change(text, name, null);
+    state.changed.value = true;
+  });
+  return steps;
+}
+
 export async function undo(): Promise<void> {
   if (state.draft.value) return discard();
-  if (!state.canUndo.value) return;
-  await change(t.undoing, 'undo', null);
-  state.changed.value = true;
+  await step(() => state.canUndo.value, t.undoing, 'undo');
 }
 
 export async function redo(): Promise<void> {
-  if (!state.canRedo.value) return;
-  await change(t.redoing, 'redo', null);
-  state.changed.value = true;
+  await step(() => state.canRedo.value, t.redoing, 'redo');
 }
 
 let opening = false;

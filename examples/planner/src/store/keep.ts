@@ -1,18 +1,27 @@
 // Keeping: downloads of valve and session, and the copy for recovery. Storage of a page from disk is shared by every
 // page from disk, so the copy is made only where the user allows it.
 import { effect, signal, untracked } from '@preact/signals';
-import { openSession } from './files';
+import {
+  deleteAllCopies,
+  deleteCopy,
+  hold,
+  leftCopies,
+  newKey,
+  readCopy,
+  writeCopy,
+  type LeftCopy,
+} from './copies';
+import { leave, openSession } from './files';
 import { fail, request, run } from './requests';
 import * as state from './state';
-import { refusals, t } from '../text/texts';
+import { t } from '../text/texts';
 
-const database = 'mvs-planner-1';
-const store = 'session';
 const allowedKey = 'mvs-planner-1-autosave';
 
 export const autosave = signal(false);
 export const storageWorks = signal(true);
-export const recoverable = signal<{ title: string; saved: string } | null>(null);
+/** Copies that were left behind, the newest first: it is offered. */
+export const recoverable = signal<LeftCopy[]>([]);
 
 export function download(bytes: Uint8Array | string, name: string, type: string): void {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
@@ -57,46 +66,19 @@ export async function saveSession(): Promise<void> {
   state.changed.value = false;
 }
 
-function openDatabase(): Promise<IDBDatabase> {
-  return new Promise((resolve, reject) => {
-    const opening = indexedDB.open(database, 1);
-    opening.onupgradeneeded = () => opening.result.createObjectStore(store);
-    opening.onsuccess = () => resolve(opening.result);
-    opening.onerror = () => reject(opening.error ?? new Error(refusals.noStorage));
-    opening.onblocked = () => reject(new Error(refusals.storageInUse));
-  });
-}
-
-async function withStore<T>(
-  mode: IDBTransactionMode,
-  work: (store: IDBObjectStore) => IDBRequest<T>,
-): Promise<T> {
-  const base = await openDatabase();
+function allowed(): boolean {
   try {
-    return await new Promise<T>((resolve, reject) => {
-      const transaction = base.transaction(store, mode);
-      const asked = work(transaction.objectStore(store));
-      transaction.oncomplete = () => resolve(asked.result);
-      transaction.onerror = () => reject(transaction.error);
-      transaction.onabort = () => reject(transaction.error);
-    });
-  } finally {
-    base.close();
+    return localStorage.getItem(allowedKey) === 'yes';
+  } catch {
+    return false;
   }
 }
 
-interface Kept {
-  title: string;
-  saved: string;
-  bytes: Uint8Array;
-}
-
-/** Reads whether a copy was allowed, and whether one is there; called once at the start. */
-export async function findCopy(): Promise<void> {
+/** Reads whether a copy was allowed, and which ones were left; called once at the start. */
+export async function findCopies(): Promise<void> {
   try {
-    autosave.value = localStorage.getItem(allowedKey) === 'yes';
-    const kept = (await withStore('readonly', (s) => s.get('last'))) as Kept | undefined;
-    if (kept) recoverable.value = { title: kept.title, saved: kept.saved };
+    autosave.value = allowed();
+    recoverable.value = await leftCopies();
   } catch {
     storageWorks.value = false;
     autosave.value = false;
@@ -120,8 +102,14 @@ export async function allowAutosave(allowed: boolean): Promise<void> {
   try {
     localStorage.setItem(allowedKey, allowed ? 'yes' : 'no');
     autosave.value = allowed;
-    if (allowed) await keepCopy();
-    else await forgetCopy();
+    if (allowed) {
+      if (state.main.value) await keepCopy(sessionNow());
+      return;
+    }
+    ownKey = null;
+    await copying;
+    await deleteAllCopies();
+    recoverable.value = [];
   } catch (error) {
     storageWorks.value = false;
     autosave.value = false;
@@ -129,17 +117,35 @@ export async function allowAutosave(allowed: boolean): Promise<void> {
   }
 }
 
-/** Writes the copy of the present session, if the user allowed it. */
-export async function keepCopy(): Promise<void> {
-  if (!autosave.value || !state.main.value) return;
-  try {
-    const bytes = await request('save_session', { title: state.title.value, notes: state.notes.value });
-    const kept: Kept = { title: state.title.value, saved: new Date().toISOString(), bytes };
-    await withStore('readwrite', (s) => s.put(kept, 'last'));
-  } catch (error) {
-    storageWorks.value = false;
-    fail(error);
-  }
+/** The key of the copy of the present plan, once one was written. */
+let ownKey: string | null = null;
+let copying: Promise<void> = Promise.resolve();
+
+/** Writes a session to the copy of the present plan, if the user allowed it, one write after the other. */
+function keepCopy(session: Promise<Uint8Array>): Promise<void> {
+  // another tab may have taken the permission back
+  if (autosave.value) autosave.value = allowed();
+  if (!autosave.value) return copying;
+  const { value: title } = state.title;
+  ownKey ??= newKey();
+  const key = ownKey;
+  copying = copying.then(async () => {
+    try {
+      await hold(key);
+      await writeCopy(key, { title, saved: new Date().toISOString(), bytes: await session });
+    } catch (error) {
+      storageWorks.value = false;
+      fail(error);
+    }
+  });
+  return copying;
+}
+
+/** The copy of a plan that gives way to another one stays if it has changes that are saved nowhere else. */
+function leaveCopy(unsaved: boolean): void {
+  const key = ownKey;
+  ownKey = null;
+  if (key && !unsaved) copying = copying.then(() => deleteCopy(key)).catch(fail);
 }
 
 /** Whether the browser can write to a file that the user chose; only Chromium can. */
@@ -169,7 +175,7 @@ export async function chooseKeptFile(): Promise<void> {
     return;
   }
   keptFile.value = handle.name;
-  await writeKeptFile();
+  await writeKeptFile(sessionNow());
 }
 
 export function leaveKeptFile(): void {
@@ -177,23 +183,44 @@ export function leaveKeptFile(): void {
   keptFile.value = '';
 }
 
-/** Writes the session to the chosen file, one write after the other; the file is replaced as a whole. */
-export function writeKeptFile(): Promise<void> {
+/** Writes a session to the chosen file, one write after the other; the file is replaced as a whole. */
+function writeKeptFile(session: Promise<Uint8Array>): Promise<void> {
+  const target = handle;
+  if (!target) return writing;
   writing = writing.then(async () => {
-    if (!handle || !state.main.value) return;
     try {
-      const bytes = await request('save_session', { title: state.title.value, notes: state.notes.value });
-      const stream = await handle.createWritable();
+      const bytes = await session;
+      const stream = await target.createWritable();
       await stream.write(bytes.slice());
       await stream.close();
-      state.changed.value = false;
+      if (target === handle) state.changed.value = false;
     } catch (error) {
-      leaveKeptFile();
+      if (target === handle) leaveKeptFile();
       fail(error);
     }
   });
   return writing;
 }
+
+/** The chosen file belongs to the plan it was chosen for: another plan would replace it. */
+function keepFileOfPlan(): void {
+  if (!handle) return;
+  const { name } = handle;
+  leaveKeptFile();
+  // beside the notice about the plan that was opened
+  queueMicrotask(() => {
+    const said = state.notice.value;
+    state.notice.value = {
+      kind: said?.kind ?? 'info',
+      text: [said?.text, t.fileLeft(name)].filter(Boolean).join(' '),
+      action: said?.action,
+    };
+  });
+}
+
+/** The present session; asked for at once, so that it is not that of a plan which is opened afterwards. */
+const sessionNow = (): Promise<Uint8Array> =>
+  request('save_session', { title: state.title.value, notes: state.notes.value });
 
 /** ms without a further letter before changed notes are written. */
 const typed = 800;
@@ -201,15 +228,28 @@ const typed = 800;
 /** Lets the copy and the chosen file follow the plan, its checkpoints and its notes. */
 export function keepFollowing(): void {
   let kept: unknown[] = [state.main.value, state.checkpoints.value];
+  let plan = state.plan.value;
+  let unsaved = false;
   let timer = 0;
   const write = () => {
     window.clearTimeout(timer);
-    void keepCopy().then(writeKeptFile);
+    if (!state.main.value || !(autosave.value || handle)) return;
+    const session = sessionNow();
+    void keepCopy(session);
+    void writeKeptFile(session);
   };
   effect(() => {
     const now = [state.main.value, state.checkpoints.value];
+    const another = state.plan.value !== plan;
+    plan = state.plan.value;
+    if (another)
+      untracked(() => {
+        keepFileOfPlan();
+        leaveCopy(unsaved);
+      });
     if (now[0] && now.some((value, k) => value !== kept[k])) untracked(write);
     kept = now;
+    unsaved = state.changed.value;
   });
   let { value: notes } = state.notes;
   state.notes.subscribe((now) => {
@@ -220,13 +260,22 @@ export function keepFollowing(): void {
   });
 }
 
+/** Deletes the copy that is offered, and offers the next one. */
 export async function forgetCopy(): Promise<void> {
-  await withStore('readwrite', (s) => s.delete('last'));
-  recoverable.value = null;
+  const [first, ...others] = recoverable.value;
+  if (first) await deleteCopy(first.key);
+  recoverable.value = others;
 }
 
+/** Opens the copy that is offered; the opened plan goes on in it. Other copies are offered at the next start. */
 export async function recover(): Promise<void> {
-  const kept = (await withStore('readonly', (s) => s.get('last'))) as Kept | undefined;
-  recoverable.value = null;
-  if (kept) await openSession(kept.bytes);
+  const [first] = recoverable.value;
+  recoverable.value = [];
+  const kept = first && (await readCopy(first.key));
+  if (!kept || !(await openSession(kept.bytes, await leave()))) return;
+  // it is saved nowhere else
+  state.changed.value = true;
+  leaveCopy(false);
+  ownKey = first.key;
+  await hold(first.key);
 }

@@ -102,6 +102,7 @@ export function show(shown: Shown, fresh: boolean): void {
     state.draftMessage.value = '';
     state.picking.value = null;
     if (fresh) {
+      ++state.plan.value;
       state.first.value = shown;
       state.choice.value = null;
       state.receiveCheckpoints({ names: [], hashes: [], removed: null });

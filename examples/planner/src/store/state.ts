@@ -91,6 +91,8 @@ export const removedCheckpoint = signal<string | null>(null);
 export const title = signal('');
 export const notes = signal('');
 export const changed = signal(false);
+/** Counts the plans that were begun: opened, built or recovered. */
+export const plan = signal(0);
 export const cost = signal<{ hash: string; value: Cost } | null>(null);
 /** A view that something other than the picture asks for. */
 export const wantedView = signal<{ preset: 'surgeon' | 'ventricle' } | null>(null);

@@ -186,10 +186,11 @@ export const t = {
   sessionFile: 'Repair session',
   sessionOpened: 'Session opened. The plan was repeated and gives exactly the saved valve.',
   sessionDiffers:
-    'Session opened, but the repeated plan differs from the saved valve: it was saved by another version.',
+    'Session opened, but the repeated plan differs from the saved valve: it was saved by another version, or the file was changed.',
   unknownFile: (name: string) =>
-    `${name} is not a file this page can open: it takes a session (.mvsplan), a valve (.obj), or a surface (.stl, .ply, .obj).`,
+    `${name} is not a file this page can open: it takes a session (.mvsplan), a valve (.obj), or a surface (.stl, .ply, .obj, .off, .vtk, .vtp).`,
   refusedFile: (name: string, why: string) => `${name} was not opened: ${why}.`,
+  fileLeft: (name: string) => `${name} keeps the plan before; changes of this one are not saved to it.`,
   severalFiles: (name: string) => `One file at a time: ${name} was taken.`,
   importBegun: (triangles: number) =>
     `Surface with ${triangles} triangles. Mark both commissures, then build the valve.`,
@@ -392,8 +393,10 @@ export const refusals = {
   notSession: 'this archive is not a session: session.json is missing',
   notJson: 'session.json is damaged: it is not JSON',
   otherKind: 'session.json describes another kind of file',
-  otherVersion: (given: number, known: number) =>
-    `the session is of version ${given}; this page reads ${known}`,
+  otherVersion: (given: unknown, known: number) =>
+    typeof given === 'number' && given > known
+      ? `it was saved by a newer planner, as a session of version ${given}, and this page reads ${known}: open it with the newer one`
+      : `its version is ${JSON.stringify(given)}, and this page reads ${known}`,
   missing: (file: string) => `${file} is missing from the session`,
   noPreview: 'there is no preview to apply: choose an operation',
   noCheckpoint: (name: string) => `there is no checkpoint ${name}`,
@@ -403,8 +406,6 @@ export const refusals = {
   noField: (kind: string, name: string) => `${kind} has no field ${name}`,
   cancelled: 'cancelled',
   noWorker: 'the worker did not start',
-  noStorage: 'no storage',
-  storageInUse: 'the storage is in use by another page',
 };
 
 export const verdictTexts = {
@@ -446,7 +447,7 @@ export const appTexts = {
   repair: 'Repair',
   plan: 'Plan',
   tour: 'Learn',
-  notApplied: 'A preview, not applied yet',
+  notApplied: 'Not applied yet',
   apply: 'Apply',
   discard: 'Discard',
   close: 'Close',

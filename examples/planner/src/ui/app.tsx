@@ -239,8 +239,30 @@ function onDrop(event: DragEvent): void {
   const files = event.dataTransfer?.files;
   if (!files?.length || state.dialog.value) return;
   void openFile(files[0]).then(() => {
-    if (files.length > 1) state.notice.value ??= { kind: 'info', text: t.severalFiles(files[0].name) };
+    if (files.length === 1) return;
+    const said = state.notice.value;
+    state.notice.value = {
+      kind: said?.kind ?? 'info',
+      text: [said?.text, t.severalFiles(files[0].name)].filter(Boolean).join(' '),
+      action: said?.action,
+    };
   });
+}
+
+const control = (target: EventTarget | null): EventTarget | null =>
+  (target as Element | null)?.closest?.('label') ??
+  (target as Element | null)?.closest?.('button, a, summary, input, select') ??
+  target;
+/** What the first press of a double click was on. */
+let pressed: EventTarget | null = null;
+
+/** The second press of a double click is for what the first one was on, not for what has come into its place since. */
+function onPress(event: MouseEvent): void {
+  if (event.detail <= 1) pressed = control(event.target);
+  else if (control(event.target) !== pressed) {
+    event.preventDefault();
+    event.stopPropagation();
+  }
 }
 
 export function App() {
@@ -249,11 +271,15 @@ export function App() {
     window.addEventListener('dragover', onDrag);
     window.addEventListener('dragleave', onDragEnd);
     window.addEventListener('drop', onDrop);
+    window.addEventListener('mousedown', onPress, true);
+    window.addEventListener('click', onPress, true);
     return () => {
       window.removeEventListener('keydown', onKey);
       window.removeEventListener('dragover', onDrag);
       window.removeEventListener('dragleave', onDragEnd);
       window.removeEventListener('drop', onDrop);
+      window.removeEventListener('mousedown', onPress, true);
+      window.removeEventListener('click', onPress, true);
     };
   }, []);
   if (state.broken.value) {

@@ -88,7 +88,7 @@ export function Notice() {
 }
 
 export function Recovery() {
-  const kept = recoverable.value;
+  const [kept] = recoverable.value;
   if (!kept || !state.ready.value) return null;
   return (
     <div class="notice info" role="status" data-testid="recovery">

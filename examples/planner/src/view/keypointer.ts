@@ -76,6 +76,8 @@ export class KeyPointer {
     const within = (value: number, size: number) => Math.min(size - 1, Math.max(0, value));
     this.at = { x: within(from.x + by * x, width), y: within(from.y + by * y, height) };
     this.cross.hidden = false;
+    // in a narrow window the form stands below the picture
+    this.view.renderer.canvas.scrollIntoView({ block: 'nearest' });
     this.cross.style.transform = `translate(${this.at.x}px, ${this.at.y}px) translate(-50%, -50%)`;
     this.say();
   }

@@ -145,8 +145,13 @@ export class WebGl implements Renderer {
       },
     });
     const object = new Object3(geometry, material);
-    // an overlay hides nothing of itself but everything of the others
-    if (mesh.overlay) object.onBeforeRender = (renderer) => renderer.clearDepth();
+    // an overlay hides nothing of itself but everything of the others; a mesh before it may have left depth read-only,
+    // in which it cannot be cleared
+    if (mesh.overlay)
+      object.onBeforeRender = (renderer) => {
+        (renderer as WebGLRenderer).state.buffers.depth.setMask(true);
+        (renderer as WebGLRenderer).clearDepth();
+      };
     object.frustumCulled = false;
     object.matrixAutoUpdate = false;
     object.renderOrder = (mesh.overlay ? 2000 : mesh.opacity < 1 ? 1000 : 0) + order;
