@@ -4,7 +4,6 @@ import re
 
 import numpy as np
 import pytest
-from test_fit import found, start, truth  # noqa: F401
 
 import mvs
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from test_fit import found, start, truth  # noqa: F401
 
 import mvs
 

@@ -1,0 +1,31 @@
+"""A valve, another one with other lengths, and the fit of the first to the second."""
+
+import numpy as np
+import pytest
+from closures import reclosed
+
+import mvs
+
+
+@pytest.fixture(scope="session")
+def start():
+    with mvs.Simulator() as sim:
+        sim.generate(shape="founding", vertices=220)  # 80 chordae without branches
+        sim.set_load(mvs.SYSTOLE_PA)
+        assert sim.settle().converged
+        return sim.snapshot()
+
+
+@pytest.fixture(scope="session")
+def truth(start):
+    random = np.random.default_rng(5)
+    length = start.chord_rest_length
+    return reclosed(start, chord_rest_length=length * (1 + 0.05 * random.normal(size=len(length))))
+
+
+@pytest.fixture(scope="session")
+def found(start, truth):
+    prior = {"chords": mvs.Prior(0.05)}
+    nodes = np.unique(start.triangle_nodes)
+    data = mvs.Points(nodes, truth.node_position[nodes])
+    return mvs.fit(start, data, noise=0.1e-3, priors=prior)
