@@ -12,6 +12,7 @@
 #include "patient/surface/fill_hole.h"
 #include "patient/surface/manifold.h"
 #include "patient/surface/mid_surface.h"
+#include "patient/surface/skin_holes.h"
 #include "patient/surface/skin_sides.h"
 #include "patient/surface/smooth_skin.h"
 #include "patient/surface/weld.h"
@@ -19,8 +20,6 @@
 namespace mvs::core {
 namespace {
 
-// m: a longer boundary of a skin is no small hole, but a rim or a side that is missing.
-constexpr double longest_hole = 20e-3;
 // Rounds that remove the zigzag of single triangles, and leave waves of ten of them.
 constexpr int rim_rounds = 10;
 
@@ -30,7 +29,7 @@ LeafletSheet closed_skin(LeafletSheet skin, Findings &findings) {
   for (const std::vector<uint32_t> &loop : boundary_loops(skin)) {
     const double length = shape_of(skin, loop).length;
     MVS_MUST(
-        length < longest_hole, MVS_E_OP, "triangles",
+        length < longest_skin_hole, MVS_E_OP, "triangles",
         "the skin is open along %.0f mm; both sides of the leaflets and their rims are needed: "
         "close it, or give one side as the atrial surface",
         length * 1e3);

@@ -10,12 +10,6 @@
 #include "patient/surface/fill_hole.h"
 
 namespace mvs::core {
-namespace {
-
-// m, around: a hole of 6 mm. One that is longer may be an orifice of the tissue.
-constexpr double longest_hole = 20e-3;
-
-}  // namespace
 
 void fill_skin_holes(LeafletSheet &sheet, Findings &findings) {
   const std::vector<std::vector<uint32_t>> loops = boundary_loops(sheet);
@@ -26,10 +20,10 @@ void fill_skin_holes(LeafletSheet &sheet, Findings &findings) {
     sum += length;
   }
   if (loops.empty() || longest * longest >= surface_area(sheet.x, sheet.triangles)) return;
-  MVS_MUST(longest <= longest_hole, MVS_E_OP, "kind",
+  MVS_MUST(longest <= longest_skin_hole, MVS_E_OP, "kind",
            "the surface is a skin with a hole of %.0f mm around, at most %.0f mm are filled: close "
            "it, or give the mid-surface or the atrial side of the leaflets",
-           longest * 1e3, longest_hole * 1e3);
+           longest * 1e3, longest_skin_hole * 1e3);
   size_t triangles = 0;
   for (const std::vector<uint32_t> &loop : loops) triangles += fill_hole(sheet, loop);
   findings.push_back({"skin_holes",
