@@ -18,7 +18,7 @@ constexpr double of_cosine = 2;  // 1 / cos(60 degrees)
 constexpr double margin = 20 * 6e-8;
 // Share of a distance from p: far above the rounding of doubles where the distance is at least a
 // thousandth of the limit, since coordinates are less than a million limits.
-constexpr double rounding = 1e-6;
+constexpr double distance_rounding = 1e-6;
 
 // A query in single precision.
 struct BoxFilter {
@@ -96,7 +96,7 @@ MVS_INLINE uint32_t may_count(const typename SimdPoints<V>::Point (&corner)[3],
     if (k == 0) least = ahead;
     least = ahead < least ? ahead : least;
   }
-  const Value zero = {}, least2 = (1 - rounding) * (least * least);
+  const Value zero = {}, least2 = (1 - distance_rounding) * (least * least);
   const auto is_out = (least > zero) & ((of_cosine * of_cosine * (most * most) * square < least2) |
                                         (limit2 * square < least2));
   return ~bits_of_doubles<V>(is_out) & ((1u << V::width) - 1);

@@ -14,7 +14,7 @@ namespace {
 // Sides of triangles within a scale from which on normals are averaged over it: below it a triangle
 // shows as much of the shape as the normal there.
 constexpr double least_sides = 2;
-constexpr int most_rounds = 30;  // of averaging: 5 sides far
+constexpr int averaging_rounds = 30;  // of averaging: 5 sides far
 
 // The triangle with both vertices on a side; `none` unless exactly one has.
 uint32_t only_triangle_at(const std::vector<Tri> &triangles, const Rows &stars, uint32_t a,
@@ -54,7 +54,7 @@ void SurfaceWalk::average_normals(double scale) {
     for (size_t k = 0; k < 3; ++k) sum += (x_[t[(k + 1) % 3]] - x_[t[k]]).norm();
   }
   const double sides = scale / (sum / static_cast<double>(3 * triangles_.size()));
-  const int rounds = static_cast<int>(std::min(sides * sides, double(most_rounds)));
+  const int rounds = static_cast<int>(std::min(sides * sides, double(averaging_rounds)));
   if (sides < least_sides) return;
   std::vector<Vec3> next(normal_.size());
   for (int round = 0; round < rounds; ++round) {
