@@ -48,7 +48,7 @@ TEST_CASE("parts_of_a_factor_give_its_bits") {
   total_energy.prepare(state.x, state.x, 0, profile);
   total_energy.gradient(state.x, g, profile);
   StepMatrix matrix(*model);
-  matrix.assemble(total_energy, state.x, {1e-3, 0, 64, true}, nullptr, profile);
+  matrix.assemble(total_energy, state.x, {1e-3, 0, 64, true, true}, nullptr, profile);
   for (const Backend backend : {Backend::block, Backend::eigen}) {
     CAPTURE(backend);
     CachedPreconditioner whole(*model, make_direct_solver(backend)),

@@ -9,7 +9,7 @@ export function packageFolder(): string {
   return process.env.MVS_JS ?? resolve(__dirname, '../../../build/js/dist');
 }
 
-const names = ['loadMvs', 'MvsError', 'SYSTOLE_PA', 'DIASTOLE_PA', 'ChordKind'];
+const names = ['loadMvs', 'MvsError', 'SYSTOLE_PA', 'DIASTOLE_PA', 'ChordKind', 'SettleFlags'];
 
 export function library(): Plugin {
   return {

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from closures import reclosed
+from fitted import found, reclosed, start, truth  # noqa: F401
 
 import mvs
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from fitted import found, start, truth  # noqa: F401
 
 import mvs
 

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from fitted import found, start, truth  # noqa: F401
 
 import mvs
 
