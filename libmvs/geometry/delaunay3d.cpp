@@ -74,6 +74,7 @@ std::vector<uint32_t> insertion_order(const std::vector<LatticePoint> &points) {
     return std::tie(a.round, a.z, a.point) < std::tie(b.round, b.z, b.point);
   });
   std::vector<uint32_t> order;
+  order.reserve(keys.size());
   for (const Key &key : keys) order.push_back(key.point);
   return order;
 }
