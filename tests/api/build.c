@@ -174,9 +174,9 @@ static void the_leak_is_found_in_the_build_or_later_with_the_same_figures(surfac
   MUST(mvs_find_leak_interval(without, NULL, &found));
   CHECK(same_hash(sim_hash(with), sim_hash(without)));
   CHECK(find(found, "leak", &finding) != UINT32_MAX);
-  CHECK(memcmp(leak, finding.values.data, sizeof leak) == 0);
+  CHECK(same_bits(leak, finding.values.data, sizeof leak));
   CHECK(find(found, "leak_interval", &finding) != UINT32_MAX);
-  CHECK(memcmp(interval, finding.values.data, sizeof interval) == 0);
+  CHECK(same_bits(interval, finding.values.data, sizeof interval));
   mvs_build_release(found);
   const mvs_leak_errors errors = {
       .struct_size = sizeof errors, .lengths = 0.02, .thickness = 0.1e-3};
