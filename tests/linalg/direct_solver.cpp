@@ -263,9 +263,12 @@ TEST_CASE("an_elimination_order_is_that_of_the_graph") {
   Random random(13);
   for (const uint32_t n : {1u, 2u, 30u, 300u}) {
     std::vector<Edge> pairs = n < 2 ? std::vector<Edge>{} : random_pairs(random, n, 3 * n);
-    pairs.insert(pairs.end(), pairs.begin(), pairs.begin() + static_cast<long>(pairs.size() / 2));
+    const std::vector<Edge> repeated(pairs.begin(),
+                                     pairs.begin() + static_cast<long>(pairs.size() / 2));
+    pairs.insert(pairs.end(), repeated.begin(), repeated.end());
     Eigen::SparseMatrix<double> graph(n, n);
     std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(pairs.size() + n);
     for (const Edge &p : pairs) entries.emplace_back(p[0], p[1], 1.0);
     for (uint32_t i = 0; i < n; ++i) entries.emplace_back(i, i, 1.0);
     graph.setFromTriplets(entries.begin(), entries.end());
