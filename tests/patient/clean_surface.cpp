@@ -180,7 +180,8 @@ TEST_CASE("clean_surface_refuses_a_cloud_of_triangles_with_a_sentence_of_its_own
   // 400 triangles apart from each other: no piece has a share that counts
   Surface s;
   for (uint32_t k = 0; k < 400; ++k) {
-    const Vec3 at(50e-3 * (k % 20), 50e-3 * (k / 20), 0);
+    const uint32_t row = k / 20, column = k % 20;
+    const Vec3 at(50e-3 * column, 50e-3 * row, 0);
     add_triangle(s, at, at + Vec3(30e-3, 0, 0), at + Vec3(0, 30e-3, 0));
   }
   CHECK_THROWS_WITH_AS(cleaned(s), doctest::Contains("a cloud of 400 pieces"), Error);
