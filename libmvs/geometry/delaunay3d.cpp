@@ -162,14 +162,14 @@ class DelaunayBuilder {
   std::vector<LatticePoint> point_;
   std::vector<SpherePoint> for_sphere_;  // the same
   std::vector<Tetrahedron> tetrahedra_;
-  // Of each tetrahedron: 2 * insertion, + 1 if its sphere has the vertex.
+  // A number for each tetrahedron: 2 * insertion, + 1 if its sphere has the vertex.
   std::vector<uint64_t> seen_;
   uint64_t insertion_ = 0;
   uint32_t last_ = 0;
   std::vector<uint32_t> cavity_, vacant_;
   std::vector<CavityFacet> facets_;
   EdgeTable table_;
-  // Of each vertex: the last insertion with it on the cavity, and its number there.
+  // For each vertex, the last insertion with it on the cavity, and its number there.
   std::vector<uint64_t> on_cavity_;
   std::vector<uint32_t> number_;
   uint32_t numbers_ = 0;

@@ -31,7 +31,7 @@ struct Closed {
   bool at_rest;
   uint32_t iterations;
 };
-// What a closure of the interval changes.
+// The change of the valve in a closure of the interval.
 struct ClosureChange {
   std::vector<double> factor;  // on the length of each chord; empty: 1
   double edge = 0;             // m, farther out
