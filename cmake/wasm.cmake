@@ -26,12 +26,13 @@ foreach(package Eigen3:eigen3/Eigen/Core:Eigen nlohmann_json:nlohmann/json.hpp:n
   get_filename_component(found ${MVS_HOST_${name}} DIRECTORY)
   file(CREATE_LINK ${found} ${wasm_include}/${folder} SYMBOLIC)
 endforeach()
-# Eigen names this header for SSE; of MMX it uses nothing, and emscripten has none.
-file(WRITE ${wasm_include}/mmintrin.h "")
+# Eigen names this header for SSE; of MMX it uses nothing, and emscripten has none. Both headers are only
+# written where they differ: newer ones would have everything compiled again.
+file(CONFIGURE OUTPUT ${wasm_include}/mmintrin.h CONTENT "#pragma once\n" @ONLY)
 # Clang 14 merges the load of a number with its copy to both halves of a register (v128.load64_splat), and
 # then moves stores before that load: p = turn * p + shift read z after it was written. The empty asm keeps
 # load and copy apart. The golden scenes with rings (bindings/js/test/golden.test.mjs) show the fault.
-file(WRITE ${wasm_include}/emmintrin.h [=[
+file(CONFIGURE OUTPUT ${wasm_include}/emmintrin.h CONTENT [=[
 #pragma once
 #include_next <emmintrin.h>
 static __inline__ __m128d __attribute__((__always_inline__)) mvs_set1_pd(double value) {
@@ -39,7 +40,7 @@ static __inline__ __m128d __attribute__((__always_inline__)) mvs_set1_pd(double 
   return (__m128d)wasm_f64x2_splat(value);
 }
 #define _mm_set1_pd mvs_set1_pd
-]=])
+]=] @ONLY)
 foreach(target Eigen3::Eigen nlohmann_json::nlohmann_json)
   add_library(${target} INTERFACE IMPORTED GLOBAL)
   target_include_directories(${target} SYSTEM INTERFACE ${wasm_include})

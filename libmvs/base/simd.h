@@ -87,6 +87,12 @@ MVS_INLINE void store(typename V::Number *to, const typename V::Value &v) {
   *reinterpret_cast<typename V::Unaligned *>(to) = v;
 }
 
+// The numbers of a register without their signs.
+template <typename Value>
+MVS_INLINE void magnitude_of(const Value &v, Value &magnitude) {
+  magnitude = v < -v ? -v : v;
+}
+
 // Bit k is set where element k of a mask is.
 MVS_INLINE uint32_t bits_of_four(const Float4::Mask &mask) {
 #if defined(__SSE__) && defined(__GNUC__)

@@ -24,10 +24,6 @@ typedef long long Picks __attribute__((vector_size(32)));
 #endif
 #define MVS_TURN(v, a, b, c, d) MVS_MIX(v, v, a, b, c, d)
 
-MVS_INLINE void magnitude_of(const Value &v, Value &magnitude) {
-  magnitude = v < -v ? -v : v;
-}
-
 // Element k of x, y, z belongs to the k-th point. With the other points in cyclic order, the signs
 // of the volumes alternate.
 MVS_INLINE SphereSide side(const SpherePoint &a, const SpherePoint &b, const SpherePoint &c,

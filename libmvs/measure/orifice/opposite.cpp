@@ -25,12 +25,6 @@ struct BoxFilter {
   float p[3], normal[3], out[3], distance2;
 };
 
-// The components of a vector in a register that does not change sign.
-template <typename Value>
-MVS_INLINE void magnitude_of(const Value &v, Value &magnitude) {
-  magnitude = v < -v ? -v : v;
-}
-
 // Bit k is set if box first + k may have opposite tissue. A point of the box at distance d counts
 // only if its component along a direction is above d cos(60 degrees); d is at least that of the
 // box, and the component at most that of its furthest corner.

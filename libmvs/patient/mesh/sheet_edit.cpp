@@ -45,11 +45,7 @@ double worst_cosine(const Vec3 &a, const Vec3 &b, const Vec3 &c) {
 }
 
 SheetEditor::SheetEditor(const InputSheet &input, SheetMesh &mesh, double edge)
-    : input_(input), mesh_(mesh), grid_(aabb_of(mesh.x), 1.5 * edge), edge_(edge) {
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    grid_.insert(t, aabb_of(mesh.x, mesh.triangles[t]));
-  }
-}
+    : input_(input), mesh_(mesh), grid_(mesh.x, mesh.triangles, 1.5 * edge), edge_(edge) {}
 
 SheetEditor::Look SheetEditor::look_at(const std::vector<Tri> &triangles) const {
   Look look;

@@ -61,12 +61,18 @@ bool mesh_triangles_cross(const std::vector<Vec3> &x, const Tri &first, const Tr
   return triangles_cross(x, first, second);
 }
 
-TriangleGrid::TriangleGrid(const Aabb &box, double cell) : origin_(box.low), cell_(cell) {
+TriangleGrid::TriangleGrid(const std::vector<Vec3> &x, const std::vector<Tri> &triangles,
+                           double cell)
+    : cell_(cell) {
+  const Aabb box = aabb_of(x);
+  origin_ = box.low;
   const Vec3 extent = box.high - box.low;
   const auto cells_of = [&](int k) { return std::floor(extent[k] / cell_) + 1; };
   while (cells_of(0) * cells_of(1) * cells_of(2) > most_cells) cell_ *= 1.25;
   for (int k = 0; k < 3; ++k) count_[static_cast<size_t>(k)] = static_cast<uint32_t>(cells_of(k));
   cells_.resize(static_cast<size_t>(count_[0]) * count_[1] * count_[2]);
+  entries_.reserve(triangles.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t) insert(t, aabb_of(x, triangles[t]));
 }
 
 TriangleGrid::Range TriangleGrid::range_of(const Aabb &box) const {

@@ -9,9 +9,9 @@ namespace mvs::core {
 
 class TriangleGrid {
  public:
-  // Cells of about `cell` (m), at most about 2^18 of them. Boxes outside `box` count to the cells
-  // at its sides.
-  TriangleGrid(const Aabb &box, double cell);
+  // The triangles of a mesh in cells of about `cell` (m), at most about 2^18 of them. Boxes outside
+  // that of the points count to the cells at its sides.
+  TriangleGrid(const std::vector<Vec3> &x, const std::vector<Tri> &triangles, double cell);
 
   void insert(uint32_t triangle, const Aabb &box);
   void remove(uint32_t triangle);

@@ -79,10 +79,7 @@ bool flip_side(LeafletSheet &sheet, TriangleGrid &grid, const Rows &stars, uint3
 std::vector<Edge> flip_crossings(LeafletSheet &sheet, std::vector<Edge> pairs) {
   const double side = std::sqrt(surface_area(sheet.x, sheet.triangles) /
                                 static_cast<double>(sheet.triangles.size()));
-  TriangleGrid grid(aabb_of(sheet.x), 2 * side);
-  for (uint32_t t = 0; t < sheet.triangles.size(); ++t) {
-    grid.insert(t, aabb_of(sheet.x, sheet.triangles[t]));
-  }
+  TriangleGrid grid(sheet.x, sheet.triangles, 2 * side);
   const auto flip_one = [&] {
     const Rows stars = rows_of(sheet.x.size(), sheet.triangles);
     for (const Edge &pair : pairs) {
