@@ -138,7 +138,7 @@ struct Pair {
                  .normalized()},
         placed(body, pose),
         part(random.vectors(random(0, 1) < 0.3 ? 2 : 3, 3e-3)) {
-    const Vec3 away = random.vector(12e-3);
+    const Vec3 away = random.vector(6e-3);
     for (Vec3 &p : part) p += away;
     least = convex_distance(placed.vertices, part, 1);
   }
@@ -185,7 +185,7 @@ TEST_CASE("bodies_of_tools_have_the_distances_at_which_libccd_finds_contact") {
     CHECK(plane_gap(pair.placed.vertices, pair.part, normal) >= pair.least.distance - 1e-12);
     const double more = pair.theirs() - pair.ours();
     CHECK(more >= -near_enough - inside_of_circle(pair.body));
-    if (std::abs(more) > near_enough) ++count.differ;
+    if (more > near_enough) ++count.differ;
     if (more > 1e-5)
       ++count.astray;
     else
@@ -196,7 +196,8 @@ TEST_CASE("bodies_of_tools_have_the_distances_at_which_libccd_finds_contact") {
     MESSAGE(std::string(kind_names[kind]), ": ", c.all, " pairs, ", c.met, " meet, ", c.differ,
             " distances differ, libccd's by up to ", 1e6 * c.most, " um too large; astray in ",
             c.astray);
-    CHECK(c.met > c.all / 20);
+    // in a hundredth of balls, a fifth of cylinders
+    CHECK(c.met > c.all / 200);
     CHECK(c.met < c.all / 2);
     // as the segments and triangles of libccd_witness.cpp
     CHECK(c.astray <= std::max(3, c.all / 10000));
