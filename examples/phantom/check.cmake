@@ -89,7 +89,7 @@ elseif(CASE STREQUAL "instruments")
     --every 2.625 --frames a --keys "0:a 0:7 5.2:i 10.4:i 15.7:i 20.5:s 20.7:w")
   must_print("takes the hook.*takes the spatula.*takes the sizer.*takes the hook"
     "peak force [0-9.]*[1-9] N" "save the valve.*write the plan")
-  must_be_pictures(8 ${DIR}/a)
+  must_be_pictures(9 ${DIR}/a)
   if(MVS)
     run(0 ${MVS} generate --shape founding --leaflet spring -o valve.obj)
     run(0 ${MVS} plan replay phantom.json --on valve.obj)

@@ -3,7 +3,7 @@
 Run: PYTHONPATH=build/release/python python3 examples/pictures/hook.py [FOLDER]
 
 The instrument (a hook of three capsules; a spatula of 5 x 3 x 0.6 mm) is brought to the middle of the chord where
-it has most room, drawn back by 5 mm in 250 steps of 1 ms, and let rest. Its session (hook.h5, plate.h5) and plan
+it has most room, drawn back by 5 or 3 mm in 250 steps of 1 ms, and let rest. Its session (hook.h5, plate.h5) and plan
 (hook.json, plate.json) go to FOLDER, by default a temporary one. The session is loaded, and the plan is replayed on
 a new valve: both have to end at the same hash. For comparison a ball of the hook's radius, and of half the
 thickness of the plate, goes the same way: chordae do not touch it.
@@ -30,16 +30,18 @@ class Instrument:
     bodies: list
     inside: np.ndarray
     radius: float  # m, of the ball to compare with
+    way: float  # m, that it is drawn back
+    side: int = 1  # -1: seen from the other side of the chord
 
 
 RADIUS = 0.35e-3
 HEEL, TOE, TIP, SHAFT = (0, 0, 0), (3e-3, 0, 0), (3e-3, 0, 2e-3), (0, 0, 15e-3)
 HOOK = Instrument("hook", [{"kind": "capsule", "position": a, "end": b, "radius": RADIUS}
                            for a, b in ((HEEL, SHAFT), (HEEL, TOE), (TOE, TIP))],
-                  np.array([1.5e-3, 0, 1.2e-3]), RADIUS)
+                  np.array([1.5e-3, 0, 1.2e-3]), RADIUS, 5e-3)
 PLATE = Instrument("plate", [{"kind": "box", "size": (5e-3, 3e-3, 0.4e-3), "radius": 0.1e-3}],
-                   np.array([0, 0, 1e-3]), 0.3e-3)
-WAY, STEPS = 5e-3, 250
+                   np.array([0, 0, 1e-3]), 0.3e-3, 3e-3, -1)
+STEPS = 250
 
 
 def quaternion(axes):
@@ -98,11 +100,11 @@ def roomiest(sim, instrument):
     return best[1:]
 
 
-def pull(sim, position, turn, **tool):
+def pull(sim, position, turn, way, **tool):
     hand = sim.add_tool(position=position, **tool)
     up = rotation(turn)[:, 2]
     for k in range(STEPS):
-        sim.move_tool(hand, position + WAY * (k + 1) / STEPS * up)
+        sim.move_tool(hand, position + way * (k + 1) / STEPS * up)
         sim.step()
     sim.settle()
     return hand
@@ -123,7 +125,7 @@ def surfaces(body, points):
     return hull, edges, *(pv.Sphere(radius=body.radius, center=p) for p in points)
 
 
-def draw(snapshot, chord, focus, up):
+def draw(snapshot, chord, focus, up, side):
     plotter = pv.Plotter(off_screen=True, window_size=(520, 520))
     blocks = snapshot.to_pyvista()
     plotter.add_mesh(blocks["leaflets"], color="#e8a898", opacity=0.55, smooth_shading=True)
@@ -138,7 +140,7 @@ def draw(snapshot, chord, focus, up):
             for part in surfaces(body, body.vertices @ turn.T + tool.proxy):
                 plotter.add_mesh(part, color="#7c8794")
     along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
-    away = 0.025 * np.cross(up, along) + 0.03 * along + 0.01 * up
+    away = side * 0.025 * np.cross(up, along) + 0.03 * along + 0.01 * up
     plotter.camera_position = [focus + away, focus, up]
     return plotter.screenshot(return_img=True)
 
@@ -166,21 +168,22 @@ def show(instrument, folder):
         sim.add_tool("convex", position, bodies=instrument.bodies, orientation=turn)
         first = sim.snapshot()
         sim.restore(before)
-        pull(sim, position, turn, kind="convex", bodies=instrument.bodies, orientation=turn)
+        pull(sim, position, turn, instrument.way, kind="convex", bodies=instrument.bodies, orientation=turn)
         taken = sim.snapshot()
     taken.save(folder / f"{name}.h5")
     (folder / f"{name}.json").write_text(taken.plan())
     must_be_the_same(taken, folder / f"{name}.h5")
     with closed() as sim:
-        pull(sim, position, turn, kind="ball", radius=instrument.radius)
+        pull(sim, position, turn, instrument.way, kind="ball", radius=instrument.radius)
         missed = sim.snapshot()
-    ways = [1e3 * (middle(s, chord) - start) @ up for s in (first, taken, missed)]
+    ways = [round(1e3 * (middle(s, chord) - start) @ up, 4) + 0.0 for s in (first, taken, missed)]
     chordae = [part.name for part in before.parts if part.kind == mvs.PartKind.CHORD]
     print(f"{name}: chord {chordae[chord]}: {ways[1]:.2f} mm, {ways[2]:.4f} mm with a ball of "
           f"{1e3 * instrument.radius:.2f} mm")
     print(f"{name}: force on the hand {np.linalg.norm(taken.tools[-1].force):.3f} N; replayed to {taken.hash}")
     titles = (f"{name} at the chord", f"drawn back: {ways[1]:.1f} mm", f"a ball: {ways[2]:.1f} mm")
-    return [(title, draw(snapshot, chord, start, up)) for title, snapshot in zip(titles, (first, taken, missed))]
+    return [(title, draw(snapshot, chord, start, up, instrument.side))
+            for title, snapshot in zip(titles, (first, taken, missed))]
 
 
 def main(folder):
