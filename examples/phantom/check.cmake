@@ -1,4 +1,4 @@
-# Tests of the example phantom: cmake -D CASE=grasp|session|errors|window|mouse -D ... -P check.cmake
+# Tests of the example phantom: cmake -D CASE=grasp|session|instruments|errors|window|mouse -D ... -P check.cmake
 file(REMOVE_RECURSE ${DIR})
 file(MAKE_DIRECTORY ${DIR}/a ${DIR}/b)
 
@@ -78,6 +78,18 @@ elseif(CASE STREQUAL "session")
       message(FATAL_ERROR "${file} was not written")
     endif()
   endforeach()
+  if(MVS)
+    run(0 ${MVS} generate --shape founding --leaflet spring -o valve.obj)
+    run(0 ${MVS} plan replay phantom.json --on valve.obj)
+    must_print("the result of the plan, bit for bit")
+  endif()
+elseif(CASE STREQUAL "instruments")
+  # the push is repeated with each of them; changes are made where the hand is away
+  run(0 ${unattended} --script ${RECORDINGS}/push_p2.txt --option end=loop --option speed=2 --seconds 21
+    --every 2.625 --frames a --keys "0:a 0:7 5.2:i 10.4:i 15.7:i 20.5:s 20.7:w")
+  must_print("takes the hook.*takes the spatula.*takes the sizer.*takes the hook"
+    "peak force [0-9.]*[1-9] N" "save the valve.*write the plan")
+  must_be_pictures(9 ${DIR}/a)
   if(MVS)
     run(0 ${MVS} generate --shape founding --leaflet spring -o valve.obj)
     run(0 ${MVS} plan replay phantom.json --on valve.obj)

@@ -15,7 +15,13 @@
  * its position and its orientation to the hand; the springs of both saturate together. It is
  * slightly elastic: `max_force` of 5 N stretches it by about 1 %. A proxy turns by less than 20
  * degrees in a step and lags behind a hand that turns fast, by half a step at 10 rad/s; a hand
- * that turns by more than 90 degrees between two steps may leave it turned the other way. */
+ * that turns by more than 90 degrees between two steps may leave it turned the other way.
+ *
+ * libmvs computes its distances from tissue itself; the tests compare them with those of libccd
+ * (libmvs/geometry/README.md). Forces act by a distance without kinks, 0.8 to 1.34 times the least
+ * one; the least one limits motions and refuses tools in tissue. The stitches of a clip touch it as
+ * chordae of the suture's thickness; a ring has no thickness, and a tool meets the annulus that lies
+ * on it. */
 #ifndef MVS_TOOL_H
 #define MVS_TOOL_H
 

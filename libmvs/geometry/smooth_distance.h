@@ -6,8 +6,8 @@
 //   m = 1 + share (g / g_max - 1/2), g = 1 - sum_i weight_i^2, weight_i the coordinates of q,
 // of a convex and a concave positive function that is strictly concave in the place q on the part.
 // It has one minimum, so that D has a continuous derivative (Danskin's theorem) where the hull,
-// rounded by R, and the part are apart. D is 0 where they touch, and differs from the least
-// distance by less than the factor share / 2. A fractional
+// rounded by R, and the part are apart. D is 0 where they touch, and lies between
+// the least distance over 1 + share / 2 and over 1 - share / 2. A fractional
 // programme: Dinkelbach, Management Science 13 (1967).
 #pragma once
 

@@ -155,10 +155,13 @@ Id add_tool(const Model &model, State &state, Tool tool) {
   } else {
     const double room = clearance(model, state.x, tool);
     const double needed = least_room * tool_range(model);
-    MVS_MUST(room > needed, MVS_E_STATE, "tool",
-             "the tool would lie in leaflet tissue: its surface would be %.3g mm off the middle of "
-             "a leaflet and not %.3g; add it farther away and move it there",
-             1e3 * room, 1e3 * needed);
+    const bool meets_chordae = tool.kind == ToolKind::convex;
+    MVS_MUST(
+        room > needed, MVS_E_STATE, "tool",
+        "the tool would lie in leaflet tissue%s: its surface would be %.3g mm off the middle of "
+        "a leaflet%s and not %.3g; add it farther away and move it there",
+        meets_chordae ? " or a chord" : "", 1e3 * room,
+        meets_chordae ? " or the surface of a chord" : "", 1e3 * needed);
   }
   state.tools.push_back(tool);
   ++state.tools_made;

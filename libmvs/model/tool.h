@@ -54,7 +54,7 @@ inline constexpr Id first_tool_id = Id{1} << 48;
 
 // Returns the distance from the mid-surface of the leaflets to the surface of a tool that pushes;
 // negative inside it, infinity without leaflets. A convex tool counts chordae too, from their
-// surface.
+// surface; stitches of clips are chordae.
 double clearance(const Model &model, const std::vector<Vec3> &x, const Tool &tool);
 
 // The same distance with the unit direction from the nearest tissue to the tool; 0 without

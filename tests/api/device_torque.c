@@ -1,5 +1,5 @@
-/* The torque of a rod on devices with motors for it and on others, and its limits. The devices are
- * those of the driver hand. */
+/* The torque of a rod and of a convex tool on devices with motors for it and on others, and its
+ * limits. The devices are those of the driver hand. */
 #include <math.h>
 
 #include "check.h"
@@ -12,8 +12,12 @@ static double length(const double v[3]) {
   return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* A rod that swings through the closed valve and turns. */
-static mvs_device *opened_with_torque(const char *kind) {
+/* The shape of the rod as a convex tool. */
+static const mvs_body_desc capsule = {
+    .kind = MVS_BODY_KIND_CAPSULE, .end = {0, 0, 0.02}, .radius = 1e-3};
+
+/* A rod or convex tool that swings through the closed valve and turns. */
+static mvs_device *opened_with_torque(const char *kind, uint32_t mode) {
   char options[256];
   mvs_device *device = NULL;
   snprintf(options, sizeof options,
@@ -23,8 +27,15 @@ static mvs_device *opened_with_torque(const char *kind) {
   mvs_device_desc desc = {
       .struct_size = sizeof desc, .clock = MVS_CLOCK_VIRTUAL, .driver = "hand", .options = options};
   mvs_device_view view = {.struct_size = sizeof view, .origin = {0, 0, 0.005}};
-  mvs_device_hand hand = {
-      .struct_size = sizeof hand, .mode = MVS_HAND_MODE_ROD, .length = 0.02, .radius = 1e-3};
+  mvs_device_hand hand = {.struct_size = sizeof hand, .mode = mode};
+  if (mode == MVS_HAND_MODE_ROD) {
+    hand.length = 0.02;
+    hand.radius = 1e-3;
+  } else {
+    hand.bodies = &capsule;
+    hand.body_count = 1;
+    hand.body_stride = sizeof capsule;
+  }
   MUST(mvs_restore(sim, closed));
   MUST(mvs_device_open(&desc, &device));
   MUST(mvs_device_set_view(device, &view));
@@ -35,9 +46,10 @@ static mvs_device *opened_with_torque(const char *kind) {
   return device;
 }
 
-/* The largest torque in the scene and of the motors while the rod swings through the valve. */
-static void largest_torques(const char *kind, double *scene, double *motors, double *stiffness) {
-  mvs_device *device = opened_with_torque(kind);
+/* The largest torque in the scene and of the motors while the tool swings through the valve. */
+static void largest_torques(const char *kind, uint32_t mode, double *scene, double *motors,
+                            double *stiffness) {
+  mvs_device *device = opened_with_torque(kind, mode);
   mvs_device_info info = {.struct_size = sizeof info};
   MUST(mvs_device_get_info(device, &info));
   *scene = *motors = *stiffness = 0;
@@ -58,16 +70,16 @@ static void largest_torques(const char *kind, double *scene, double *motors, dou
   mvs_device_close(device);
 }
 
-static void the_torque_of_a_rod_reaches_only_devices_with_motors_for_it(void) {
+static void the_torque_of_a_tool_reaches_only_devices_with_motors_for_it(uint32_t mode) {
   double scene = 0, motors = 0, stiffness = 0;
-  largest_torques("premium6", &scene, &motors, &stiffness);
+  largest_torques("premium6", mode, &scene, &motors, &stiffness);
   CHECK(scene > 1e-4 && motors > 1e-4 && stiffness > 0);
-  largest_torques("touch", &scene, &motors, &stiffness);
+  largest_torques("touch", mode, &scene, &motors, &stiffness);
   CHECK(scene > 1e-4 && motors == 0 && stiffness == 0);
 }
 
 static void limits_of_torque_can_only_be_lowered(void) {
-  mvs_device *device = opened_with_torque("premium6");
+  mvs_device *device = opened_with_torque("premium6", MVS_HAND_MODE_ROD);
   mvs_device_info info = {.struct_size = sizeof info};
   mvs_device_limits limits = {.struct_size = sizeof limits, .torque = 1, .angular_stiffness = 100};
   MUST(mvs_device_get_info(device, &info));
@@ -96,7 +108,8 @@ int main(void) {
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, NULL));
   MUST(mvs_get_snapshot(sim, &closed));
-  the_torque_of_a_rod_reaches_only_devices_with_motors_for_it();
+  the_torque_of_a_tool_reaches_only_devices_with_motors_for_it(MVS_HAND_MODE_ROD);
+  the_torque_of_a_tool_reaches_only_devices_with_motors_for_it(MVS_HAND_MODE_CONVEX);
   limits_of_torque_can_only_be_lowered();
   mvs_snapshot_release(closed);
   mvs_destroy(sim);

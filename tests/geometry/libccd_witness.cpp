@@ -1,11 +1,9 @@
-// libccd (Fiser, BSD 3-clause) as a witness: distances of points and triangles and of two segments,
-// and crossings of triangles and segments, against an independent library, on random and degenerate
-// pairs. MVS_TEST_LONG=1: a million pairs of each (a minute); otherwise 20,000.
+// Distances of points and triangles and of two segments, and crossings of triangles and segments,
+// against libccd (libccd.h) on random and degenerate pairs. MVS_TEST_LONG=1: a million pairs of
+// each (a minute); otherwise 20,000.
 //
-// libccd has neither a distance of segments nor one of bodies apart. Two capsules of radius r
-// around the segments meet if their distance is at most 2 r: bisection in r finds it. GJK decides
-// whether bodies meet in floating point, and in doubt says either. Pairs on which both disagree are
-// counted, and a third computation in long double has to explain each:
+// Pairs on which both disagree are counted, and a third computation in long double has to explain
+// each:
 //
 // - point and triangle: ours is wrong for narrow triangles, by 1e-16 of the longest side over the
 //   square of height over longest side: 1 nm at a height of 4e-5 of 2 cm, and wholly for triangles
@@ -17,10 +15,6 @@
 // - crossings: both agree but for pairs that touch, within 1e-9 m, and ours is exact for these; and
 //   some 30 in a million, on the lattice or small, which cross by up to 1 mm (the separating axis
 //   test says so) and which libccd finds apart: its GJK ends at a tie.
-//
-// libccd compares with absolute numbers made for lengths around 1: coordinates are multiplied by
-// 1024, that is, about millimetres, without rounding. Its defaults are 1e-4 and unbounded
-// iterations: here 1e-10 and 1000.
 #include <doctest/doctest.h>
 
 #ifndef MVS_HAS_LIBCCD
@@ -28,95 +22,42 @@ TEST_CASE("distances_and_crossings_are_those_of_libccd") {
   MESSAGE("skipped: built with MVS_CCD=OFF, or without Debian's libccd-dev");
 }
 #else
-#include <ccd/ccd.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <string>
 
 #include "geometry/distance.h"
 #include "geometry/intersect.h"
+#include "tests/geometry/libccd.h"
 #include "tests/geometry/odd_points.h"
 #include "tests/geometry/third_computation.h"
 
 using namespace mvs::core;
+using libccd::near_enough;
 
 namespace {
 
-constexpr double scale = 1024;        // libccd's lengths per metre
-constexpr double near_enough = 1e-9;  // m, of a distance: a tenth of the smallest gap in contact
 // m, of pairs that touch. Rounding of coordinates of 0.1 m moves a corner by 1e-17 m, and the place
 // where narrow triangles meet, whose sides are parallel within 1e-5, by up to 1e5 times that for
 // each of three factors: 1e-9 m at worst. Seen: 3e-10 m.
 constexpr double barely = 1e-9;
 
-bool is_long() {
-  const char *const asked = std::getenv("MVS_TEST_LONG");
-  return asked != nullptr && *asked != 0;
-}
-const int pairs = is_long() ? 1000000 : 20000;
+const int pairs = libccd::is_long() ? 1000000 : 20000;
 
-ccd_vec3_t to_ccd(const Vec3 &v) {
-  ccd_vec3_t out;
-  ccdVec3Set(&out, scale * v.x(), scale * v.y(), scale * v.z());
-  return out;
-}
-
-// A convex body for libccd: hull of some points, inflated.
-struct Body {
-  std::array<ccd_vec3_t, 3> corner;
-  int count = 0;
-  double radius = 0;
-};
-
-template <size_t N>
-Body body_of(const std::array<Vec3, N> &points) {
-  Body out;
-  out.count = static_cast<int>(N);
-  for (size_t k = 0; k < N; ++k) out.corner[k] = to_ccd(points[k]);
-  return out;
-}
-
-void support(const void *object, const ccd_vec3_t *direction, ccd_vec3_t *out) {
-  const Body &body = *static_cast<const Body *>(object);
-  int best = 0;
-  for (int k = 1; k < body.count; ++k) {
-    if (ccdVec3Dot(&body.corner[k], direction) > ccdVec3Dot(&body.corner[best], direction))
-      best = k;
-  }
-  ccdVec3Copy(out, &body.corner[best]);
-  if (body.radius == 0) return;
-  ccd_vec3_t outwards = *direction;
-  ccdVec3Scale(&outwards, body.radius / std::sqrt(ccdVec3Len2(direction)));
-  ccdVec3Add(out, &outwards);
-}
-
-bool libccd_meets(const Body &a, const Body &b) {
-  ccd_t ccd;
-  CCD_INIT(&ccd);
-  ccd.support1 = ccd.support2 = support;
-  ccd.max_iterations = 1000;
-  ccd.epa_tolerance = ccd.mpr_tolerance = ccd.dist_tolerance = 1e-10;
-  return ccdGJKIntersect(&a, &b, &ccd) != 0;
-}
-
-// The distance of two segments, m: the smallest sum of radii at which their capsules meet.
 double libccd_distance(const Segment &a, const Segment &b) {
-  Body one = body_of(a), other = body_of(b);
-  double low = 0, high = scale;  // 1 m
-  while (high - low > 0.01 * scale * near_enough) {
-    const double middle = 0.5 * (low + high);
-    one.radius = other.radius = 0.5 * middle;
-    (libccd_meets(one, other) ? high : low) = middle;
-  }
-  return high / scale;
+  return libccd::distance(libccd::body_of(a), libccd::body_of(b));
+}
+
+template <size_t N, size_t M>
+bool libccd_meet(const std::array<Vec3, N> &a, const std::array<Vec3, M> &b) {
+  return libccd::meet(libccd::body_of(a), libccd::body_of(b));
 }
 
 double libccd_distance(const Vec3 &p, const Triangle &t) {
-  const ccd_vec3_t point = to_ccd(p), a = to_ccd(t[0]), b = to_ccd(t[1]), c = to_ccd(t[2]);
-  return std::sqrt(ccdVec3PointTriDist2(&point, &a, &b, &c, nullptr)) / scale;
+  const ccd_vec3_t point = libccd::to_ccd(p), a = libccd::to_ccd(t[0]), b = libccd::to_ccd(t[1]),
+                   c = libccd::to_ccd(t[2]);
+  return std::sqrt(ccdVec3PointTriDist2(&point, &a, &b, &c, nullptr)) / libccd::scale;
 }
 
 // Pairs on which both disagree, by kind; and those on which one of both is wrong.
@@ -239,8 +180,8 @@ TEST_CASE("triangles_cross_where_libccd_finds_that_they_meet") {
     const bool ours = triangles_cross(a, b);
     met += ours ? 1 : 0;
     take_crossing(
-        d, points.kind(), ours, libccd_meets(body_of(a), body_of(b)),
-        [&] { return third_distance(a, b); }, [&] { return depth(a, b); });
+        d, points.kind(), ours, libccd_meet(a, b), [&] { return third_distance(a, b); },
+        [&] { return depth(a, b); });
   }
   d.print("two triangles");
   check(d);
@@ -259,8 +200,8 @@ TEST_CASE("segments_cross_triangles_where_libccd_finds_that_they_meet") {
     met += ours ? 1 : 0;
     const Triangle flat = {s[0], s[1], s[1]};
     take_crossing(
-        d, points.kind(), ours, libccd_meets(body_of(s), body_of(t)),
-        [&] { return third_distance(flat, t); }, [&] { return depth(s, t); });
+        d, points.kind(), ours, libccd_meet(s, t), [&] { return third_distance(flat, t); },
+        [&] { return depth(s, t); });
   }
   d.print("segment and triangle");
   check(d);

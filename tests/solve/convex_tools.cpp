@@ -78,6 +78,17 @@ std::vector<ToolBody> hook_bodies(double radius) {
 }
 
 // Along the longest side of the box around all of them.
+Tool random_tool(Random &random, int kind, const Vec3 &at) {
+  const Vec3 along = random.vector(1).normalized();
+  const double radius = random(0, 0.5e-3);
+  if (kind == 0) return convex_at(at, {cone_body(along, random(2e-3, 6e-3), 2e-3, radius)});
+  if (kind == 1) return convex_at(at, {capsule_body(along, random(2e-3, 8e-3), 0.3e-3 + radius)});
+  if (kind == 2) return convex_at(at, {hull_body(random.vectors(12, 2e-3), radius)});
+  if (kind == 3) return convex_at(at, {bar_body(along, along.unitOrthogonal(), radius)});
+  if (kind == 4) return convex_at(at, {polyhedral_ball(random(1e-3, 3e-3), 40)});
+  return convex_at(at, hook_bodies(0.4e-3));
+}
+
 Tool bounding_capsule(const std::vector<ToolBody> &bodies) {
   Vec3 low = Vec3::Constant(1), high = -low;
   for (const ToolBody &body : bodies) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "model/model.h"
+#include "tests/solve/bench.h"
 
 namespace mvs::core::test {
 
@@ -28,6 +29,9 @@ ToolBody box_body(const Vec3 &half, double radius);
 // A hook in the x z plane, open upwards: a shaft up from the hand, a bar to x = 3 mm, a tip of 2
 // mm.
 std::vector<ToolBody> hook_bodies(double radius);
+// One of six kinds of tools of random size: cone, capsule, hull, bar, polyhedral ball, hook.
+inline constexpr int tool_kinds = 6;
+Tool random_tool(Random &random, int kind, const Vec3 &at);
 // A tool of one capsule that contains bodies.
 Tool bounding_capsule(const std::vector<ToolBody> &bodies);
 
