@@ -20,8 +20,8 @@
  * libmvs computes its distances from tissue itself; the tests compare them with those of libccd
  * (libmvs/geometry/README.md). Forces act by a distance without kinks, 0.8 to 1.34 times the least
  * one; the least one limits motions and refuses tools in tissue. The stitches of a clip touch it as
- * chordae of the suture's thickness; a ring has no thickness, and a tool meets the annulus that lies
- * on it. */
+ * chordae of the suture's thickness; a ring has no thickness, and a tool meets the annulus that
+ * lies on it. */
 #ifndef MVS_TOOL_H
 #define MVS_TOOL_H
 
