@@ -108,7 +108,7 @@ def cut_spurs(found: Leaflets) -> None:
     found.findings.append(finding(
         "spurs", FindingSource.GUESSED, 0.7,
         f"{len(area)} ribbons of tissue narrower than {2e3 * half:.1f} mm that stand on the leaflets beside a hole, "
-        f"{1e6 * area.sum():.0f} mm2, were cut off as spurs of the labels", area, "m2"))
+        f"{1e6 * area.sum():.0f} mm2, were cut off as spurs of the labels", area.tolist(), "m2"))
 
 
 def _far_from(points: Points, edges: NDArray[np.int64], sources: NDArray[np.int64],
