@@ -3,6 +3,7 @@
 // errors.
 #include "patient/leaflet_odds.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -37,11 +38,49 @@ constexpr Cue tips_forward = {-0.2, 0.2};
 // Sine of the angle between the line of the commissures and that of the papillary muscles.
 constexpr Cue tips_turn = {0, 0.3};
 
+// Deviation of a height from that of a leaflet with a smooth edge, over the median height:
+// scallops, indentations, tears. Deviations go on over 8 mm, so that 120 samples count as 15.
+constexpr double height_deviation = 0.25, height_samples = 8;
+constexpr double least_height = 0.05;  // of a leaflet: a fit of another shape may be negative
+
 constexpr double dependence = 0.25;
 constexpr size_t near = 4;  // samples of about 1 mm
 
 double squared(double v) {
   return v * v;
+}
+
+// Heights along the annulus as two leaflets have them that meet where they are low: straight from
+// end to end, and above it a parabola on the anterior side (a dome) and half an ellipse on the
+// posterior one (as high almost everywhere). All heights are over the median one.
+struct TwoLeaflets {
+  double end = 0;                      // the mean of both ends
+  double anterior = 0, posterior = 0;  // in the middle
+  double left = 0;                     // sum of the squared deviations
+};
+
+// By least squares. A place of low height that is no end is a deviation: without them, clefts and
+// the indentations between scallops passed for commissures, as they are as low.
+TwoLeaflets two_leaflets(const std::vector<double> &height, double median, size_t from, size_t to) {
+  const size_t n = height.size(), count = to - from;
+  Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right = Eigen::Vector4d::Zero();
+  double all = 0;
+  for (size_t k = 0; k < n; ++k) {
+    const bool anterior = k <= count;
+    const double u = anterior ? static_cast<double>(k) / static_cast<double>(count)
+                              : static_cast<double>(k - count) / static_cast<double>(n - count);
+    const double dome = 4 * u * (1 - u);
+    const Eigen::Vector4d row(anterior ? 1 - u : u, anterior ? u : 1 - u, anterior ? dome : 0,
+                              anterior ? 0 : std::sqrt(dome));
+    const double h = height[(from + k) % n] / median;
+    normal += row * row.transpose();
+    right += h * row;
+    all += h * h;
+  }
+  const Eigen::Vector4d found = normal.inverse() * right;
+  const double end = 0.5 * (found[0] + found[1]);
+  return {end, end + found[2], end + found[3], std::max(0.0, all - found.dot(right))};
 }
 
 }  // namespace
@@ -53,13 +92,6 @@ ArcOdds::ArcOdds(const AnnulusSamples &annulus) : annulus_(annulus) {
   for (const Vec3 &p : annulus.points) {
     for (const Vec3 &q : annulus.points) width_ = std::max(width_, (p - q).norm());
   }
-}
-
-double ArcOdds::tallest(size_t from, size_t to) const {
-  const size_t n = annulus_.height.size();
-  double most = 0;
-  for (size_t k = from; k <= to; ++k) most = std::max(most, annulus_.height[k % n]);
-  return most;
 }
 
 // Deviations of the papillary tips: their place, and the direction in which they lie apart.
@@ -94,9 +126,10 @@ double ArcOdds::misfit(size_t from, size_t to) const {
   const Vec3 across = anterior - posterior, middle = 0.5 * (a + b);
   const double diameter2 = std::max(across.squaredNorm(), 1e-12);
   const double share = static_cast<double>(to - from) / static_cast<double>(n);
-  const double low = 0.5 * (annulus_.height[from % n] + annulus_.height[to % n]) / median_;
-  const double ratio = tallest(from, to) / std::max(tallest(to, from + n), 1e-6);
-  double sum = squared(std::max(0.0, end_height.off(low)));
+  const TwoLeaflets fit = two_leaflets(annulus_.height, median_, from, to);
+  const double ratio = std::max(fit.anterior, least_height) / std::max(fit.posterior, least_height);
+  double sum = fit.left / (height_samples * squared(height_deviation));
+  sum += squared(std::max(0.0, end_height.off(fit.end)));
   sum += squared(height_ratio.off(math::log(ratio)));
   sum += squared(attachment.off(share));
   sum += squared(flatness.off((anterior - middle).dot(across) / diameter2));

@@ -22,8 +22,9 @@ struct ArcGuess {
   double orientation = 0;   // that the anterior leaflet is on this side
 };
 
-// Sum of the squared deviations of an arc from normal anatomy, in standard deviations: heights at
-// both ends and in between, share of the annulus, flatness, distance of the ends, papillary tips.
+// Sum of the squared deviations of an arc from normal anatomy, in standard deviations: heights all
+// along the annulus, at both ends and in between, share of the annulus, flatness, distance of the
+// ends, papillary tips.
 class ArcOdds {
  public:
   explicit ArcOdds(const AnnulusSamples &annulus);
@@ -36,7 +37,6 @@ class ArcOdds {
   double is_anterior(size_t from, size_t to) const;
 
  private:
-  double tallest(size_t from, size_t to) const;
   double forward_of_tips(const Vec3 &ends, const Vec3 &across) const;
 
   const AnnulusSamples &annulus_;

@@ -90,9 +90,9 @@ std::array<double, 2> feet_of(const LeafletSheet &sheet, const SheetCoordinates 
   return feet;
 }
 
-// The lowest sample within 4 mm.
+// The lowest sample within 2 mm: ends of the best fit are that exact, and indentations near.
 size_t lowest_near(const std::vector<double> &profile, size_t at) {
-  constexpr size_t reach = 4;
+  constexpr size_t reach = 2;
   const size_t n = profile.size();
   size_t best = at;
   for (size_t k = 0; k <= 2 * reach; ++k) {

@@ -215,6 +215,39 @@ TEST_CASE("walls_of_a_fold_stay_apart_and_are_not_exchanged") {
   }
 }
 
+TEST_CASE("a_cleft_whose_sides_are_one_long_edge_each_is_remeshed") {
+  // A sheet that bends inward, with a V cleft made by pulling up one column of a grid: needles 0.5
+  // mm wide and up to 10 mm long, whose normals are those of their short sides. Their long edges
+  // were not split, and triangles without area were left.
+  constexpr uint32_t around = 96, rows = 14, cleft = 40;
+  LeafletSheet sheet;
+  SheetRims rims;
+  for (uint32_t j = 0; j <= rows; ++j) {
+    for (uint32_t i = 0; i < around; ++i) {
+      const double side = i + 1 == cleft ? 0.5 : i == cleft + 1 ? -0.5 : 0;  // nearer to the cleft
+      const double angle = 2 * 3.14159265358979 * (i + side) / around;
+      const double down = (i == cleft ? 3e-3 : 13e-3) * j / rows, bend = down / 10e-3;
+      const double radius = 16e-3 - 10e-3 * (1 - std::cos(bend));
+      sheet.x.push_back(
+          {radius * std::cos(angle), radius * std::sin(angle), -10e-3 * std::sin(bend)});
+      if (j == rows) continue;
+      const uint32_t a = j * around + i, b = j * around + (i + 1) % around;
+      sheet.triangles.push_back({a, a + around, b + around});
+      sheet.triangles.push_back({a, b + around, b});
+    }
+  }
+  sheet.label.assign(sheet.triangles.size(), LeafletLabel::unknown);
+  for (uint32_t i = 0; i < around; ++i) {
+    rims.annulus.push_back(i);
+    rims.free_edge.push_back(rows * around + i);
+  }
+  const RemeshedSheet made = remesh_sheet(sheet, rims, {1.1e-3});
+  CHECK(made.report.crossings == 0);
+  CHECK(made.report.worst_angle > 2 * degree);
+  CHECK(made.report.longest < 2.5e-3);
+  check_lengths(made, sheet, rims, 0.01);
+}
+
 TEST_CASE("the_real_sheet_is_mended_and_remeshed") {
   SheetWithRims real = real_sheet();
   if (real.sheet.x.empty()) {

@@ -127,6 +127,18 @@ def test_a_tube_without_leaflets_is_refused_unless_its_commissures_are_given():
         assert any(one.name == "commissures" for one in found)
 
 
+def test_small_holes_of_a_skin_are_filled_once_and_an_open_sheet_is_no_skin(surface):
+    skin = data.skinned({"points": surface["points"], "triangles": surface["triangles"]}, 1e-3)
+    count = len(surface["triangles"])
+    holed = data.without(skin, [count // 3, count + count // 2])  # one in each side
+    with mvs.Simulator() as sim:
+        found = named(sim.build_valve(**holed, kind="skin", edge=2.4e-3, leak=False))
+        assert "2 holes of the skin" in found["skin_holes"].sentence
+        assert "filled_holes" not in found
+        with pytest.raises(mvs.Error, match="a skin is closed"):
+            sim.build_valve(**{**surface, "kind": "skin"})
+
+
 def test_chords_get_lengths_with_which_the_valve_closes_to_a_given_surface(surface):
     _, _, closed = built({**surface, "chord_factor": 0.93})
     leaflets = np.asarray(closed.node_kind) <= mvs.NodeKind.ANNULUS

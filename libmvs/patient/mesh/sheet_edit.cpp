@@ -62,21 +62,28 @@ SheetEditor::Look SheetEditor::look_at(const std::vector<Tri> &triangles) const 
       look.worst = 1;
       continue;
     }
-    if (cosine < needle_cosine) look.normal.back() = area / norm;
+    const bool needle = cosine >= needle_cosine;
+    if (!needle) look.normal.back() = area / norm;
     const Vec3 &na = mesh_.vertex[t[0]].normal, &nb = mesh_.vertex[t[1]].normal;
     const Vec3 &nc = mesh_.vertex[t[2]].normal;
-    look.bend = std::min({look.bend, na.dot(nb), nb.dot(nc), nc.dot(na)});
+    const double bend = std::min({na.dot(nb), nb.dot(nc), nc.dot(na)});
     const Vec3 input = na + nb + nc;
     const double length = input.norm();
-    if (length > 0) look.facing = std::min(look.facing, area.dot(input) / (norm * length));
+    const double facing = length > 0 ? area.dot(input) / (norm * length) : 1;
+    look.bend = std::min(look.bend, bend);
+    look.facing = std::min(look.facing, facing);
+    if (needle) continue;
+    look.sure_bend = std::min(look.sure_bend, bend);
+    look.sure_facing = std::min(look.sure_facing, facing);
   }
   return look;
 }
 
 bool SheetEditor::keeps_sides(const Look &before, const Look &after, Change change) const {
+  if (change == Change::halve) return true;
   const double slack = change == Change::split ? split_slack : 0;
-  if (after.facing < std::min(least_facing, before.facing) - slack) return false;
-  if (after.bend < std::min(least_bend, before.bend) - slack) return false;
+  if (after.sure_facing < std::min(least_facing, before.facing) - slack) return false;
+  if (after.sure_bend < std::min(least_bend, before.bend) - slack) return false;
   const double area = before.area.norm();
   for (size_t k = 0; k < after.normal.size(); ++k) {
     const Vec3 &n = after.normal[k];

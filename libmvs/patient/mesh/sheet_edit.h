@@ -45,14 +45,16 @@ class SheetEditor {
  private:
   // How a patch looks: before or after a change.
   struct Look {
-    double worst = -1;         // cosine
-    double facing = 1;         // least cosine between a triangle's normal and the input's
-    double bend = 1;           // least cosine between the input's normals at the ends of an edge
-    std::vector<Vec3> normal;  // unit, of each triangle; zero without one
-    Vec3 area = Vec3::Zero();  // sum of area vectors
+    double worst = -1;  // cosine
+    double facing = 1;  // least cosine between a triangle's normal and the input's
+    double bend = 1;    // least cosine between the input's normals at the ends of an edge
+    double sure_facing = 1, sure_bend = 1;  // the same without needles
+    std::vector<Vec3> normal;               // unit, of each triangle; zero without one
+    Vec3 area = Vec3::Zero();               // sum of area vectors
   };
   Look look_at(const std::vector<Tri> &triangles) const;
-  enum class Change { split, flip, star };
+  // halve: a split at the middle of an edge, which changes no shape
+  enum class Change { halve, split, flip, star };
   bool keeps_sides(const Look &before, const Look &after, Change change) const;
   bool crosses(const SheetPatch &patch) const;
   bool replace(const SheetPatch &patch, double limit, Change change, const Look &before);

@@ -15,6 +15,9 @@ constexpr double flip_gain = 1e-6;
 // Distance of the middle of an edge from the input that is accepted anyway, in wanted edges: that
 // of an edge on a sphere with a radius of 2.5 edges is 0.05.
 constexpr double off_input = 0.1;
+// Distance from the middle of an edge over its length, up to which a place is the middle: positions
+// of some cm are rounded to 1e-15 of it.
+constexpr double at_middle = 1e-9;
 
 uint32_t third_corner(const Tri &t, uint32_t a, uint32_t b) {
   for (const uint32_t corner : t) {
@@ -72,10 +75,11 @@ bool SheetEditor::split(const Edge &edge) {
   mesh_.vertex.push_back(v);
   mesh_.star.emplace_back();
   // halves of a triangle may be thinner than it: 1 accepts every angle
-  bool made = replace(patch, 1, Change::split, before);
+  const bool halves = (x - middle).norm() <= at_middle * mesh_.length(a, b);
+  bool made = replace(patch, 1, halves ? Change::halve : Change::split, before);
   if (!made && !on_rim) {
-    mesh_.x[m] = middle;
-    made = replace(patch, 1, Change::split, before);
+    mesh_.x[m] = middle;  // as the triangles are, whichever way they face
+    made = replace(patch, 1, Change::halve, before);
   }
   if (!made) {
     mesh_.x.pop_back();

@@ -16,6 +16,11 @@ namespace {
 constexpr double least_sides = 2;
 constexpr int averaging_rounds = 30;  // of averaging: 5 sides far
 
+// A needle: twice its area over the square of its longest side, sin 5 degrees where two sides are
+// long. It is wild if its normal is more than 60 degrees off that of a corner, the limit of
+// remeshing (sheet_edit.cpp): on a curved sheet the normal of a needle is that of its short side.
+constexpr double needle_area = 0.0872, wild_cosine = 0.5;
+
 // The triangle with both vertices on a side; `none` unless exactly one has.
 uint32_t only_triangle_at(const std::vector<Tri> &triangles, const Rows &stars, uint32_t a,
                           uint32_t b) {
@@ -29,16 +34,65 @@ uint32_t only_triangle_at(const std::vector<Tri> &triangles, const Rows &stars, 
   return found;
 }
 
+bool is_needle(const std::vector<Vec3> &x, const Tri &t, double twice_area) {
+  double longest2 = 0;
+  for (size_t k = 0; k < 3; ++k) {
+    longest2 = std::max(longest2, (x[t[(k + 1) % 3]] - x[t[k]]).squaredNorm());
+  }
+  return twice_area < needle_area * longest2;
+}
+
+// Sums of the area vectors around each vertex.
+std::vector<Vec3> area_sums(const std::vector<Vec3> &x, const std::vector<Tri> &triangles) {
+  std::vector<Vec3> sum(x.size(), Vec3::Zero());
+  for (const Tri &t : triangles) {
+    const Vec3 area = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    for (const uint32_t corner : t) sum[corner] += area;
+  }
+  return sum;
+}
+
+// The same without wild needles; vertices with no other triangle get the sum of their neighbours,
+// from ring to ring.
+std::vector<Vec3> sums_without_needles(const std::vector<Vec3> &x,
+                                       const std::vector<Tri> &triangles) {
+  std::vector<Vec3> all = area_sums(x, triangles);
+  std::vector<Tri> good;
+  for (const Tri &t : triangles) {
+    const Vec3 area = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    const double norm = area.norm();
+    const bool wild = is_needle(x, t, norm) && std::any_of(t.begin(), t.end(), [&](uint32_t i) {
+                        return area.dot(all[i]) <= wild_cosine * norm * all[i].norm();
+                      });
+    if (!wild) good.push_back(t);
+  }
+  if (good.size() == triangles.size()) return all;
+  std::vector<Vec3> sum = area_sums(x, good);
+  bool spreads = true;
+  // sums that cancel do not spread for ever
+  for (size_t ring = 0; spreads && ring < x.size(); ++ring) {
+    spreads = false;
+    const std::vector<Vec3> before = sum;
+    for (const Tri &t : triangles) {
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t i = t[k], j = t[(k + 1) % 3], l = t[(k + 2) % 3];
+        if (!before[i].isZero(0) || (before[j].isZero(0) && before[l].isZero(0))) continue;
+        sum[i] += before[j] + before[l];
+        spreads = true;
+      }
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 SurfaceWalk::SurfaceWalk(const std::vector<Vec3> &x, const std::vector<Tri> &triangles,
                          double scale)
-    : x_(x), triangles_(triangles), stars_(rows_of(x.size(), triangles)) {
-  normal_.assign(x.size(), Vec3::Zero());
-  for (const Tri &t : triangles) {
-    const Vec3 area = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-    for (const uint32_t corner : t) normal_[corner] += area;
-  }
+    : x_(x),
+      triangles_(triangles),
+      stars_(rows_of(x.size(), triangles)),
+      normal_(sums_without_needles(x, triangles)) {
   if (scale > 0) average_normals(scale);
   for (Vec3 &n : normal_) {
     const double norm = n.norm();

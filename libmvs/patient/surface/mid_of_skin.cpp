@@ -7,12 +7,9 @@
 #include "model/compressed_rows.h"
 #include "model/sides.h"
 #include "patient/findings.h"
-#include "patient/surface/boundary.h"
 #include "patient/surface/cut_handles.h"
-#include "patient/surface/fill_hole.h"
 #include "patient/surface/manifold.h"
 #include "patient/surface/mid_surface.h"
-#include "patient/surface/skin_holes.h"
 #include "patient/surface/skin_sides.h"
 #include "patient/surface/smooth_skin.h"
 #include "patient/surface/weld.h"
@@ -23,31 +20,14 @@ namespace {
 // Rounds that remove the zigzag of single triangles, and leave waves of ten of them.
 constexpr int rim_rounds = 10;
 
-// A skin without holes, normals out of the tissue.
-LeafletSheet closed_skin(LeafletSheet skin, Findings &findings) {
-  size_t holes = 0;
-  for (const std::vector<uint32_t> &loop : boundary_loops(skin)) {
-    const double length = shape_of(skin, loop).length;
-    MVS_MUST(
-        length < longest_skin_hole, MVS_E_OP, "triangles",
-        "the skin is open along %.0f mm; both sides of the leaflets and their rims are needed: "
-        "close it, or give one side as the atrial surface",
-        length * 1e3);
-    fill_hole(skin, loop);
-    ++holes;
-  }
-  if (holes > 0) {
-    add_measured(findings, "filled_holes", format("%zu holes of the skin were filled", holes),
-                 {static_cast<double>(holes)}, "");
-  }
+// A skin with normals out of the tissue.
+void turn_outward(LeafletSheet &skin) {
   double volume = 0;
   for (const Tri &t : skin.triangles) {
     volume += skin.x[t[0]].dot(skin.x[t[1]].cross(skin.x[t[2]])) / 6;
   }
-  if (volume < 0) {
-    for (Tri &t : skin.triangles) std::swap(t[1], t[2]);
-  }
-  return skin;
+  if (volume >= 0) return;
+  for (Tri &t : skin.triangles) std::swap(t[1], t[2]);
 }
 
 // The median of the thickness behind all triangles.
@@ -161,7 +141,8 @@ void add_thickness(const LeafletSheet &skin, const LeafletSheet &atrial, Finding
 
 LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks,
                          Findings &findings) {
-  LeafletSheet closed = closed_skin(skin, findings);
+  LeafletSheet closed = skin;
+  turn_outward(closed);
   make_ring(closed, findings);
   const int rounds = smooth_skin(closed, median_thickness(closed), findings);
   const std::vector<TissueBehind> behind = tissue_behind(closed);

@@ -17,7 +17,7 @@ void move_to_mid(LeafletSheet &sheet, double thickness_if_unknown, Findings &fin
 // each vertex. Rays inward from each triangle measure the thickness (shape diameter, Shapira et al.
 // 2008); triangles that face a parallel one form the two sides; the atrial one moves half-way to
 // the other. Throws if the skin does not split into two sides with two rims each. `skin` is one
-// piece as clean_surface() makes it.
+// piece as clean_surface() makes it, without holes (fill_skin_holes()).
 LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks,
                          Findings &findings);
 

@@ -10,6 +10,12 @@
 #include "patient/surface/fill_hole.h"
 
 namespace mvs::core {
+namespace {
+
+// m, around: a hole of 6 mm. A longer boundary may be an orifice, a rim, or a side that is missing.
+constexpr double longest_skin_hole = 20e-3;
+
+}  // namespace
 
 void fill_skin_holes(LeafletSheet &sheet, Findings &findings) {
   const std::vector<std::vector<uint32_t>> loops = boundary_loops(sheet);

@@ -5,13 +5,10 @@
 
 namespace mvs::core {
 
-// m, around: a hole of 6 mm. A longer boundary may be an orifice, a rim, or a side that is missing.
-inline constexpr double longest_skin_hole = 20e-3;
-
 // Fills the boundary loops of a skin with small holes, such as segmentations and decimation leave
 // them, and adds a finding. A surface is such a skin if the square of its longest loop is below its
 // area: a disc has 12 times its area, and a sheet with two rims more. Others are left as they are.
-// Throws if a hole of a skin is longer than longest_skin_hole.
+// Throws if a hole of a skin is more than 20 mm around.
 void fill_skin_holes(LeafletSheet &sheet, Findings &findings);
 
 }  // namespace mvs::core

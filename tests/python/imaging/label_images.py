@@ -8,10 +8,11 @@ sitk = pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleI
 VOXEL = 0.7  # mm, of ultrasound
 
 
-def funnel(voxel=VOXEL, thickness=1.4, gap=0.0, seed=None):
+def funnel(voxel=VOXEL, thickness=1.4, gap=0.0, seed=None, ends="flat"):
     """Labels of an open valve: a cone around z, wide at the annulus (top); 1 anterior, 2 posterior.
 
-    Distances from the cone are exact, so that its mid-surface and thickness are known.
+    Distances from the cone are exact, so that its mid-surface and thickness are known. Both rims are flat,
+    or round: half circles around the ends of the mid-surface.
     """
     n = int(40 / voxel)
     z, y, x = np.meshgrid(*[(np.arange(n) - n / 2 + 0.5) * voxel] * 3, indexing="ij")
@@ -20,7 +21,9 @@ def funnel(voxel=VOXEL, thickness=1.4, gap=0.0, seed=None):
     along = np.array([-8, -16]) / np.hypot(8, 16)
     share = (radius - 16) * along[0] + (z - 8) * along[1]
     away = np.abs((radius - 16) * along[1] - (z - 8) * along[0])
-    tissue = (away < thickness / 2) & (share > 0) & (share < np.hypot(8, 16))
+    past = np.maximum(0, np.maximum(-share, share - np.hypot(8, 16)))
+    inside = past == 0 if ends == "flat" else np.hypot(away, past) < thickness / 2
+    tissue = (away < thickness / 2) & inside
     labels = np.where(tissue, np.where(y > gap, 1, 2), 0).astype(np.uint8)
     if seed is not None:
         random = np.random.default_rng(seed)

@@ -2,7 +2,8 @@
 
 1. Height ridge (Eberly 1996) of the tissue after a Gaussian: the points where the derivative across
    the sheet is 0, by marching cubes. Holes and spurs smaller than the Gaussian do not appear.
-2. The sheet ends where the blurred tissue falls to half of its value inside: at a straight rim.
+2. The sheet ends where the blurred tissue falls to half of its value inside: at a straight rim, and 0.4
+   thicknesses beyond the centre of a round one. The label of a real leaflet ends as a straight one does.
 3. Lines across the sheet meet its two sides; each point moves to the middle of the two distances,
    whose sum is the thickness. Both are averaged over the surface within `smoothing`.
 """

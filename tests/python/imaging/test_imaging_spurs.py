@@ -1,0 +1,58 @@
+"""mvs.imaging: spurs of labels are cut off the mid-surface."""
+
+import mvs
+import numpy as np
+import pytest
+
+pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleITK)")
+
+from mvs import imaging  # noqa: E402
+from mvs.imaging import mesh  # noqa: E402
+from mvs.imaging.open_valve import cut_spurs  # noqa: E402
+
+
+def tube(fin):
+    """A tube in squares of 0.5 mm with a fin 8 mm long and 2 mm wide on a slit, or with a round hole."""
+    around, rows = 150, 31
+    column, row = np.meshgrid(np.arange(around), np.arange(rows), indexing="ij")
+    angle = 2 * np.pi * column / around
+    points = np.stack([12 * np.cos(angle), 12 * np.sin(angle), 0.5 * row], -1).reshape(-1, 3)
+    number = np.arange(around * rows).reshape(around, rows)
+    right, root = number.copy(), number[0, 12:17]
+    if fin:
+        right[0, 13:16] = len(points) + np.arange(3)  # the other side of the slit
+        points = np.vstack([points, points[number[0, 13:16]]])
+    after = np.roll(number, -1, axis=0)
+    cells = [np.stack([right[:, :-1], after[:, :-1], after[:, 1:], right[:, 1:]], -1).reshape(-1, 4)]
+    for out in range(1, 17 if fin else 1):
+        beyond = len(points) + np.arange(5)
+        points = np.vstack([points, points[number[0, 12:17]] + [0.5 * out, 0, 0]])
+        cells.append(np.stack([root[:-1], beyond[:-1], beyond[1:], root[1:]], -1))
+        root = beyond
+    cells = np.vstack(cells)
+    triangles = np.vstack([cells[:, [0, 1, 2]], cells[:, [0, 2, 3]]])
+    if not fin:
+        away = np.linalg.norm(points[triangles].mean(axis=1) - points[number[0, 15]], axis=1)
+        triangles = triangles[away > 1.5]
+    values = {"thickness": np.full(len(points), 1.4e-3), "measured": np.ones(len(points))}
+    return imaging.Leaflets(mesh.Sheet(1e-3 * points, triangles.astype(np.int64), values),
+                            np.ones(len(triangles), np.uint32), [])
+
+
+def test_fins_of_spurs_are_cut_off_and_rims_of_holes_stay():
+    """The outline of a fin and the slit at its root are a hole, whose filling crossed the fin: builds from labels
+    with the errors of networks were refused for it."""
+    found = tube(fin=True)
+    assert len(mesh.boundary_loops(found.sheet.triangles)) == 3
+    cut_spurs(found)
+    (spurs,) = found.findings
+    # 16 mm2 but for a stub that is half as long as wide
+    assert spurs.source == mvs.FindingSource.GUESSED and 12e-6 < spurs.values[0] < 16.1e-6
+    assert np.hypot(*found.sheet.points[:, :2].T).max() < 14e-3
+    assert len(found.leaflet) == len(found.sheet.triangles)
+    hole = sorted(mesh.loop_length(found.sheet.points, loop) for loop in mesh.boundary_loops(found.sheet.triangles))[0]
+    assert hole < 8e-3  # 20 mm around the fin
+    whole = tube(fin=False)
+    before = whole.sheet.triangles.copy()
+    cut_spurs(whole)
+    assert not whole.findings and (whole.sheet.triangles == before).all()
