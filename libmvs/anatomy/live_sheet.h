@@ -18,8 +18,8 @@ class LiveSheet {
   const Vec3 &at(uint32_t vertex) const { return x_[vertex]; }
 
   // The neighbours of a vertex, ascending, and those along feature lines: boundaries, borders of
-  // leaflets and scallops. Along lines there are none inside a scallop, two on a line, another
-  // number at junctions and ends of lines.
+  // leaflets and scallops. A vertex inside a scallop has no neighbour along lines, one on a line
+  // has two, junctions and ends of lines have another number.
   struct Ring {
     std::vector<uint32_t> all, along_lines;
   };
@@ -44,7 +44,8 @@ class LiveSheet {
     uint32_t count = 0;  // number of triangles at a side
     std::array<uint32_t, 2> triangle = {none, none};
   };
-  // Of a neighbour in a ring: 1 on a feature line, else 2; the scallop of the first triangle.
+  // The number of triangles at the side to a neighbour, 1 on every feature line, and the scallop of
+  // the first of them.
   struct Beside {
     uint32_t triangles, scallop;
   };
