@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <queue>
 
@@ -62,36 +63,26 @@ class Coarsener {
     }
   };
 
-  // Returns the targets of a collapse: neighbours along the line for a boundary vertex, all
+  // Sets `to` to the targets of a collapse: neighbours along the line for a boundary vertex, all
   // neighbours for an inner one. A vertex with chordae moves only to one with chordae, and never
   // from inside to the annulus.
-  std::vector<uint32_t> targets(uint32_t vertex) const {
-    std::vector<uint32_t> around = sheet_.neighbours(vertex);
-    std::vector<uint32_t> along = sheet_.along_lines(vertex, around);
-    return targets(vertex, std::move(around), std::move(along));
-  }
-
-  // The same from all neighbours and those along lines.
-  std::vector<uint32_t> targets(uint32_t vertex, std::vector<uint32_t> around,
-                                std::vector<uint32_t> along) const {
-    const bool inside = along.empty();
-    if (inside) along = std::move(around);
-    if (!inside && along.size() != 2) along.clear();
+  void find_targets(uint32_t vertex, const LiveSheet::Ring &ring, std::vector<uint32_t> &to) const {
+    const bool inside = ring.along_lines.empty();
+    to = inside ? ring.all : ring.along_lines;
+    if (!inside && to.size() != 2) to.clear();
     if (chordae_.end_at(vertex)) {
-      std::erase_if(along,
-                    [&](uint32_t to) { return !chordae_.end_at(to) || (inside && held_[to]); });
+      std::erase_if(to, [&](uint32_t n) { return !chordae_.end_at(n) || (inside && held_[n]); });
     }
-    return along;
   }
 
   void weigh(uint32_t vertex) {
     const uint32_t stamp = ++stamp_[vertex];
     if (chordae_.sewn(vertex)) return;
-    std::vector<uint32_t> neighbours = sheet_.neighbours(vertex);
-    const std::vector<uint32_t> along = sheet_.along_lines(vertex, neighbours);
-    const std::vector<uint32_t> around = targets(vertex, std::move(neighbours), along);
-    if (around.empty()) return;
-    double weight = along.empty() ? weight_inside(vertex, around) : weight_on_line(vertex, along);
+    sheet_.find_ring(vertex, ring_);
+    find_targets(vertex, ring_, targets_);
+    if (targets_.empty()) return;
+    const std::vector<uint32_t> &along = ring_.along_lines;
+    double weight = along.empty() ? weight_inside(vertex, targets_) : weight_on_line(vertex, along);
     if (chordae_.end_at(vertex)) weight *= chord_share;
     queue_.push({weight, vertex, stamp});
   }
@@ -125,31 +116,32 @@ class Coarsener {
     const Crowded next = queue_.top();
     queue_.pop();
     if (stamp_[next.vertex] != next.stamp) return false;
-    const uint32_t to = best_target(next.vertex);
+    sheet_.find_ring(next.vertex, ring_);
+    const uint32_t to = best_target(next.vertex, ring_);
     if (to == none) return false;
-    std::vector<uint32_t> around = sheet_.neighbours(next.vertex);
     ++stamp_[next.vertex];
     chordae_.move(next.vertex, to);
     sheet_.collapse(next.vertex, to);
     sheet_.flip_around(to);
-    const std::vector<uint32_t> now = sheet_.neighbours(to);
-    around.insert(around.end(), now.begin(), now.end());
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
-    for (const uint32_t vertex : around) weigh(vertex);
+    sheet_.find_ring(to, ring_after_);
+    changed_.clear();
+    std::set_union(ring_.all.begin(), ring_.all.end(), ring_after_.all.begin(),
+                   ring_after_.all.end(), std::back_inserter(changed_));
+    for (const uint32_t vertex : changed_) weigh(vertex);
     return true;
   }
 
   // Returns the best target: the nearest one for a vertex with chordae; otherwise the one with the
   // best combination of triangle quality and distance to the old vertex; `none` if no collapse is
   // allowed.
-  uint32_t best_target(uint32_t vertex) {
+  uint32_t best_target(uint32_t vertex, const LiveSheet::Ring &ring) {
     const bool chordae = chordae_.end_at(vertex);
     uint32_t best = none;
     double best_score = -INFINITY;
-    for (const uint32_t to : targets(vertex)) {
+    find_targets(vertex, ring, targets_);
+    for (const uint32_t to : targets_) {
       if (chordae && !chordae_.may_move(vertex, to)) continue;
-      const double quality = sheet_.collapse_quality(vertex, to);
+      const double quality = sheet_.collapse_quality(vertex, ring, to);
       if (quality < 0) continue;
       const double length = (sheet_.at(vertex) - sheet_.at(to)).norm();
       const double score = chordae ? -length : quality - distance_after(vertex, to) / length;
@@ -182,6 +174,9 @@ class Coarsener {
   std::priority_queue<Crowded> queue_;
   std::vector<uint32_t> stamp_;  // identifies the latest queue entry of a vertex
   const std::vector<uint8_t> &held_;
+  // work of weigh() and remove_next()
+  LiveSheet::Ring ring_, ring_after_;
+  std::vector<uint32_t> targets_, changed_;
 };
 
 // Marks the removed vertices.

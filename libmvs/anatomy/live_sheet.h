@@ -17,16 +17,20 @@ class LiveSheet {
   static bool is_gone(const Tri &triangle) { return triangle[0] == none; }
   const Vec3 &at(uint32_t vertex) const { return x_[vertex]; }
 
-  // Returns the neighbours of a vertex, ascending.
-  std::vector<uint32_t> neighbours(uint32_t vertex) const;
-  // Returns the neighbours along feature lines: boundaries, borders of leaflets and scallops. Zero
-  // inside a scallop, two on a line, another number at junctions and ends of lines.
-  std::vector<uint32_t> along_lines(uint32_t vertex, std::vector<uint32_t> neighbours) const;
+  // The neighbours of a vertex, ascending, and those along feature lines: boundaries, borders of
+  // leaflets and scallops. A vertex inside a scallop has no neighbour along lines, one on a line
+  // has two, junctions and ends of lines have another number.
+  struct Ring {
+    std::vector<uint32_t> all, along_lines;
+  };
+  // Sets `ring`, the memory of which is used again, to that of a vertex.
+  void find_ring(uint32_t vertex, Ring &ring);
 
-  // Returns the quality of the worst new triangle if `gone` is merged into `kept`; negative if that
-  // is not allowed: the sheet stays manifold with the same boundaries and scallops, and no triangle
-  // folds over, gets poor, has all corners prescribed, or joins annulus and free edge.
-  double collapse_quality(uint32_t gone, uint32_t kept) const;
+  // Returns the quality of the worst new triangle if `gone`, which has these neighbours, is merged
+  // into `kept`; negative if that is not allowed: the sheet stays manifold with the same boundaries
+  // and scallops, and no triangle folds over, gets poor, has all corners prescribed, or joins
+  // annulus and free edge.
+  double collapse_quality(uint32_t gone, const Ring &ring, uint32_t kept);
   void collapse(uint32_t gone, uint32_t kept);
 
   // Flips sides around a vertex, and from there on, as long as the worse of two triangles improves.
@@ -40,22 +44,34 @@ class LiveSheet {
     uint32_t count = 0;  // number of triangles at a side
     std::array<uint32_t, 2> triangle = {none, none};
   };
+  // The number of triangles at the side to a neighbour, 1 on every feature line, and the scallop of
+  // the first of them.
+  struct Beside {
+    uint32_t triangles, scallop;
+  };
   Pair at_side(uint32_t a, uint32_t b) const;
-  bool on_line(uint32_t a, uint32_t b) const;
   bool joined(uint32_t a, uint32_t b) const;
   Vec3 normal(const Tri &triangle) const;
   bool too_stiff(const Tri &triangle) const;
-  bool link_holds(uint32_t gone, uint32_t kept) const;
-  bool flip(uint32_t a, uint32_t b);
-  bool flip_helps(const std::array<Tri, 2> &old, const std::array<Tri, 2> &made) const;
+  bool link_holds(uint32_t gone, const Ring &ring, uint32_t kept);
+  bool flip(const Edge &side, const Pair &pair);
+  bool flip_helps(uint32_t t, uint32_t u, const std::array<Tri, 2> &made) const;
+  void put(uint32_t t, const Tri &triangle);
   void drop_from_star(uint32_t vertex, uint32_t triangle);
 
   const std::vector<Vec3> &x_;
   const std::vector<uint32_t> &scallop_;
   std::vector<Tri> triangles_;
+  std::vector<double> quality_;  // of each triangle
+  std::vector<Vec3> normal_;     // the same
   std::vector<std::vector<uint32_t>> star_;
   std::vector<uint32_t> scallop_size_;  // number of remaining triangles
   std::vector<uint8_t> rim_;            // 1: annulus, 2: free edge
+  // work of find_ring(), link_holds() and flip_around()
+  std::vector<Beside> beside_;
+  std::vector<uint64_t> mark_of_;  // of each vertex: the mark that it got last
+  uint64_t mark_ = 0;
+  std::vector<Edge> sides_;
 };
 
 }  // namespace mvs::core

@@ -44,6 +44,7 @@ class BlockFactor final : public RowSolver {
  public:
   explicit BlockFactor(bool is_compact = false) : is_compact_(is_compact) {}
   void analyse(const BlockMatrix &matrix) override;
+  double products() const override { return work_.empty() ? 0 : work_.back(); }
   bool factorise(const BlockMatrix &matrix) override;
   bool factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) override;
   void solve(std::vector<Vec3> &b) override;

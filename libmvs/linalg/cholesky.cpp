@@ -121,9 +121,8 @@ bool BlockFactor<T>::factorise_part(const BlockMatrix &matrix, uint32_t part, ui
 
 template <typename T>
 bool BlockFactor<T>::factorise(const BlockMatrix &matrix) {
-  const double products = work_.empty() ? 0 : work_.back();
   if (is_compact_) return factorise_part(matrix, 0, 1);
-  return pay_for(workers(), products * block_product_us) ? factorise_together(matrix)
+  return pay_for(workers(), products() * block_product_us) ? factorise_together(matrix)
                                                          : factorise_part(matrix, 0, 1);
 }
 

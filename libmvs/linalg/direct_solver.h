@@ -42,6 +42,8 @@ class DirectSolver {
   virtual void precondition(std::vector<Vec3> &b) { solve(b); }
   // Makes the factor as accurate as the backend can; false if it is already, or cannot be.
   virtual bool sharpen() { return false; }
+  // Products of blocks in a factorisation of the analysed pattern, about; 0 if it is unknown.
+  virtual double products() const { return 0; }
   // Iterations of the last solution; 0 for a direct one.
   virtual uint32_t iterations() const { return 0; }
 

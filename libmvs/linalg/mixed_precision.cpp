@@ -17,6 +17,7 @@ constexpr uint32_t most_iterations = 8;
 class MixedPrecisionCholesky final : public DirectSolver {
  public:
   void analyse(const BlockMatrix &matrix) override;
+  double products() const override { return float_->products(); }
   bool factorise(const BlockMatrix &matrix) override;
   bool factorise_cheaply(const BlockMatrix &matrix) override;
   void solve(std::vector<Vec3> &b) override;

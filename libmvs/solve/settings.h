@@ -95,8 +95,13 @@ inline constexpr double failed_lambda_growth = 5, failed_lambda = 0.2, max_faile
 // Factorisations in single precision before double precision is tried as well. On the valves of
 // `bench_closure`, 122 of 122 double ones failed that followed a failed single one at once.
 inline constexpr uint32_t cheap_factorisations = 4;
-// Patterns that one elimination order serves. Contact asks for blocks outside the pattern in most
-// iterations, and an order is good for a few such patterns.
+// Contact asks for blocks outside the pattern in most iterations, and an elimination order is good
+// for a few such patterns, until contact joins parts of the sheet that it had separated: 1,680
+// vertices of membrane took 2.5 times the products of a new order. The next pattern has a new one
+// once the products beyond those of the first factor in this order exceed the cost of an order,
+// which is that of so many products a row (ski rental: at most twice the cost of the best moments,
+// Karlin et al., Algorithmica 3, 1988), and at the latest after so many patterns.
+inline constexpr double products_per_order = 1000;
 inline constexpr uint32_t patterns_per_order = 6;
 // GMRES with the factor for the skew part of the load at the free edge: iterations at most,
 // relative residual.

@@ -10,6 +10,20 @@
 
 namespace mvs::core {
 
+void OrderLifetime::begin_pattern() {
+  if (!is_kept_) {
+    patterns_ = 0;
+    first_ = in_excess_ = 0;
+  }
+  is_kept_ = ++patterns_ < settings::newton::patterns_per_order;
+}
+
+void OrderLifetime::count(double products, double rows) {
+  if (first_ == 0) first_ = products;
+  in_excess_ += std::max(products - first_, 0.0);
+  if (in_excess_ > settings::newton::products_per_order * rows) is_kept_ = false;
+}
+
 void NewtonSystem::set_scale(double pressure, double mean_area) {
   lambda_scale_.clear();
   for (const double a : model_->vertex_area) {
@@ -20,7 +34,8 @@ void NewtonSystem::set_scale(double pressure, double mean_area) {
 void NewtonSystem::assemble(Curvature curvature, Profile &profile) {
   curvature_ = curvature;
   if (total_energy_->hessian(*x_, curvature, assembler_, profile)) {
-    assembler_.keep_order(++patterns_ % settings::newton::patterns_per_order != 0);
+    order_.begin_pattern();
+    assembler_.keep_order(order_.is_kept());
     is_analysed_ = false;
   }
   diagonal_.resize(assembler_.node_of.size());
@@ -45,6 +60,13 @@ void NewtonSystem::analyse(Profile &profile) {
   is_analysed_ = true;
 }
 
+// Counts a factorisation, which may make a new order worth its cost.
+void NewtonSystem::count_factorisation(SolveStats &stats) {
+  ++stats.factorisations;
+  order_.count(factor_->products(), static_cast<double>(assembler_.node_of.size()));
+  assembler_.keep_order(order_.is_kept());
+}
+
 void NewtonSystem::add_lambda(double lambda) {
   applied_lambda_ = std::max(lambda, settings::newton::min_lambda);
   for (size_t r = 0; r < diagonal_.size(); ++r) {
@@ -60,7 +82,7 @@ bool NewtonSystem::try_factorise(double lambda, SolveStats &stats) {
   const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
   add_lambda(lambda);
   poll_();
-  ++stats.factorisations;
+  count_factorisation(stats);
   return factor_->factorise_cheaply(assembler_.matrix);
 }
 
@@ -77,7 +99,7 @@ void NewtonSystem::factorise(double &lambda, SolveStats &stats) {
              "the stiffness matrix is not finite; check the materials");
     add_lambda(lambda);
     poll_();
-    ++stats.factorisations;
+    count_factorisation(stats);
     const bool cheaply = failed < settings::newton::cheap_factorisations;
     if (cheaply ? factor_->factorise_cheaply(assembler_.matrix)
                 : factor_->factorise(assembler_.matrix)) {

@@ -12,6 +12,23 @@
 
 namespace mvs::core {
 
+// Decides when the pattern of a matrix gets a new elimination order (settings::newton).
+class OrderLifetime {
+ public:
+  // To be called with each new pattern, the first of an order if it is not kept.
+  void begin_pattern();
+  // Counts a factorisation of the present pattern with so many products of blocks.
+  void count(double products, double rows);
+  // Whether the next pattern keeps the order.
+  bool is_kept() const { return is_kept_; }
+
+ private:
+  bool is_kept_ = false;
+  uint32_t patterns_ = 0;  // in this order
+  double first_ = 0;       // products of the first factorisation in this order; 0: none yet
+  double in_excess_ = 0;   // products beyond that, of all factorisations in this order
+};
+
 class NewtonSystem {
  public:
   // `x` are the positions of the current iterate; the elimination order of many rows uses them.
@@ -60,6 +77,7 @@ class NewtonSystem {
 
  private:
   void analyse(Profile &profile);
+  void count_factorisation(SolveStats &stats);
   void add_lambda(double lambda);
   void solve_rows(std::vector<Vec3> &rows, SolveStats &stats);
   void solve_exactly(bool with_lambda, SolveStats &stats);
@@ -79,8 +97,8 @@ class NewtonSystem {
   std::vector<Vec3> direction_, skew_;  // by node, of solve_by_gmres()
   BlockSpmv product_;
   double applied_lambda_ = 0;  // in the factor
-  uint32_t patterns_ = 0;      // of the matrix so far
-  bool is_analysed_ = false;   // the present one, by the factor
+  OrderLifetime order_;
+  bool is_analysed_ = false;  // the present one, by the factor
 };
 
 }  // namespace mvs::core
