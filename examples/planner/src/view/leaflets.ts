@@ -60,6 +60,7 @@ export function leafletMesh(topology: Topology, picture: Picture, options: Scene
     overlay: false,
     cut: true,
     flat: false,
+    nearer: 0,
   };
 }
 

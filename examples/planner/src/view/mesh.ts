@@ -17,6 +17,8 @@ export interface Mesh {
   cut: boolean;
   /** No light: colour as it is. */
   flat: boolean;
+  /** mm by which it counts as nearer to the eye than it is, where something else is as near; negative: further. */
+  nearer: number;
 }
 
 /** The place of a node. */
@@ -106,7 +108,7 @@ export class Shapes {
     }
   }
 
-  mesh(options: Partial<Pick<Mesh, 'opacity' | 'overlay' | 'cut' | 'flat'>> = {}): Mesh {
+  mesh(options: Partial<Pick<Mesh, 'opacity' | 'overlay' | 'cut' | 'flat' | 'nearer'>> = {}): Mesh {
     const front = Float32Array.from(this.colours);
     return {
       positions: Float32Array.from(this.positions),
@@ -118,6 +120,7 @@ export class Shapes {
       overlay: false,
       cut: false,
       flat: false,
+      nearer: 0,
       ...options,
     };
   }
