@@ -52,6 +52,30 @@ describe('planner to look at', () => {
     await page.evaluate(() => (window.planner.state.choice.value = null));
   });
 
+  it('shows_no_chord_between_the_leaflets_of_a_sealed_valve', async () => {
+    await page.keyboard.press('1');
+    await cameraRests(page);
+    assert.equal(await page.evaluate(() => window.planner.state.main.value.figures.measures.orifice), 0);
+    // pixels inside the annulus that chordae change
+    const changed = () =>
+      page.evaluate(async () => {
+        const { state } = window.planner;
+        const pixels = async () => new Uint32Array((await window.pixels()).data.buffer);
+        const on = await pixels();
+        state.chordsOn.value = false;
+        const off = await pixels();
+        state.chordsOn.value = true;
+        return on.reduce((sum, pixel, k) => sum + (pixel !== off[k] ? 1 : 0), 0);
+      });
+    assert.equal(await changed(), 0);
+    // the picture does show them where the leaflets do not hide them
+    await page.keyboard.press('2');
+    await cameraRests(page);
+    assert.ok((await changed()) > 1000);
+    await page.keyboard.press('1');
+    await cameraRests(page);
+  });
+
   it('writes_unit_and_limit_beside_the_colours_of_chordae', async () => {
     const scale = () => page.getByTestId('scale').innerText();
     const choose = (name) => page.getByLabel('Colours').selectOption({ label: name });

@@ -20,9 +20,6 @@ function chordColour(topology: Topology, picture: Picture, options: SceneOptions
 /** mm between the surface of a chord and the leaflet that it ends at. */
 const below = 0.15;
 
-/** mm by which chordae count as further away: facets of a leaflet bend below the end of a chord, of which single pixels would show. */
-const behind = 0.25;
-
 /** Both ends of a chord. With the `normals` of the nodes, which point into the atrium and vanish beside the leaflets, it ends
  *  on the side of the ventricle, and shows on no other. */
 function chordEnds(topology: Topology, picture: Picture, k: number, radius: number, normals: Float32Array) {
@@ -53,7 +50,7 @@ export function chordae(
     if (!many && onLeaflet[topology.chordNodes[2 * k + 1]] === 0)
       shapes.sphere(b, radius * 1.15, chordColour(topology, picture, options, k), 4, 6);
   }
-  return shapes.mesh({ cut: true, nearer: -behind });
+  return shapes.mesh({ cut: true });
 }
 
 /** The chosen chord once more, through whatever hides it. */

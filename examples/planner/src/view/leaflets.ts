@@ -60,7 +60,6 @@ export function leafletMesh(topology: Topology, picture: Picture, options: Scene
     overlay: false,
     cut: true,
     flat: false,
-    nearer: 0,
   };
 }
 

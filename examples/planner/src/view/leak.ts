@@ -1,15 +1,10 @@
 // The leak: its orifice and an arrow along each of its jets, seen and, faintly, through the leaflets.
 import type { OrificePart, Picture } from '../protocol';
 import { tissue } from './colours';
-import { halfThickness } from './leaflets';
 import { Shapes, vertexNormals, type Mesh } from './mesh';
 
 /** Opacity of a leak that leaflets hide: it is still found, and reads as behind them. */
 const behind = 0.22;
-
-/** mm between the rim of the orifice, which slides on the middles of the leaflets, and their drawn sides at a slant: where these
- *  cover no more than that, the leaflets would cut wedges out of it. */
-const toSide = 0.5;
 
 /** A mesh where it is seen, and faintly where something hides it. */
 export function throughTissue(mesh: Mesh): Mesh[] {
@@ -33,7 +28,6 @@ export function orifice(picture: Picture): Mesh {
     overlay: false,
     cut: false,
     flat: true,
-    nearer: halfThickness + toSide,
   };
 }
 

@@ -27,10 +27,7 @@ export function shade(
   const ambient = strength.ambient * (0.85 + 0.15 * ny);
   const light = 255 * (ambient + strength.key * k + strength.fill * f);
   const h = Math.max(0, nx * half[0] + ny * half[1] + nz * half[2]);
-  // the shininess is 28 = 16 + 8 + 4; of a surface of 100,000 triangles, Math.pow takes half of the time of its picture
-  const h4 = h * h * h * h;
-  const h8 = h4 * h4;
-  const highlight = 255 * strength.highlight * (h8 * h8 * h8 * h4);
+  const highlight = 255 * strength.highlight * Math.pow(h, strength.shininess);
   out[0] = Math.min(255, r * light + highlight);
   out[1] = Math.min(255, g * light + highlight);
   out[2] = Math.min(255, b * light + highlight);

@@ -17,8 +17,6 @@ export interface Mesh {
   cut: boolean;
   /** No light: colour as it is. */
   flat: boolean;
-  /** mm by which it counts as nearer to the eye than it is, where something else is as near; negative: further. */
-  nearer: number;
 }
 
 /** The place of a node. */
@@ -108,7 +106,7 @@ export class Shapes {
     }
   }
 
-  mesh(options: Partial<Pick<Mesh, 'opacity' | 'overlay' | 'cut' | 'flat' | 'nearer'>> = {}): Mesh {
+  mesh(options: Partial<Pick<Mesh, 'opacity' | 'overlay' | 'cut' | 'flat'>> = {}): Mesh {
     const front = Float32Array.from(this.colours);
     return {
       positions: Float32Array.from(this.positions),
@@ -120,7 +118,6 @@ export class Shapes {
       overlay: false,
       cut: false,
       flat: false,
-      nearer: 0,
       ...options,
     };
   }

@@ -101,9 +101,7 @@ function transform(
 ): void {
   const m = camera.viewProjection.elements;
   const v = camera.view.elements;
-  const { positions: p, normals: n, front, back, flat, nearer } = mesh;
-  // the depth of a point that is moved towards the eye, at the same place on the screen
-  const lift = nearer * camera.projection.elements[10];
+  const { positions: p, normals: n, front, back, flat } = mesh;
   const lit = [0, 0, 0];
   for (let i = 0, o = 0; i < p.length; i += 3, o += stride) {
     const x = p[i],
@@ -113,7 +111,7 @@ function transform(
     const s = w > 1e-3 ? 1 / w : 0;
     out[o] = ((m[0] * x + m[4] * y + m[8] * z + m[12]) * s + 1) * 0.5 * width;
     out[o + 1] = (1 - (m[1] * x + m[5] * y + m[9] * z + m[13]) * s) * 0.5 * height;
-    out[o + 2] = (m[2] * x + m[6] * y + m[10] * z + m[14] + lift) / Math.max(w - nearer, 1e-3);
+    out[o + 2] = (m[2] * x + m[6] * y + m[10] * z + m[14]) * s;
     out[o + 3] = s;
     // normal and direction to the eye in the axes of the camera
     const nx = v[0] * n[i] + v[4] * n[i + 1] + v[8] * n[i + 2];

@@ -38,6 +38,5 @@ export function surfaceMesh({ points, triangles, normals, shape }: Surface): Mes
     overlay: false,
     cut: false,
     flat: false,
-    nearer: 0,
   };
 }

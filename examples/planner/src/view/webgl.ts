@@ -24,13 +24,11 @@ import type { Renderer, Scene } from './renderer';
 
 const vertexShader = `precision highp float;
 uniform mat4 modelViewMatrix, projectionMatrix;
-uniform float nearer;
 in vec3 position, normal, front, back;
 out vec3 vNormal, vFront, vBack, vPosition;
 void main() {
   vNormal = mat3(modelViewMatrix) * normal; vFront = front; vBack = back; vPosition = position;
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-  gl_Position.z = (gl_Position.z + nearer * projectionMatrix[2][2]) / max(gl_Position.w - nearer, 1e-3) * gl_Position.w;
 }`;
 const fragmentShader = `precision highp float;
 uniform vec4 plane; uniform float opacity, flatColour;
@@ -144,7 +142,6 @@ export class WebGl implements Renderer {
         plane: { value: new Vector4(0, 0, 0, 1) },
         opacity: { value: mesh.opacity },
         flatColour: { value: mesh.flat ? 1 : 0 },
-        nearer: { value: mesh.nearer },
       },
     });
     const object = new Object3(geometry, material);

@@ -4,7 +4,7 @@
 export function rims(triangles: Uint32Array): number[][] {
   let points = 0;
   for (const point of triangles) points = Math.max(points, point + 1);
-  // numbers as keys: texts take 20 times as long
+  // edges that were met once, as numbers
   const single = new Set<number>();
   for (let t = 0; t < triangles.length; ++t) {
     const [a, b] = [triangles[t], triangles[t % 3 === 2 ? t - 2 : t + 1]];
