@@ -1,10 +1,9 @@
 // What is read and moved: the spread over foldings beside its figures, the map of what a repair moved, the pull under the pointer,
-// a section plane that is dragged, tissue that is grasped and pushed, forms of operations that the page does not know.
+// a section plane that is dragged.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, figures, sharePlanner } from './browser.mjs';
+import { closed, sharePlanner } from './browser.mjs';
 import {
-  answered,
   apply,
   begin,
   cameraRests,
@@ -106,80 +105,5 @@ describe('planner read and touched', () => {
     await page.getByRole('button', { name: 'To the middle' }).click();
     assert.equal(await at(), 0);
     await page.keyboard.press('x');
-  });
-
-  for (const [key, word, label] of [
-    ['g', 'grasps', 'Grasp'],
-    ['b', 'pushes', 'Push'],
-  ])
-    it(`${word}_the_tissue_of_the_living_valve_and_lets_it_go`, async () => {
-      const { hash } = await figures(page);
-      await page.keyboard.press(key);
-      assert.equal(await page.getByRole('button', { name: label }).getAttribute('aria-pressed'), 'true');
-      const box = await page.locator('.canvas canvas').boundingBox();
-      const [x, y] = [box.x + 0.5 * box.width, box.y + 0.4 * box.height];
-      await page.mouse.move(x, y);
-      await page.mouse.down();
-      // mm by which a node moved most
-      const moved = () =>
-        page.evaluate(() => {
-          const { state } = window.planner;
-          const now = state.motion.value?.picture.positions;
-          const then = state.main.value.picture.positions;
-          return now ? Math.max(...now.map((v, i) => Math.abs(v - then[i]))) : 0;
-        });
-      let most = 0;
-      for (let k = 0; k < 600 && most < 1; ++k) {
-        await page.mouse.move(x + Math.min(60, 2 * k), y + Math.min(30, k));
-        await page.waitForTimeout(50);
-        most = Math.max(most, await moved());
-      }
-      assert.ok(most >= 1, `${most} mm`);
-      await page.mouse.up();
-      await answered(page, 300);
-      assert.equal(await page.evaluate(() => window.planner.state.motion.value), null);
-      assert.equal((await figures(page)).hash, hash);
-      await page.getByRole('button', { name: 'Turn', exact: false }).first().click();
-    });
-
-  it('has_a_form_for_every_operation_and_for_one_that_it_does_not_know', async () => {
-    const known = await page.evaluate(() => {
-      const { operations } = window.planner.state;
-      const stiffen = {
-        name: 'leaflet_stiffen',
-        help: 'Make a leaflet stiffer',
-        fields: [
-          ['factor', 'number', 'Factor'],
-          ['scallop', 'scallop', 'Scallop'],
-        ].map(([name, type, label]) => ({
-          ...operations.value.flatMap(({ fields }) => fields).find((field) => field.type === type),
-          name,
-          label,
-          required: true,
-        })),
-      };
-      operations.value = [...operations.value, stiffen];
-      return operations.value.map(({ name }) => name);
-    });
-    assert.ok(known.length >= 13, known.join());
-    for (const name of known) {
-      await openPanel(page, 'Repair');
-      const card = page.locator(`[data-operation=${name}]`);
-      if (!(await card.isVisible())) await page.getByText('More operations').click();
-      await card.click();
-      const form = page.getByTestId('form');
-      await form.waitFor();
-      // the operation that the library does not have is refused in words
-      const controls = await form.locator('input, select, button').count();
-      assert.ok(controls >= 3, `${name} has ${controls} controls`);
-      if (name === 'leaflet_stiffen')
-        assert.match(await form.innerText(), /leaflet stiffen[^]*Factor[^]*Scallop/);
-      await page.keyboard.press('Escape');
-      await closed(page);
-    }
-    await page.evaluate(() => {
-      const { operations } = window.planner.state;
-      operations.value = operations.value.filter(({ name }) => name !== 'leaflet_stiffen');
-    });
   });
 });
