@@ -4,6 +4,7 @@ import type {
   CheckpointList,
   Cost,
   Failure,
+  FileUnit,
   Finding,
   FoundingResult,
   Hand,
@@ -58,7 +59,8 @@ export interface Calls {
     result: Required<FoundingResult>['repaired'];
   };
   spread: { argument: { members: number }; result: Spread };
-  read_surface: { argument: { name: string; bytes: Uint8Array; unit: string }; result: Surface };
+  /** null: the unit that the file states, else a guess. */
+  read_surface: { argument: { name: string; bytes: Uint8Array; unit: FileUnit | null }; result: Surface };
   build: { argument: BuildRequest; result: { shown: Shown; findings: Finding[] } };
 }
 

@@ -5,7 +5,8 @@ import { render } from 'preact';
 import { App } from './ui/app';
 import { openShipped } from './store/files';
 import { connect, fail, request } from './store/requests';
-import { findCopies, keepFollowing, visited } from './store/keep';
+import { keepFollowing, visited } from './store/keep';
+import { findCopies } from './store/recovery';
 import * as state from './store/state';
 import { watchOpening } from './store/opening';
 import { watchTour } from './store/tour';
@@ -50,7 +51,7 @@ async function start(): Promise<void> {
 }
 
 window.addEventListener('beforeunload', (event) => {
-  if (state.changed.value) event.preventDefault();
+  if (state.changed.value || state.marked.value) event.preventDefault();
 });
 
 void start();

@@ -253,26 +253,55 @@ export interface FoundingResult {
   repaired?: { measures: Measures; openArea: number; operations: string[] };
 }
 
-export interface SpreadRow {
-  name: string;
-  min: number;
-  max: number;
-}
+/** The least and the largest value. */
+export type Range = [number, number];
 
+/** Ranges of figures over closures that came to rest; those of measures without a number are left out. */
 export interface Spread {
   members: number;
   converged: number;
   equilibria: number;
   nodeMax: number;
-  rows: SpreadRow[];
+  measures: Partial<Record<keyof Measures, Range>>;
+  /** By name. */
+  regions: Record<string, Record<'coaptationMean' | 'orifice' | 'billow', Range>>;
+  /** Pulls by id, N. */
+  chords: Record<string, Range>;
+  /** As in `Figures`. */
+  heads: Range[];
 }
 
 export type SurfaceKind = '' | 'mid' | 'atrial' | 'skin';
 
+/** Units in which a file may have its lengths. */
+export type FileUnit = 'mm' | 'cm' | 'm' | 'inch';
+
+/** What shows in a surface before anything on it is clicked; lengths in mm. */
+export interface SurfaceShape {
+  /** The middle of the annulus, or of the whole surface without a boundary. */
+  middle: [number, number, number];
+  /** Into the atrium. */
+  up: [number, number, number];
+  /** Across `up`, along which the points spread least: front to back, or its opposite. */
+  narrow: [number, number, number];
+  /** Largest distance from the middle. */
+  radius: number;
+  /** The normals of the triangles point into the atrium. */
+  outward: boolean;
+}
+
 export interface Surface {
   points: Float32Array;
   triangles: Uint32Array;
+  /** Of the points, unit length. */
+  normals: Float32Array;
   format: string;
+  unit: FileUnit;
+  /** Where the unit is from: the file states it, the user has chosen it, or it was guessed from the width. */
+  unitFrom: 'file' | 'choice' | 'width';
+  /** Distance of two points far from each other, mm. */
+  width: number;
+  shape: SurfaceShape;
 }
 
 export interface BuildRequest {

@@ -24,24 +24,50 @@ const flags = [
 /** ms that a test waits for what the page does: other work on the machine may take most of it. */
 const patience = 180_000;
 
-/** A browser with a profile of its own, so that storage outlives the page. `software`: no WebGL. */
+/**
+ * Installs `window.pixels(box)` in every page: the picture as it is drawn at rest, as ImageData; `box`: left, top, width and height
+ * in CSS pixels of the picture.
+ */
+function installPixels() {
+  window.pixels = async (box) => {
+    const { viewport } = window.planner;
+    const image = new Image();
+    image.src = viewport.snapshot();
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const paint = canvas.getContext('2d');
+    paint.drawImage(image, 0, 0);
+    const scale = image.width / viewport.width;
+    const all = [0, 0, viewport.width, viewport.height];
+    return paint.getImageData(...(box ?? all).map((v) => Math.round(scale * v)));
+  };
+}
+
+/**
+ * A browser with a profile of its own, so that storage outlives the page. `software`: no WebGL; `zoom`: of the page, which has as
+ * many fewer CSS pixels, each with as many more pixels.
+ */
 export async function openBrowser({
   width = 1280,
   height = 720,
   profile,
   touch = false,
   software = false,
+  zoom = 1,
 } = {}) {
   const folder = profile ?? mkdtempSync(join(tmpdir(), 'planner-'));
   const context = await chromium.launchPersistentContext(folder, {
     executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
     headless: true,
     args: software ? [...flags, '--disable-3d-apis'] : flags,
-    viewport: { width, height },
+    viewport: { width: Math.round(width / zoom), height: Math.round(height / zoom) },
+    deviceScaleFactor: zoom,
     hasTouch: touch,
     acceptDownloads: true,
   });
   context.setDefaultTimeout(patience);
+  await context.addInitScript(installPixels);
   return { context, profile: folder };
 }
 
@@ -73,6 +99,20 @@ export async function closed(page, limit = patience) {
     if (Date.now() > end) throw new Error(`the page is busy for more than ${limit / 1000} s`);
     await page.waitForTimeout(20);
   }
+}
+
+/** Lets the tab of a page die, as in a crash of the browser, and opens the page in another one. */
+export async function reopenAfterCrash(page) {
+  const context = page.context();
+  const next = await context.newPage();
+  const client = await context.newCDPSession(page);
+  const crashed = page.waitForEvent('crash');
+  // the answer never comes
+  client.send('Page.crash').catch(() => {});
+  await crashed;
+  await next.goto(pathToFileURL(page_path).href);
+  await closed(next);
+  return next;
 }
 
 /** The figures of the valve on the page. */

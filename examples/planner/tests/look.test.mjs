@@ -59,17 +59,8 @@ describe('planner to look at', () => {
     // pixels inside the annulus that chordae change
     const changed = () =>
       page.evaluate(async () => {
-        const { state, viewport } = window.planner;
-        const pixels = async () => {
-          const image = new Image();
-          image.src = viewport.snapshot();
-          await image.decode();
-          const canvas = document.createElement('canvas');
-          [canvas.width, canvas.height] = [image.width, image.height];
-          const paint = canvas.getContext('2d');
-          paint.drawImage(image, 0, 0);
-          return new Uint32Array(paint.getImageData(0, 0, image.width, image.height).data.buffer);
-        };
+        const { state } = window.planner;
+        const pixels = async () => new Uint32Array((await window.pixels()).data.buffer);
         const on = await pixels();
         state.chordsOn.value = false;
         const off = await pixels();

@@ -13,6 +13,41 @@ export async function begin(page, kind) {
   await closed(page);
 }
 
+/** Presses Tab until an element has the focus, by its id, operation, label or text. */
+export async function tabTo(page, wanted) {
+  for (let k = 0; k < 80; ++k) {
+    await page.keyboard.press('Tab');
+    const text = await page.evaluate(() => {
+      const { activeElement: e } = document;
+      const label = e?.labels?.[0]?.textContent ?? e?.ariaLabel ?? '';
+      return `${e?.id} ${e?.getAttribute('data-operation') ?? ''} ${label} ${e?.textContent ?? ''}`;
+    });
+    if (wanted.test(text)) return;
+  }
+  throw new Error(`the keyboard does not reach ${wanted}`);
+}
+
+/** Opens the form of an operation by keys. */
+export async function openForm(page, operation) {
+  await page.keyboard.press('r');
+  await tabTo(page, operation);
+  await page.keyboard.press('Enter');
+}
+
+/** The name of what the keyboard goes to, and whether something covers it or it is out of the window. */
+export function focused(page) {
+  return page.evaluate(() => {
+    const element = document.activeElement;
+    const box = element.getBoundingClientRect();
+    const on = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
+    const seen = !!on && (on === element || element.contains(on) || on.contains(element));
+    return {
+      name: element.ariaLabel || element.labels?.[0]?.textContent || element.textContent || element.tagName,
+      covered: seen ? '' : `at ${Math.round(box.left)}, ${Math.round(box.top)}`,
+    };
+  });
+}
+
 export async function apply(page) {
   await closed(page);
   await page.getByRole('button', { name: 'Apply', exact: true }).click();
@@ -107,17 +142,9 @@ export async function undo(page) {
  */
 export function shareOfTissue(page, { box = [0, 0, 1, 1], margin = 20 } = {}) {
   return page.evaluate(
-    async ([[left, top, wide, high], least]) => {
-      const image = new Image();
-      image.src = window.planner.viewport.snapshot();
-      await image.decode();
-      const canvas = document.createElement('canvas');
-      const [w, h] = [image.width, image.height];
-      [canvas.width, canvas.height] = [w, h];
-      const paint = canvas.getContext('2d');
-      paint.drawImage(image, 0, 0);
-      const part = [left * w, top * h, wide * w, high * h].map(Math.round);
-      const { data } = paint.getImageData(...part);
+    async ([shares, least]) => {
+      const { width, height } = window.planner.viewport;
+      const { data } = await window.pixels(shares.map((s, k) => s * (k % 2 ? height : width)));
       let tissue = 0;
       for (let i = 0; i < data.length; i += 4) tissue += data[i] > data[i + 2] + least ? 1 : 0;
       return tissue / (data.length / 4);

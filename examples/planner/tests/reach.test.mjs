@@ -2,28 +2,8 @@
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { closed, figures, page_path, withPlanner } from './browser.mjs';
-import { answered, apply, begin, openPanel, shareOfTissue, undo } from './person.mjs';
-
-/** Presses Tab until an element has the focus. */
-async function tabTo(page, wanted) {
-  for (let k = 0; k < 60; ++k) {
-    await page.keyboard.press('Tab');
-    const text = await page.evaluate(() => {
-      const { activeElement: e } = document;
-      return `${e?.id} ${e?.getAttribute('data-operation') ?? ''} ${e?.textContent ?? ''}`;
-    });
-    if (wanted.test(text)) return;
-  }
-  throw new Error(`the keyboard does not reach ${wanted}`);
-}
-
-/** Opens the form of an operation. */
-async function openForm(page, operation) {
-  await page.keyboard.press('r');
-  await tabTo(page, operation);
-  await page.keyboard.press('Enter');
-}
+import { closed, figures, openBrowser, openPlanner, page_path, withPlanner } from './browser.mjs';
+import { answered, apply, begin, openForm, openPanel, shareOfTissue, tabTo, undo } from './person.mjs';
 
 describe('planner for everybody', () => {
   it('is_used_with_the_keyboard_alone', async () => {
@@ -146,6 +126,29 @@ describe('planner for everybody', () => {
       await closed(other);
       assert.equal((await figures(other)).hash, hash);
     });
+  });
+
+  it('says_that_the_browser_refuses_storage', async () => {
+    const { context } = await openBrowser();
+    try {
+      // as a browser does whose user forbids it
+      await context.addInitScript(() => {
+        const refuse = () => {
+          throw new DOMException('denied', 'SecurityError');
+        };
+        for (const name of ['localStorage', 'indexedDB'])
+          Object.defineProperty(window, name, { get: refuse });
+      });
+      const { page, errors } = await openPlanner(context);
+      await openPanel(page, 'Plan');
+      await page.getByText('This browser refuses storage to pages from disk').waitFor();
+      assert.ok(await page.getByLabel(/Keep a copy/).isDisabled());
+      await begin(page, 'ring');
+      await apply(page);
+      assert.deepEqual(errors, []);
+    } finally {
+      await context.close();
+    }
   });
 
   it('fits_a_tablet_and_a_large_screen', async () => {

@@ -8,13 +8,6 @@ import { cameraRests, openPanel } from './person.mjs';
 function rednessAtLeak(page) {
   return page.evaluate(async () => {
     const { state, viewport } = window.planner;
-    const image = new Image();
-    image.src = viewport.snapshot();
-    await image.decode();
-    const canvas = document.createElement('canvas');
-    [canvas.width, canvas.height] = [image.width, image.height];
-    const paint = canvas.getContext('2d');
-    paint.drawImage(image, 0, 0);
     const points = state.picture.value.orificeVertices;
     let [left, top, right, bottom] = [1e9, 1e9, 0, 0];
     for (let i = 0; i < points.length; i += 3) {
@@ -22,9 +15,7 @@ function rednessAtLeak(page) {
       [left, right] = [Math.min(left, x), Math.max(right, x)];
       [top, bottom] = [Math.min(top, y), Math.max(bottom, y)];
     }
-    const scale = image.width / viewport.width;
-    const box = [left, top, right - left, bottom - top].map((value) => Math.round(value * scale));
-    const { data } = paint.getImageData(...box);
+    const { data } = await window.pixels([left, top, right - left, bottom - top]);
     let sum = 0;
     for (let i = 0; i < data.length; i += 4) sum += data[i] - data[i + 2];
     return sum / (data.length / 4);

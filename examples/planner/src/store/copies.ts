@@ -1,6 +1,8 @@
-// Copies of sessions in the browser, for recovery after a crash. Every plan has a copy under a key of its own, so that
+// Copies of sessions, and of surfaces with clicked points, in the browser, for recovery after a crash. Every plan has a copy under a key of its own, so that
 // neither a second tab nor the next plan writes over it. A tab holds a lock on the keys it writes to: copies without a
 // held lock were left behind. A browser without locks offers all of them.
+import type { FileUnit } from '../protocol';
+import type { Imported } from './state';
 
 const database = 'mvs-planner-1';
 const store = 'session';
@@ -13,12 +15,16 @@ export interface Copy {
   /** When it was written, ISO 8601. */
   saved: string;
   bytes: Uint8Array;
+  /** Of a surface that is being imported: `title` is the name of its file, `bytes` are those of the file. */
+  surface?: { unit: FileUnit } & Pick<Imported, 'kind' | 'points'>;
 }
 
 export interface LeftCopy {
   key: string;
   title: string;
   saved: string;
+  /** Not a session but a surface. */
+  surface: boolean;
 }
 
 function openDatabase(): Promise<IDBDatabase> {
@@ -96,7 +102,7 @@ export async function leftCopies(): Promise<LeftCopy[]> {
   const left: LeftCopy[] = [];
   for (const key of (await withStore('readonly', (s) => s.getAllKeys())) as string[]) {
     const copy = held.has(key) ? undefined : await readCopy(key);
-    if (copy) left.push({ key, title: copy.title, saved: copy.saved });
+    if (copy) left.push({ key, title: copy.title, saved: copy.saved, surface: !!copy.surface });
   }
   left.sort((a, b) => b.saved.localeCompare(a.saved));
   for (const { key } of left.splice(most)) await deleteCopy(key);

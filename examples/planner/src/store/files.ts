@@ -2,7 +2,8 @@
 import { batch } from '@preact/signals';
 import { shippedVertices } from '../shipped';
 import { leaveTexts, t } from '../text/texts';
-import type { Shown } from '../protocol';
+import { millimetres } from '../units';
+import type { FileUnit, Shown } from '../protocol';
 import { discard } from './edit';
 import { request, run, show } from './requests';
 import * as state from './state';
@@ -19,10 +20,11 @@ interface Left {
 /** The last changed plan of each valve of the tour, by its number. */
 const repairs = new Map<number, Left>();
 
-/** The present plan if it has changes that are not saved: operations, checkpoints or notes. */
+/** The present plan if it has something that is not saved: operations, checkpoints, notes, or a valve that is in no file. */
 export async function leave(): Promise<Left | null> {
-  const { canUndo, checkpoints, notes } = state;
-  if (!state.changed.value || !(canUndo.value || checkpoints.value.length || notes.value)) return null;
+  const { canUndo, checkpoints, notes, onlyHere } = state;
+  const something = canUndo.value || checkpoints.value.length || notes.value || onlyHere.value;
+  if (!state.changed.value || !something) return null;
   const title = state.title.value;
   try {
     return {
@@ -62,8 +64,11 @@ function offerRepair(number: number, left: Left | null): void {
 
 async function comeBack(left: Left): Promise<void> {
   await openSession(left.bytes);
-  state.tour.value = left.tour;
-  state.changed.value = true;
+  batch(() => {
+    state.tour.value = left.tour;
+    state.changed.value = true;
+    state.onlyHere.value = true;
+  });
 }
 
 /** Leaves a surface, and its panel, for a valve. */
@@ -72,13 +77,17 @@ function leaveSurface(): void {
   if (state.panel.value === 'import') state.panel.value = 'valve';
 }
 
-function begun(shown: Shown | null, title: string, left: Left | null): void {
+/** Shows a valve with which a plan begins; `onlyHere`: it is in no file. */
+function begun(shown: Shown | null, title: string, left: Left | null, onlyHere = false): void {
   if (!shown) return;
   leaveSurface();
-  show(shown, true);
-  state.title.value = title;
-  state.notes.value = '';
-  state.changed.value = false;
+  batch(() => {
+    state.title.value = title;
+    state.notes.value = '';
+    state.changed.value = onlyHere;
+    state.onlyHere.value = onlyHere;
+    show(shown, true);
+  });
   offerReturn(left, null);
 }
 
@@ -132,55 +141,50 @@ export async function openFile(file: File): Promise<void> {
     state.tour.value = null;
     return begun(shown, file.name.replace(/\.obj$/i, ''), left);
   }
-  if (/\.(stl|ply|obj|off|vtp|vtk)$/i.test(file.name)) return beginImport(file.name, bytes);
+  if (/\.(stl|ply|obj|off|vtp|vtk)$/i.test(file.name)) return void (await beginImport(file.name, bytes));
   state.notice.value = { kind: 'error', text: t.unknownFile(file.name) };
 }
 
-/** Width of a surface in mm: the distance of two points far from each other, in whatever way it lies. */
-export function widthOf(points: Float32Array): number {
-  const farthest = ([x, y, z]: number[]): [number, number[]] => {
-    let [range, at] = [0, [x, y, z]];
-    for (let i = 0; i < points.length; i += 3) {
-      const far = Math.hypot(points[i] - x, points[i + 1] - y, points[i + 2] - z);
-      if (far > range) [range, at] = [far, [...points.subarray(i, i + 3)]];
-    }
-    return [range, at];
-  };
-  const [, end] = farthest([...points.subarray(0, 3)]);
-  return farthest(end)[0];
-}
-
-/** mm: widths of surfaces that are taken for valves, from an infant's annulus to a ventricle around a dilated one. */
-const plausible = [10, 200];
-
-/** The unit in which a surface that was read as mm has the width of a valve; mm where none has. */
-function guessedUnit(points: Float32Array): string {
-  const width = widthOf(points);
-  const fits = ([, mm]: [string, number]) => width * mm >= plausible[0] && width * mm <= plausible[1];
-  return (Object.entries({ mm: 1, cm: 10, m: 1000 }).find(fits) ?? ['mm'])[0];
-}
-
-/** Shows a surface to build a valve from. Most files do not state their unit: it is guessed, and can be chosen. */
-export async function beginImport(name: string, bytes: Uint8Array, unit?: string): Promise<void> {
-  const read = (as: string) => run(t.reading, 'read_surface', { name, bytes: bytes.slice(), unit: as });
-  const asMm = unit ? null : await read('mm');
-  if (!unit && !asMm) return;
-  unit ??= guessedUnit(asMm!.points);
-  const surface = unit === 'mm' && asMm ? asMm : await read(unit);
-  if (!surface) return;
+/** Shows a surface to build a valve from, with points that were clicked on it before; whether it could be read. */
+export async function beginImport(
+  name: string,
+  bytes: Uint8Array,
+  unit: FileUnit | null = null,
+  clicked: Partial<Pick<state.Imported, 'kind' | 'points'>> = {},
+): Promise<boolean> {
+  const surface = await run(t.reading, 'read_surface', { name, bytes, unit });
+  if (!surface) return false;
   discard();
   batch(() => {
     state.imported.value = {
       name,
       bytes,
-      unit,
-      kind: '',
+      kind: clicked.kind ?? '',
       surface,
-      points: { annulus: [], commissures: [], anterior: [], tips: [] },
+      points: clicked.points ?? { annulus: [], commissures: [], anterior: [], tips: [] },
       findings: [],
     };
     state.panel.value = 'import';
     state.status.value = t.importBegun(surface.triangles.length / 3);
+  });
+  return true;
+}
+
+/** Reads the surface in another unit; the clicked points stay at their places on it. */
+export async function chooseUnit(unit: FileUnit): Promise<void> {
+  const from = state.imported.value;
+  if (!from) return;
+  const factor = millimetres[unit] / millimetres[from.surface.unit];
+  const scaled = (rows: number[][]) => rows.map((row) => row.map((v) => v * factor));
+  const { annulus, commissures, anterior, tips } = from.points;
+  await beginImport(from.name, from.bytes, unit, {
+    kind: from.kind,
+    points: {
+      annulus: scaled(annulus),
+      commissures: scaled(commissures),
+      anterior: scaled(anterior),
+      tips: scaled(tips),
+    },
   });
 }
 
@@ -193,7 +197,7 @@ export async function buildValve(): Promise<void> {
   const built = await run(t.building, 'build', { ...from.points, kind: from.kind, name: title });
   if (!built) return;
   state.tour.value = null;
-  begun(built.shown, title, left);
+  begun(built.shown, title, left, true);
   state.imported.value = { ...from, findings: built.findings };
   state.panel.value = 'import';
 }
@@ -208,17 +212,20 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
     return false;
   }
   leaveSurface();
-  show(opened.shown, true);
-  state.tour.value = null;
   state.receive(opened.first.picture);
-  state.first.value = opened.first;
-  state.receiveCheckpoints(opened.checkpoints);
-  state.title.value = opened.title;
-  state.notes.value = opened.notes;
-  state.changed.value = false;
-  state.notice.value = opened.sameResult
-    ? { kind: 'info', text: t.sessionOpened }
-    : { kind: 'error', text: t.sessionDiffers };
+  batch(() => {
+    show(opened.shown, true);
+    state.tour.value = null;
+    state.first.value = opened.first;
+    state.receiveCheckpoints(opened.checkpoints);
+    state.title.value = opened.title;
+    state.notes.value = opened.notes;
+    state.changed.value = false;
+    state.onlyHere.value = false;
+    state.notice.value = opened.sameResult
+      ? { kind: 'info', text: t.sessionOpened }
+      : { kind: 'error', text: t.sessionDiffers };
+  });
   offerReturn(left);
   return true;
 }

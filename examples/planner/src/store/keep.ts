@@ -1,27 +1,9 @@
-// Keeping: downloads of valve and session, and the copy for recovery. Storage of a page from disk is shared by every
-// page from disk, so the copy is made only where the user allows it.
+// Keeping: downloads of valve and session, and the file that follows the plan.
 import { effect, signal, untracked } from '@preact/signals';
-import {
-  deleteAllCopies,
-  deleteCopy,
-  hold,
-  leftCopies,
-  newKey,
-  readCopy,
-  writeCopy,
-  type LeftCopy,
-} from './copies';
-import { leave, openSession } from './files';
-import { fail, request, run } from './requests';
+import { autosave, followSurface, keepCopy, leaveCopy, rest, sessionNow } from './recovery';
+import { fail, run } from './requests';
 import * as state from './state';
 import { t } from '../text/texts';
-
-const allowedKey = 'mvs-planner-1-autosave';
-
-export const autosave = signal(false);
-export const storageWorks = signal(true);
-/** Copies that were left behind, the newest first: it is offered. */
-export const recoverable = signal<LeftCopy[]>([]);
 
 export function download(bytes: Uint8Array | string, name: string, type: string): void {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
@@ -66,25 +48,6 @@ export async function saveSession(): Promise<void> {
   state.changed.value = false;
 }
 
-function allowed(): boolean {
-  try {
-    return localStorage.getItem(allowedKey) === 'yes';
-  } catch {
-    return false;
-  }
-}
-
-/** Reads whether a copy was allowed, and which ones were left; called once at the start. */
-export async function findCopies(): Promise<void> {
-  try {
-    autosave.value = allowed();
-    recoverable.value = await leftCopies();
-  } catch {
-    storageWorks.value = false;
-    autosave.value = false;
-  }
-}
-
 const visitedKey = 'mvs-planner-1-visited';
 
 /** Whether the page was used in this browser before; nothing about a valve is stored for it. */
@@ -96,56 +59,6 @@ export function visited(): boolean {
   } catch {
     return false;
   }
-}
-
-export async function allowAutosave(allowed: boolean): Promise<void> {
-  try {
-    localStorage.setItem(allowedKey, allowed ? 'yes' : 'no');
-    autosave.value = allowed;
-    if (allowed) {
-      if (state.main.value) await keepCopy(sessionNow());
-      return;
-    }
-    ownKey = null;
-    await copying;
-    await deleteAllCopies();
-    recoverable.value = [];
-  } catch (error) {
-    storageWorks.value = false;
-    autosave.value = false;
-    fail(error);
-  }
-}
-
-/** The key of the copy of the present plan, once one was written. */
-let ownKey: string | null = null;
-let copying: Promise<void> = Promise.resolve();
-
-/** Writes a session to the copy of the present plan, if the user allowed it, one write after the other. */
-function keepCopy(session: Promise<Uint8Array>): Promise<void> {
-  // another tab may have taken the permission back
-  if (autosave.value) autosave.value = allowed();
-  if (!autosave.value) return copying;
-  const { value: title } = state.title;
-  ownKey ??= newKey();
-  const key = ownKey;
-  copying = copying.then(async () => {
-    try {
-      await hold(key);
-      await writeCopy(key, { title, saved: new Date().toISOString(), bytes: await session });
-    } catch (error) {
-      storageWorks.value = false;
-      fail(error);
-    }
-  });
-  return copying;
-}
-
-/** The copy of a plan that gives way to another one stays if it has changes that are saved nowhere else. */
-function leaveCopy(unsaved: boolean): void {
-  const key = ownKey;
-  ownKey = null;
-  if (key && !unsaved) copying = copying.then(() => deleteCopy(key)).catch(fail);
 }
 
 /** Whether the browser can write to a file that the user chose; only Chromium can. */
@@ -218,20 +131,14 @@ function keepFileOfPlan(): void {
   });
 }
 
-/** The present session; asked for at once, so that it is not that of a plan which is opened afterwards. */
-const sessionNow = (): Promise<Uint8Array> =>
-  request('save_session', { title: state.title.value, notes: state.notes.value });
-
-/** ms without a further letter before changed notes are written. */
-const typed = 800;
-
-/** Lets the copy and the chosen file follow the plan, its checkpoints and its notes. */
+/** Lets the copies and the chosen file follow the plan, its checkpoints and its notes, and a surface. */
 export function keepFollowing(): void {
+  followSurface();
   let kept: unknown[] = [state.main.value, state.checkpoints.value];
   let plan = state.plan.value;
   let unsaved = false;
   let timer = 0;
-  const write = () => {
+  const writeAll = () => {
     window.clearTimeout(timer);
     if (!state.main.value || !(autosave.value || handle)) return;
     const session = sessionNow();
@@ -247,7 +154,7 @@ export function keepFollowing(): void {
         keepFileOfPlan();
         leaveCopy(unsaved);
       });
-    if (now[0] && now.some((value, k) => value !== kept[k])) untracked(write);
+    if (now[0] && now.some((value, k) => value !== kept[k])) untracked(writeAll);
     kept = now;
     unsaved = state.changed.value;
   });
@@ -256,26 +163,6 @@ export function keepFollowing(): void {
     if (now === notes) return;
     notes = now;
     window.clearTimeout(timer);
-    timer = window.setTimeout(write, typed);
+    timer = window.setTimeout(writeAll, rest);
   });
-}
-
-/** Deletes the copy that is offered, and offers the next one. */
-export async function forgetCopy(): Promise<void> {
-  const [first, ...others] = recoverable.value;
-  if (first) await deleteCopy(first.key);
-  recoverable.value = others;
-}
-
-/** Opens the copy that is offered; the opened plan goes on in it. Other copies are offered at the next start. */
-export async function recover(): Promise<void> {
-  const [first] = recoverable.value;
-  recoverable.value = [];
-  const kept = first && (await readCopy(first.key));
-  if (!kept || !(await openSession(kept.bytes, await leave()))) return;
-  // it is saved nowhere else
-  state.changed.value = true;
-  leaveCopy(false);
-  ownKey = first.key;
-  await hold(first.key);
 }

@@ -91,6 +91,8 @@ export const removedCheckpoint = signal<string | null>(null);
 export const title = signal('');
 export const notes = signal('');
 export const changed = signal(false);
+/** The valve that the plan begins with is in no file: it was built from a surface, or recovered. */
+export const onlyHere = signal(false);
 /** Counts the plans that were begun: opened, built or recovered. */
 export const plan = signal(0);
 export const cost = signal<{ hash: string; value: Cost } | null>(null);
@@ -108,7 +110,6 @@ export const finished = signal<number[]>([]);
 export interface Imported {
   name: string;
   bytes: Uint8Array;
-  unit: string;
   kind: SurfaceKind;
   surface: Surface;
   points: { annulus: number[][]; commissures: number[][]; anterior: number[][]; tips: number[][] };
@@ -120,6 +121,10 @@ export const surface = computed(() => {
   const { value } = imported;
   return value && !value.findings.length ? value : null;
 });
+/** Points were clicked on the surface, which are kept nowhere else. */
+export const marked = computed(
+  () => !!surface.value && Object.values(surface.value.points).some((rows) => rows.length),
+);
 /** Which points the next clicks on the surface set. */
 export const importing = signal<keyof Imported['points']>('commissures');
 /** A file is dragged over the page. */
@@ -162,6 +167,10 @@ export const shown = computed<Shown | null>(() =>
   inPast.value ? other.value : (preview.value ?? main.value),
 );
 export const figures = computed<Figures | null>(() => (coming.value ? null : (shown.value?.figures ?? null)));
+/** The spread of the valve whose figures are shown, if it was measured. */
+export const shownSpread = computed(() =>
+  spread.value && spread.value.hash === figures.value?.hash ? spread.value.value : null,
+);
 /** The figures to compare with. */
 export const before = computed<Figures | null>(() =>
   inPast.value ? null : (earlier.value?.figures ?? null),

@@ -373,6 +373,13 @@ export const importTexts = {
     mid: 'Middle of the leaflets',
     skin: 'Both sides, closed',
   },
+  unitOption: (unit: string, mm: number) => `${unit}: ${number(mm, mm < 10 ? 1 : 0)} mm wide`,
+  unitFrom: {
+    file: 'The file states its unit.',
+    width:
+      'The file does not state its unit: it was guessed from the width. Choose another one if it is wrong.',
+    choice: '',
+  },
   size: (mm: number) => `The surface is ${mm.toFixed(1)} mm wide. An open valve is 30 to 60 mm wide.`,
   points: {
     commissures: 'Both commissures',
@@ -405,6 +412,7 @@ export const refusals = {
   noOperation: (kind: string) => `there is no operation ${kind}`,
   noField: (kind: string, name: string) => `${kind} has no field ${name}`,
   cancelled: 'cancelled',
+  noTriangles: (file: string) => `${file} has no triangles: it is no surface`,
   noWorker: 'the worker did not start',
 };
 
@@ -768,7 +776,8 @@ export const dialogTexts = {
   licences: 'Licences',
   about: (version: string) =>
     `${t.research} libmvs ${version}. The page calculates in your browser and cannot connect to anything.`,
-  left: (title: string, saved: string) => `A session was left here: ${title || 'without a name'}, ${saved}.`,
+  left: (title: string, saved: string, surface: boolean) =>
+    `${surface ? 'A surface with marked points' : 'A session'} was left here: ${title || 'without a name'}, ${saved}.`,
   recover: 'Recover it',
   forget: 'Delete it',
 };

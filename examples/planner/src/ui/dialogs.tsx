@@ -2,7 +2,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import type { ComponentChildren } from 'preact';
 import { fail } from '../store/requests';
-import { forgetCopy, recover, recoverable } from '../store/keep';
+import { forgetCopy, recover, recoverable } from '../store/recovery';
 import * as state from '../store/state';
 import { appTexts, barTexts, dialogTexts, help } from '../text/texts';
 import { Button } from './parts';
@@ -92,7 +92,7 @@ export function Recovery() {
   if (!kept || !state.ready.value) return null;
   return (
     <div class="notice info" role="status" data-testid="recovery">
-      <span>{dialogTexts.left(kept.title, new Date(kept.saved).toLocaleString())}</span>
+      <span>{dialogTexts.left(kept.title, new Date(kept.saved).toLocaleString(), kept.surface)}</span>
       <Button kind="main" onClick={() => void recover().catch(fail)}>
         {dialogTexts.recover}
       </Button>

@@ -1,8 +1,9 @@
 // Bringing in a patient's surface: unit, points that the surgeon knows, building, and the findings.
 import { Hammer } from 'lucide-preact';
-import { beginImport, buildValve, widthOf } from '../store/files';
+import { buildValve, chooseUnit } from '../store/files';
 import * as state from '../store/state';
-import type { SurfaceKind } from '../protocol';
+import type { FileUnit, SurfaceKind } from '../protocol';
+import { fileUnits, millimetres } from '../units';
 import { importTexts, say } from '../text/texts';
 import { Button } from './parts';
 
@@ -12,6 +13,7 @@ export function ImportPanel() {
   const imported = state.imported.value;
   if (!imported) return <p class="hint">{importTexts.none}</p>;
   if (imported.findings.length) return <Findings />;
+  const { surface } = imported;
   const clear = (kind: (typeof kinds)[number]) =>
     (state.imported.value = { ...imported, points: { ...imported.points, [kind]: [] } });
   return (
@@ -22,14 +24,19 @@ export function ImportPanel() {
         <label for="unit">{importTexts.unit}</label>
         <select
           id="unit"
-          value={imported.unit}
-          onChange={(event) => void beginImport(imported.name, imported.bytes, event.currentTarget.value)}
+          value={surface.unit}
+          disabled={surface.unitFrom === 'file'}
+          onChange={(event) => void chooseUnit(event.currentTarget.value as FileUnit)}
         >
-          <option value="mm">mm</option>
-          <option value="cm">cm</option>
-          <option value="m">m</option>
+          {fileUnits.map((unit) => (
+            <option value={unit}>
+              {importTexts.unitOption(unit, (surface.width * millimetres[unit]) / millimetres[surface.unit])}
+            </option>
+          ))}
         </select>
-        <small>{importTexts.size(widthOf(imported.surface.points))}</small>
+        <small>
+          {importTexts.size(surface.width)} {importTexts.unitFrom[surface.unitFrom]}
+        </small>
       </div>
       <div class="field">
         <label for="surface-kind">{importTexts.kind}</label>

@@ -2,6 +2,7 @@
 import type { ComponentChildren, JSX } from 'preact';
 import * as state from '../store/state';
 import { figure, partTexts } from '../text/texts';
+import type { Range } from '../protocol';
 
 export function Figure(props: {
   label: string;
@@ -11,7 +12,7 @@ export function Figure(props: {
   before?: number;
   good?: 'low' | 'high';
   help?: string;
-  spread?: [number, number] | null;
+  spread?: Range | null;
   warn?: boolean;
 }) {
   const digits = props.digits ?? 1;
@@ -29,14 +30,24 @@ export function Figure(props: {
           {partTexts.before(figure(props.before!, digits))}
         </span>
       )}
-      {props.spread && props.spread[1] - props.spread[0] >= 0.5 * 10 ** -digits && (
-        <span class="figure-before" title={partTexts.spreadHelp}>
-          {partTexts.range(figure(props.spread[0], digits), figure(props.spread[1], digits))}
-        </span>
-      )}
+      <Spread range={props.spread} digits={digits} />
     </div>
   );
 }
+
+/** The range of a figure over the ways in which the leaflets can fold; nothing where its digits do not show it. */
+export function Spread({ range, digits }: { range?: Range | null; digits: number }) {
+  if (!range || !(range[1] - range[0] >= 0.5 * 10 ** -digits)) return null;
+  return (
+    <span class="figure-before spread" title={partTexts.spreadHelp}>
+      {partTexts.range(figure(range[0], digits), figure(range[1], digits))}
+    </span>
+  );
+}
+
+/** A range in another unit. */
+export const times = (range: Range | undefined, factor: number): Range | null =>
+  range ? [factor * range[0], factor * range[1]] : null;
 
 export function Button(
   props: {

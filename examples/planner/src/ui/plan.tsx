@@ -1,28 +1,18 @@
 // The panel "Plan": operations, checkpoints, two plans side by side, notes, and keeping it all.
 import { Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
 import { redo, undo } from '../store/history';
-import {
-  allowAutosave,
-  autosave,
-  canKeepFile,
-  chooseKeptFile,
-  keptFile,
-  leaveKeptFile,
-  saveObj,
-  saveSession,
-  storageWorks,
-} from '../store/keep';
+import { canKeepFile, chooseKeptFile, keptFile, leaveKeptFile, saveObj, saveSession } from '../store/keep';
+import { allowAutosave, autosave, storageWorks } from '../store/recovery';
 import { openingOf } from '../store/opening';
 import * as state from '../store/state';
-import { appTexts, barTexts, figure, figureNames, planTexts, say, valveTexts } from '../text/texts';
-import type { Measures } from '../protocol';
+import { appTexts, barTexts, planTexts, say, valveTexts } from '../text/texts';
 import { Checkpoints } from './checkpoints';
+import { areaText, comparedRows, stepsOf } from './compared';
 import { Button, Section } from './parts';
 
 export function PlanPanel() {
   const figures = state.main.value?.figures;
   if (!figures) return <p class="hint">{appTexts.closing}</p>;
-  const done = figures.history.filter((entry) => !entry.undone);
   return (
     <div class="panel-body">
       <div class="row">
@@ -49,7 +39,7 @@ export function PlanPanel() {
           <li class={entry.undone ? 'undone' : ''}>{say(entry.title)}</li>
         ))}
       </ol>
-      {done.length === 0 && <p class="hint">{planTexts.nothing}</p>}
+      {stepsOf(figures).length === 0 && <p class="hint">{planTexts.nothing}</p>}
       <Checkpoints />
       {state.compared.value && <SideBySide />}
       <Section title={planTexts.notes}>
@@ -105,22 +95,10 @@ export function PlanPanel() {
   );
 }
 
-const rows: [string, (m: Measures) => number, number, string][] = [
-  [figureNames.orifice, (m) => m.orifice, 1, 'mm²'],
-  [figureNames.coaptationMean, (m) => m.coaptationMean, 1, 'mm'],
-  [figureNames.coaptationHeight, (m) => m.coaptationHeight, 1, 'mm'],
-  [figureNames.tentingHeight, (m) => m.tentingHeight, 1, 'mm'],
-  [figureNames.billowHeight, (m) => m.billowHeight, 1, 'mm'],
-  [figureNames.annulusAp, (m) => m.annulusAp, 1, 'mm'],
-  [figureNames.annulusCc, (m) => m.annulusCc, 1, 'mm'],
-  [figureNames.chordsOver, (m) => m.chordsOver, 0, ''],
-  [figureNames.maxChordTension, (m) => 1000 * m.maxChordTension, 0, 'mN'],
-];
-
 /** The open area of a valve; dots until it is measured. */
 function openArea(hash: string): string {
   const cost = openingOf(hash);
-  return cost ? `${figure(cost.openArea / 100, 2)} cm²` : '…';
+  return cost ? areaText(cost) : '…';
 }
 
 function SideBySide() {
@@ -136,15 +114,12 @@ function SideBySide() {
         </tr>
       </thead>
       <tbody>
-        {rows.map(([label, get, digits, unit]) => (
+        {comparedRows(other, now).map(([label, ...values]) => (
           <tr>
             <th scope="row">{label}</th>
-            <td>
-              {figure(get(other.measures), digits)} {unit}
-            </td>
-            <td>
-              {figure(get(now.measures), digits)} {unit}
-            </td>
+            {values.map((value) => (
+              <td>{value}</td>
+            ))}
           </tr>
         ))}
         <tr>
@@ -155,18 +130,9 @@ function SideBySide() {
         </tr>
         <tr class="wrap">
           <th scope="row">{planTexts.steps}</th>
-          <td>
-            {other.history
-              .filter((e) => !e.undone)
-              .map((e) => say(e.title))
-              .join('; ') || planTexts.none}
-          </td>
-          <td>
-            {now.history
-              .filter((e) => !e.undone)
-              .map((e) => say(e.title))
-              .join('; ') || planTexts.none}
-          </td>
+          {[other, now].map((figures) => (
+            <td>{stepsOf(figures).join('; ') || planTexts.none}</td>
+          ))}
         </tr>
       </tbody>
     </table>

@@ -4,21 +4,12 @@ import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
 import { download } from '../store/keep';
 import * as state from '../store/state';
-import {
-  figure,
-  figureNames,
-  grade,
-  reportTexts,
-  say,
-  sectionTexts,
-  t,
-  valveTexts,
-  where,
-} from '../text/texts';
+import { figure, grade, reportTexts, sectionTexts, t, valveTexts, where } from '../text/texts';
 import type { Cost, Figures } from '../protocol';
 import { openingOf } from '../store/opening';
 import { fail, request } from '../store/requests';
 import { view } from './app';
+import { areaText, comparedRows, stepsOf } from './compared';
 import { Modal } from './dialogs';
 import { Button } from './parts';
 import { boxOf, lines } from './section';
@@ -72,18 +63,6 @@ function takePictures(): Pictures {
   return { before, after };
 }
 
-const rows: [string, (f: Figures) => number, number, string][] = [
-  [figureNames.orifice, (f) => f.measures.orifice, 1, 'mm²'],
-  [figureNames.coaptationMean, (f) => f.measures.coaptationMean, 1, 'mm'],
-  [figureNames.coaptationHeight, (f) => f.measures.coaptationHeight, 1, 'mm'],
-  [figureNames.tentingHeight, (f) => f.measures.tentingHeight, 1, 'mm'],
-  [figureNames.billowHeight, (f) => f.measures.billowHeight, 1, 'mm'],
-  [figureNames.annulusAp, (f) => f.measures.annulusAp, 1, 'mm'],
-  [figureNames.annulusCc, (f) => f.measures.annulusCc, 1, 'mm'],
-  [figureNames.chordsOver, (f) => f.measures.chordsOver, 0, ''],
-  [figureNames.maxChordTension, (f) => 1000 * f.measures.maxChordTension, 0, 'mN'],
-];
-
 function escape(text: string): string {
   return text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }
@@ -92,19 +71,20 @@ function verdictOf(figures: Figures): string {
   return reportTexts.verdict(grade(figures.measures.orifice).word, where(figures));
 }
 
+const tableRow = (label: string, was: string, now: string): string =>
+  `<tr><th>${escape(label)}</th><td>${escape(was)}</td><td>${escape(now)}</td></tr>`;
+
 /** Open areas, and the gradient of the present valve, if they were measured. */
 function openingRows(then: Figures, now: Figures): string {
   const [before, after] = [openingOf(then.hash), openingOf(now.hash)];
   if (!after) return '';
-  const row = (label: string, was: string, value: string) =>
-    `<tr><th>${escape(label)}</th><td>${escape(was)}</td><td>${escape(value)}</td></tr>`;
-  const area = (cost: Cost | null) => (cost ? `${figure(cost.openArea / 100, 2)} cm²` : '');
+  const area = (cost: Cost | null) => (cost ? areaText(cost) : '');
   const gradient = (cost: Cost | null) =>
     cost && Number.isFinite(cost.gradient) ? `${figure(cost.gradient)} mmHg` : '';
   return (
-    row(valveTexts.openArea, area(before), area(after)) +
+    tableRow(valveTexts.openArea, area(before), area(after)) +
     (Number.isFinite(after.gradient)
-      ? row(reportTexts.gradient(state.flow.value ?? 0), gradient(before), gradient(after))
+      ? tableRow(reportTexts.gradient(state.flow.value ?? 0), gradient(before), gradient(after))
       : '')
   );
 }
@@ -139,16 +119,12 @@ function reportHtml(pictures: Pictures, plot: string): string {
       })
       .join('');
   const date = new Date().toLocaleString(undefined, { dateStyle: 'long', timeStyle: 'short' });
-  const steps = now.history
-    .filter((entry) => !entry.undone)
-    .map((entry) => `<li>${escape(say(entry.title))}</li>`)
+  const steps = stepsOf(now)
+    .map((step) => `<li>${escape(step)}</li>`)
     .join('');
   const opening = openingRows(then, now);
-  const table = rows
-    .map(
-      ([label, get, digits, unit]) =>
-        `<tr><th>${escape(label)}</th><td>${figure(get(then), digits)} ${unit}</td><td>${figure(get(now), digits)} ${unit}</td></tr>`,
-    )
+  const table = comparedRows(then, now)
+    .map((row) => tableRow(...row))
     .join('');
   return `<h1>${escape(state.title.value || now.valve)}</h1><p>${reportTexts.closed(date)}</p>
 <div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>

@@ -3,7 +3,7 @@ import * as state from '../store/state';
 import { figure, kinds, tableTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import { chordValue, percentOfLimit, shareOfLimit, suture } from '../notable';
-import { Section } from './parts';
+import { Section, Spread, times } from './parts';
 
 export function Scallops({ figures }: { figures: Figures }) {
   const before = state.before.value;
@@ -11,6 +11,7 @@ export function Scallops({ figures }: { figures: Figures }) {
   const waiting = figures.known !== 'all';
   const regions = waiting ? (before?.regions ?? []) : figures.regions;
   const dots = (text: string) => (waiting ? '…' : text);
+  const ranges = waiting ? undefined : state.shownSpread.value?.regions;
   return (
     <Section title={tableTexts.scallops} open>
       <table class="table" data-testid="scallops">
@@ -33,9 +34,16 @@ export function Scallops({ figures }: { figures: Figures }) {
                   {was && !waiting && Math.abs(was.coaptationMean - region.coaptationMean) >= 0.05 && (
                     <small>{tableTexts.was(figure(was.coaptationMean))}</small>
                   )}
+                  <Spread range={ranges?.[region.name]?.coaptationMean} digits={1} />
                 </td>
-                <td>{dots(region.orifice > 0 ? figure(region.orifice) : '–')}</td>
-                <td>{dots(region.billow > 0 ? figure(region.billow) : '–')}</td>
+                <td>
+                  {dots(region.orifice > 0 ? figure(region.orifice) : '–')}
+                  <Spread range={ranges?.[region.name]?.orifice} digits={1} />
+                </td>
+                <td>
+                  {dots(region.billow > 0 ? figure(region.billow) : '–')}
+                  <Spread range={ranges?.[region.name]?.billow} digits={1} />
+                </td>
               </tr>
             );
           })}
@@ -48,6 +56,7 @@ export function Scallops({ figures }: { figures: Figures }) {
 
 export function Chordae({ figures }: { figures: Figures }) {
   const chosen = state.choice.value;
+  const pulls = state.shownSpread.value?.chords;
   // the stitches of a clip or a suture are no chordae
   const chordae = figures.chords.filter((chord) => chord.kind !== suture);
   const rows = chordae
@@ -84,7 +93,10 @@ export function Chordae({ figures }: { figures: Figures }) {
                     <small>{kinds[chord.kind]}</small>
                   </th>
                   <td>{chord.strain <= 0 ? tableTexts.slack : `${percentOfLimit(share)} %`}</td>
-                  <td>{figure(chordValue('pull', chord), 0)}</td>
+                  <td>
+                    {figure(chordValue('pull', chord), 0)}
+                    <Spread range={times(pulls?.[chord.id], 1000)} digits={0} />
+                  </td>
                   <td>{figure(chord.rest)}</td>
                 </tr>
               );

@@ -3,9 +3,9 @@ import { Activity, Layers } from 'lucide-preact';
 import { measureCost, measureSpread } from '../store/measure';
 import * as state from '../store/state';
 import { appTexts, valveTexts } from '../text/texts';
-import type { Figures } from '../protocol';
+import type { Figures, Measures } from '../protocol';
 import { Devices } from './devices';
-import { Button, Figure, Section } from './parts';
+import { Button, Figure, Section, times } from './parts';
 import { SectionPlot } from './section';
 import { Chordae, Scallops } from './tables';
 
@@ -14,11 +14,8 @@ export function ValvePanel() {
   if (!figures) return <p class="hint">{appTexts.closing}</p>;
   const before = state.before.value?.measures;
   const m = figures.measures;
-  const spread = state.spread.value?.hash === figures.hash ? state.spread.value.value : null;
-  const range = (name: string, factor = 1): [number, number] | null => {
-    const row = spread?.rows.find((candidate) => candidate.name === name);
-    return row ? [factor * row.min, factor * row.max] : null;
-  };
+  const spread = state.shownSpread.value;
+  const range = (name: keyof Measures, factor = 1) => times(spread?.measures[name], factor);
   return (
     <div class="panel-body">
       <div class="figures">
@@ -94,12 +91,14 @@ export function ValvePanel() {
             before={before?.coaptationArea}
             unit="mm²"
             digits={0}
+            spread={range('coaptationArea')}
           />
           <Figure
             label={valveTexts.coaptationLeast}
             value={m.coaptationMin}
             before={before?.coaptationMin}
             unit="mm"
+            spread={range('coaptationMin')}
           />
           <Figure
             label={valveTexts.tentingVolume}
@@ -107,6 +106,7 @@ export function ValvePanel() {
             before={before?.tentingVolume}
             unit="ml"
             digits={2}
+            spread={range('tentingVolume')}
           />
           <Figure
             label={valveTexts.prolapseVolume}
@@ -114,6 +114,7 @@ export function ValvePanel() {
             before={before?.billowVolume}
             unit="ml"
             digits={2}
+            spread={range('billowVolume')}
           />
           <Figure
             label={valveTexts.saddle}
@@ -134,6 +135,7 @@ export function ValvePanel() {
             before={before && 100 * before.leafletStrain95}
             unit="%"
             digits={0}
+            spread={range('leafletStrain95', 100)}
           />
           <Figure
             label={valveTexts.stress95}
@@ -141,6 +143,7 @@ export function ValvePanel() {
             before={before && before.leafletStress95 / 1000}
             unit="kPa"
             digits={0}
+            spread={range('leafletStress95', 1e-3)}
           />
           <Figure
             label={valveTexts.strongestPull}
@@ -157,6 +160,7 @@ export function ValvePanel() {
               before={state.before.value?.heads[h]}
               unit="N"
               digits={2}
+              spread={spread?.heads[h]}
             />
           ))}
         </div>

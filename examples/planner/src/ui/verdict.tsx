@@ -5,6 +5,7 @@ import * as state from '../store/state';
 import { allowedLoad, showChord } from '../store/tour';
 import { figure, grade, valveTexts, verdictTexts, where } from '../text/texts';
 import type { Figures } from '../protocol';
+import { Spread } from './parts';
 
 export function Verdict() {
   const figures = state.figures.value;
@@ -88,6 +89,7 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
   const shape = figures.known === 'shape';
   const size = (area: number) => figure(area, digits(area));
   const before = state.before.value?.measures.orifice;
+  const spread = state.shownSpread.value?.measures;
   return (
     <>
       <div class="verdict-figure">
@@ -99,10 +101,12 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
         {before !== undefined && !shape && size(before) !== size(orifice) && (
           <span class="was">{words.was(size(before))}</span>
         )}
+        <Spread range={spread?.orifice} digits={digits(orifice)} />
       </div>
       {graded && (
         <div class="verdict-where" title={orifice > 0 ? undefined : valveTexts.coaptationMeanHelp}>
           {orifice > 0 ? words.at(where(figures)) : words.meet(figure(coaptationMean))}
+          {orifice === 0 && <Spread range={spread?.coaptationMean} digits={1} />}
         </div>
       )}
     </>

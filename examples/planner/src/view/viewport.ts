@@ -14,7 +14,7 @@ import { marksMesh } from './marks';
 import { atrialSide } from './leaflets';
 import { shownFields, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
-import { surfaceFrame, surfaceMesh, type SurfaceFrame } from './surface';
+import { surfaceFrame, surfaceMesh } from './surface';
 import { WebGl } from './webgl';
 
 /** ms without motion until the picture is drawn in full. */
@@ -48,7 +48,8 @@ export class Viewport {
   readonly times: number[] = [];
   /** A surface to show instead of a valve, during an import. */
   surface: Mesh | null = null;
-  private found: SurfaceFrame | null = null;
+  /** The frame of its views, and its radius. */
+  private found: { frame: number[]; radius: number } | null = null;
 
   constructor(
     readonly host: HTMLElement,
@@ -104,9 +105,9 @@ export class Viewport {
     const fresh = shown && this.surface?.positions !== shown.surface.points;
     if (!shown) [this.surface, this.found] = [null, null];
     else {
-      const { points, triangles } = shown.surface;
-      this.found = surfaceFrame(points, triangles, shown.points);
-      if (fresh) this.surface = surfaceMesh(points, triangles, this.found.outward);
+      const { surface, points } = shown;
+      this.found = { frame: surfaceFrame(surface.shape, points), radius: surface.shape.radius };
+      if (fresh) this.surface = surfaceMesh(surface);
     }
     this.touchScene();
     if (fresh && shown) this.go('surgeon', true);

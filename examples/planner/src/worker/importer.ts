@@ -1,9 +1,29 @@
 // A patient's surface from a file: points and triangles to show and to click, then the valve built from it.
-import type { Mvs } from 'libmvs';
-import type { BuildRequest, Finding, Surface } from '../protocol';
+import { MvsError, type Mvs } from 'libmvs';
+import type { BuildRequest, FileUnit, Finding, Surface } from '../protocol';
+import { refusals } from '../text/texts';
+import { fileUnits, millimetres } from '../units';
+import { vertexNormals } from '../view/mesh';
+import { shapeOf, widthOf } from './surface_shape';
 import { mm, scaled } from './units';
 
 const sources: Record<string, number> = { given: 1, measured: 2, guessed: 3, assumed: 4 };
+
+/** mm: widths of most open valves of adults, then of all surfaces of valves, from an infant's annulus to a ventricle around a
+ *  dilated one. */
+const widths = [
+  [30, 60],
+  [10, 200],
+];
+
+/** The unit in which a width that was read as mm is that of a valve, the first that fits; mm where none does. */
+function guessedUnit(width: number): FileUnit {
+  const fits = ([low, high]: number[]) =>
+    fileUnits.find((unit) => width * millimetres[unit] >= low && width * millimetres[unit] <= high);
+  return fits(widths[0]) ?? fits(widths[1]) ?? 'mm';
+}
+
+type Found = ReturnType<Mvs['readSurface']> & Pick<Surface, 'unitFrom'> & { inUnit: FileUnit };
 
 export class Importer {
   private points: Float64Array = new Float64Array(0);
@@ -11,11 +31,49 @@ export class Importer {
 
   constructor(private readonly mvs: Mvs) {}
 
-  read(name: string, bytes: Uint8Array, unit: string): Surface {
-    const surface = this.mvs.readSurface(bytes, name, { unit: unit as 'mm' });
-    this.points = Float64Array.from(surface.points);
-    this.triangles = Uint32Array.from(surface.triangles);
-    return { points: scaled(this.points, mm), triangles: this.triangles.slice(), format: surface.format };
+  /** Reads a file; without a unit in that which it states, else in the one that its width suggests. */
+  read(name: string, bytes: Uint8Array, asked: FileUnit | null): Surface {
+    const { inUnit, unitFrom, ...found } = asked
+      ? this.inChosen(name, bytes, asked)
+      : (this.inStated(name, bytes) ?? this.inGuessed(name, bytes));
+    if (!found.triangles.length) throw new MvsError('MVS_E_FORMAT', name, refusals.noTriangles(name));
+    this.points = Float64Array.from(found.points);
+    this.triangles = Uint32Array.from(found.triangles);
+    const points = scaled(this.points, mm);
+    return {
+      points,
+      triangles: this.triangles.slice(),
+      normals: vertexNormals(points, this.triangles),
+      format: found.format,
+      unit: inUnit,
+      unitFrom,
+      width: widthOf(points),
+      shape: shapeOf(points, this.triangles),
+    };
+  }
+
+  /** The library knows no inches. */
+  private inChosen(name: string, bytes: Uint8Array, inUnit: FileUnit): Found {
+    const found = this.mvs.readSurface(bytes, name, { unit: inUnit === 'inch' ? 'mm' : inUnit });
+    const points = inUnit === 'inch' ? found.points.map((v) => v * millimetres.inch) : found.points;
+    return { ...found, points, inUnit, unitFrom: 'choice' };
+  }
+
+  /** In the unit of the file; null where it states none. */
+  private inStated(name: string, bytes: Uint8Array): Found | null {
+    try {
+      const found = this.mvs.readSurface(bytes, name);
+      return { ...found, inUnit: found.unit as FileUnit, unitFrom: 'file' };
+    } catch (error) {
+      if (error instanceof MvsError && error.part === 'options.unit') return null;
+      throw error;
+    }
+  }
+
+  private inGuessed(name: string, bytes: Uint8Array): Found {
+    const found = this.inChosen(name, bytes, 'mm');
+    const inUnit = guessedUnit(widthOf(found.points) * mm);
+    return { ...(inUnit === 'mm' ? found : this.inChosen(name, bytes, inUnit)), unitFrom: 'width' };
   }
 
   /** The OBJ file of a valve that is built from the surface read last. */

@@ -1,6 +1,14 @@
 // The valve of the page: one simulator that holds the plan, and a second one for everything that must not
 // change it: previews, the opening slider, a hand in the valve.
-import { DIASTOLE_PA, MvsError, SettleFlags, SYSTOLE_PA, type Mvs, type Simulator, type Snapshot } from 'libmvs';
+import {
+  DIASTOLE_PA,
+  MvsError,
+  SettleFlags,
+  SYSTOLE_PA,
+  type Mvs,
+  type Simulator,
+  type Snapshot,
+} from 'libmvs';
 import type { CostRequest } from '../calls';
 import type {
   CheckpointList,
@@ -18,6 +26,7 @@ import { Checkpoints } from './checkpoints';
 import { libraryFields } from './operations';
 import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
 import { sectionOf } from './section';
+import { spreadOf } from './spread';
 import { ml, mm, mm2, mmHg } from './units';
 
 /** Settles run in slices of this length, s, so that a cancel is heard. */
@@ -279,28 +288,7 @@ export class Planner {
         settleOptions,
       );
       try {
-        const { summary } = ensemble;
-        const low = ensemble.measure('min');
-        const high = ensemble.measure('max');
-        const row = (name: string, field: keyof typeof low, factor: number) => ({
-          name,
-          min: (low[field] as number) * factor,
-          max: (high[field] as number) * factor,
-        });
-        return {
-          members: summary.members,
-          converged: summary.converged,
-          equilibria: summary.equilibria,
-          nodeMax: summary.node_max * mm,
-          rows: [
-            row('orifice', 'regurgitant_orifice_area', mm2),
-            row('coaptationMean', 'coaptation_length_mean', mm),
-            row('coaptationHeight', 'coaptation_height', mm),
-            row('tentingHeight', 'tenting_height', mm),
-            row('billowHeight', 'billow_height', mm),
-            row('maxChordTension', 'max_chord_tension', 1),
-          ],
-        };
+        return spreadOf(this.mvs, ensemble);
       } finally {
         ensemble.dispose();
       }

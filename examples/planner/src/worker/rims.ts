@@ -2,14 +2,18 @@
 
 /** Loops of the edges that belong to one triangle, each as its points in turn. */
 export function rims(triangles: Uint32Array): number[][] {
-  const count = new Map<string, [number, number]>();
+  let points = 0;
+  for (const point of triangles) points = Math.max(points, point + 1);
+  // edges that were met once, as numbers
+  const single = new Set<number>();
   for (let t = 0; t < triangles.length; ++t) {
     const [a, b] = [triangles[t], triangles[t % 3 === 2 ? t - 2 : t + 1]];
-    const key = a < b ? `${a} ${b}` : `${b} ${a}`;
-    if (!count.delete(key)) count.set(key, [a, b]);
+    const key = Math.min(a, b) * points + Math.max(a, b);
+    if (!single.delete(key)) single.add(key);
   }
   const beside = new Map<number, number[]>();
-  for (const [a, b] of count.values()) {
+  for (const key of single) {
+    const [a, b] = [Math.floor(key / points), key % points];
     beside.set(a, [...(beside.get(a) ?? []), b]);
     beside.set(b, [...(beside.get(b) ?? []), a]);
   }

@@ -1,0 +1,31 @@
+// The figures of two valves that stand side by side, in the comparison of plans and in the report.
+import { figure, figureNames, say } from '../text/texts';
+import type { Cost, Figures, Measures } from '../protocol';
+
+/** Name, value, digits, unit. */
+const rows: [string, (m: Measures) => number, number, string][] = [
+  [figureNames.orifice, (m) => m.orifice, 1, 'mm²'],
+  [figureNames.coaptationMean, (m) => m.coaptationMean, 1, 'mm'],
+  [figureNames.coaptationHeight, (m) => m.coaptationHeight, 1, 'mm'],
+  [figureNames.tentingHeight, (m) => m.tentingHeight, 1, 'mm'],
+  [figureNames.billowHeight, (m) => m.billowHeight, 1, 'mm'],
+  [figureNames.annulusAp, (m) => m.annulusAp, 1, 'mm'],
+  [figureNames.annulusCc, (m) => m.annulusCc, 1, 'mm'],
+  [figureNames.chordsOver, (m) => m.chordsOver, 0, ''],
+  [figureNames.maxChordTension, (m) => 1000 * m.maxChordTension, 0, 'mN'],
+];
+
+/** Name and both values of each figure, with their units. */
+export function comparedRows(one: Figures, other: Figures): [string, string, string][] {
+  return rows.map(([name, get, digits, unit]) => {
+    const text = ({ measures }: Figures) => `${figure(get(measures), digits)} ${unit}`.trim();
+    return [name, text(one), text(other)];
+  });
+}
+
+/** The names of the operations of a plan. */
+export const stepsOf = ({ history }: Figures): string[] =>
+  history.filter((entry) => !entry.undone).map((entry) => say(entry.title));
+
+/** An open area in words. */
+export const areaText = (cost: Cost): string => `${figure(cost.openArea / 100, 2)} cm²`;

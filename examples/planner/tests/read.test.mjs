@@ -1,0 +1,109 @@
+// What is read and moved: the spread over foldings beside its figures, the map of what a repair moved, the pull under the pointer,
+// a section plane that is dragged.
+import assert from 'node:assert/strict';
+import { beforeEach, describe, it } from 'node:test';
+import { closed, sharePlanner } from './browser.mjs';
+import {
+  apply,
+  begin,
+  cameraRests,
+  chordNames,
+  chordPlace,
+  openPanel,
+  startAfresh,
+  undo,
+} from './person.mjs';
+
+describe('planner read and touched', () => {
+  let page;
+  sharePlanner((opened) => ({ page } = opened));
+  beforeEach(() => startAfresh(page));
+
+  it('shows_the_spread_over_foldings_beside_every_figure_that_it_touches', async () => {
+    await openPanel(page, 'Valve');
+    assert.equal(await page.locator('.spread').count(), 0);
+    await page.locator('summary', { hasText: 'Physics' }).click();
+    await page.getByRole('button', { name: /How certain/ }).click();
+    await page.getByText(/closures came to rest/).waitFor();
+    await closed(page);
+    const { spread, measures, regions, chords, heads } = await page.evaluate(() => {
+      const { state } = window.planner;
+      return { spread: state.spread.value.value, ...state.main.value.figures };
+    });
+    assert.ok(spread.converged > 4);
+    // the first closure is the one of the page; the numbers of the library are converted alike
+    const holds = (range, value, name) =>
+      assert.ok(range[0] <= value && value <= range[1], `${name}: ${value} in ${range}`);
+    for (const [name, range] of Object.entries(spread.measures)) holds(range, measures[name], name);
+    for (const region of regions)
+      holds(spread.regions[region.name].coaptationMean, region.coaptationMean, region.name);
+    for (const { id, name, tension } of chords) holds(spread.chords[id], tension, name);
+    heads.forEach((pull, h) => holds(spread.heads[h], pull, `head ${h}`));
+    // the annulus is prescribed: folds do not move it
+    assert.equal(spread.measures.annulusAp[0], spread.measures.annulusAp[1]);
+    // on the card, in the figures, in the table of the scallops and in that of the chordae
+    await page.locator('summary', { hasText: /^Chordae \(/ }).click();
+    for (const part of ['verdict', 'scallops', 'chords']) {
+      const shown = await page.getByTestId(part).locator('.spread').allInnerTexts();
+      assert.ok(shown.length && shown.every((text) => /^[\d.]+ to [\d.]+$/.test(text)), `${part}: ${shown}`);
+    }
+    assert.ok((await page.locator('.figure .spread').count()) > 5);
+    // the figures of another valve have none
+    await begin(page, 'ring');
+    assert.equal(await page.locator('.spread').count(), 0);
+    await page.keyboard.press('Escape');
+  });
+
+  it('colours_what_a_repair_has_moved', async () => {
+    const colours = () =>
+      page.evaluate(() => new Set(Array.from(window.planner.viewport.scene().meshes[0].front, String)).size);
+    await page.getByLabel('Colours').selectOption({ label: 'Change' });
+    await page.waitForTimeout(200);
+    // nothing has moved: one colour, of three numbers
+    assert.ok((await colours()) <= 3);
+    await begin(page, 'band');
+    await apply(page);
+    await page.waitForTimeout(200);
+    assert.ok((await colours()) > 100);
+    assert.match(await page.getByTestId('scale').innerText(), /Moved by the repair[^]*mm/);
+    await page.getByLabel('Colours').selectOption({ label: 'Tissue' });
+    await undo(page);
+  });
+
+  it('says_the_pull_of_the_chord_under_the_pointer', async () => {
+    await page.keyboard.press('2');
+    await cameraRests(page);
+    const said = new Set();
+    for (const name of (await chordNames(page)).slice(0, 12)) {
+      const { middle } = await chordPlace(page, name);
+      await page.mouse.move(middle.x, middle.y);
+      said.add(await page.locator('.canvas canvas').getAttribute('title'));
+    }
+    said.delete('');
+    said.delete(null);
+    assert.ok(said.size > 2, [...said].join());
+    for (const text of said) assert.match(text, /mm without pull, (pull \d+\smN, stretch [\d.]+\s%|slack)/);
+  });
+
+  it('drags_the_section_plane', async () => {
+    await page.keyboard.press('4');
+    await cameraRests(page);
+    // seen at a slant, so that the plane moves in the picture
+    await page.keyboard.press('3');
+    await cameraRests(page);
+    const name = page.locator('.label-handle', { hasText: 'Section plane' });
+    const { x, y, height } = await name.boundingBox();
+    const at = () => page.evaluate(() => window.planner.state.sectionAt.value);
+    const before = await at();
+    await page.mouse.move(x - 24, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + 36, y + height / 2, { steps: 6 });
+    await page.mouse.up();
+    assert.ok(Math.abs((await at()) - before) > 3, `from ${before} to ${await at()} mm`);
+    await openPanel(page, 'Valve');
+    await page.locator('summary', { hasText: 'Section through the valve' }).click();
+    await page.getByRole('button', { name: 'To the middle' }).click();
+    assert.equal(await at(), 0);
+    await page.keyboard.press('x');
+  });
+});
