@@ -123,7 +123,7 @@ template <typename T>
 bool BlockFactor<T>::factorise(const BlockMatrix &matrix) {
   if (is_compact_) return factorise_part(matrix, 0, 1);
   return pay_for(workers(), products() * block_product_us) ? factorise_together(matrix)
-                                                         : factorise_part(matrix, 0, 1);
+                                                           : factorise_part(matrix, 0, 1);
 }
 
 // The panel of supernode k in 16 bits.
