@@ -175,8 +175,8 @@ inline constexpr double max_rate = 1e-3;
 // N/m, of a branch point: below it the point is left out. It is that of a chord of 10 mm under
 // 1e-5 N, a tenth of the force at which a valve counts as at rest. Leaflets have 0.05 and more.
 inline constexpr double loose_stiffness = 1e-3;
-// Relative residual of eigenpairs, and their iterations at most. The error of a lone eigenvalue is of
-// second order in it, of one among others as large as it: with 1e-2 a margin was 1.01 % off.
+// Relative residual of eigenpairs, and their iterations at most. The error of a lone eigenvalue is
+// of second order in it, of one among others as large as it: with 1e-2 a margin was 1.01 % off.
 inline constexpr double error = 5e-3;
 // The same of the rightmost eigenvalue where the factorisation has proved stability, so that it
 // decides nothing: 0.2 % off at most in 68 closures with a removed chord (300 to 1,700 vertices,
