@@ -16,7 +16,7 @@ constexpr double separation_margin = 1e-9;
 
 // Whether a plane normal to the difference of the centroids separates two triangles.
 bool centroids_separate(const std::array<Vec3, 3> &s, const std::array<Vec3, 3> &t) {
-  const Vec3 origin = s[0];
+  const Vec3 &origin = s[0];
   const Vec3 way = (s[0] - t[0]) + (s[1] - t[1]) + (s[2] - t[2]);
   double least = 0, most = (t[0] - origin).dot(way);
   for (size_t k = 1; k < 3; ++k) {
