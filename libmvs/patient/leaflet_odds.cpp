@@ -3,11 +3,11 @@
 // errors.
 #include "patient/leaflet_odds.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
+#include "linalg/small_solve.h"
 
 namespace mvs::core {
 namespace {
@@ -78,7 +78,7 @@ TwoLeaflets two_leaflets(const std::vector<double> &height, double median, size_
     right += h * row;
     all += h * h;
   }
-  const Eigen::Vector4d found = normal.inverse() * right;
+  const Eigen::Vector4d found = solve_positive<4>(normal, right);
   const double end = 0.5 * (found[0] + found[1]);
   return {end, end + found[2], end + found[3], std::max(0.0, all - found.dot(right))};
 }
