@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Grid, Points, Volume, box_of, crop, isotropic, spacing_of
-from .mesh import (Sheet, areas, boundary_loops, handles, is_crumpled, largest_piece, loop_length,
-                   pieces)
+from .mesh import Sheet, areas, handles, in_largest_piece, is_crumpled, largest_piece, loop_length, loops_by_length
 from .needs import need
 from .reading import LabelMap
 from .sheet import SheetSettings, mid_surface
@@ -262,8 +261,7 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
 def _has_ragged_hole(sheet: Sheet, hole: float) -> bool:
     """Whether a rim beside the two longest is long or crumpled: labels with shreds, or a strand of tissue
     below an eaten free edge."""
-    loops = sorted(boundary_loops(sheet.triangles), key=lambda loop: -loop_length(sheet.points, loop))
-    for loop in loops[2:]:
+    for loop in loops_by_length(sheet)[2:]:
         length = loop_length(sheet.points, loop)
         if length > np.pi * hole or length > hole and is_crumpled(sheet.points, loop, length):
             return True
@@ -342,9 +340,7 @@ def _one_piece_each(sheet: Sheet, leaflet: NDArray[np.uint32]) -> float:
             rows = np.flatnonzero(leaflet == label)
             if not len(rows):
                 continue
-            piece = pieces(sheet.triangles[rows], len(sheet.points))
-            area = np.bincount(piece, size[rows])
-            others = rows[piece != area.argmax()]
+            others = rows[~in_largest_piece(sheet, rows, size[rows])]
             leaflet[others] = ANTERIOR + POSTERIOR - label
             turned += float(size[others].sum())
         if turned == before:

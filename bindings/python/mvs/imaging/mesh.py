@@ -136,6 +136,11 @@ def loop_length(points: Points, loop: NDArray[np.int64]) -> float:
     return float(np.linalg.norm(points[loop] - points[np.roll(loop, -1)], axis=1).sum())
 
 
+def loops_by_length(sheet: Sheet) -> list[NDArray[np.int64]]:
+    """The boundary loops, the longest first."""
+    return sorted(boundary_loops(sheet.triangles), key=lambda loop: -loop_length(sheet.points, loop))
+
+
 def spanned(points: Points, loop: NDArray[np.int64]) -> float:
     """The area in m2 that a loop spans."""
     x = points[loop] - points[loop].mean(axis=0)
@@ -201,6 +206,12 @@ def smooth_rims(sheet: Sheet, passes: int) -> None:
             for step in (0.5, -0.53):
                 line = line + step * ((np.roll(line, 1, 0) + np.roll(line, -1, 0)) / 2 - line)
         sheet.points[loop] = line
+
+
+def in_largest_piece(sheet: Sheet, rows: NDArray[np.int64], area: Points) -> NDArray[np.bool_]:
+    """Which of some triangles, given by their rows and areas, are in the piece of the largest area among them."""
+    piece = pieces(sheet.triangles[rows], len(sheet.points))
+    return np.asarray(piece == np.bincount(piece, area).argmax())
 
 
 def largest_piece(sheet: Sheet) -> tuple[Sheet, list[float]]:

@@ -9,7 +9,7 @@ from mvs import ArgumentError, FindingSource
 from mvs.mesh import shortest_paths
 from .findings import finding
 from .labels import Leaflets, LabelSettings
-from .mesh import (Points, areas, boundary_loops, edges_with_triangles, loop_length, pieces, spanned,
+from .mesh import (Points, areas, edges_with_triangles, in_largest_piece, loop_length, loops_by_length, pieces, spanned,
                    unique_edges)
 
 
@@ -30,7 +30,7 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
             "no whole valve in the image, or its spacing is wrong", "image")
     cut_spurs(found)
     sheet = found.sheet
-    loops = sorted(boundary_loops(sheet.triangles), key=lambda loop: -loop_length(sheet.points, loop))
+    loops = loops_by_length(sheet)
     length = [loop_length(sheet.points, loop) for loop in loops]
     small = [k for k, l in enumerate(length) if k >= 2 and l <= np.pi * settings.hole]
     rims = [k for k in range(len(loops))
@@ -78,7 +78,7 @@ def cut_spurs(found: Leaflets) -> None:
     within that width of them. Rims of holes without spurs stay as they are.
     """
     sheet = found.sheet
-    loops = sorted(boundary_loops(sheet.triangles), key=lambda loop: -loop_length(sheet.points, loop))
+    loops = loops_by_length(sheet)
     if len(loops) < 3:
         return
     half = 0.5 * SPUR_WIDTH * float(np.median(sheet.values["thickness"]))
@@ -88,15 +88,14 @@ def cut_spurs(found: Leaflets) -> None:
     if not len(rows):
         return
     size = areas(sheet.points, sheet.triangles)
-    piece = pieces(sheet.triangles[rows], len(sheet.points))
-    largest = rows[piece == np.bincount(piece, size[rows]).argmax()]
+    largest = rows[in_largest_piece(sheet, rows, size[rows])]
     # paths along edges are up to a sixth longer than straight ones (in regular triangles), and the first points
     # beyond a distance lie an edge beyond it
     edge = np.percentile(np.linalg.norm(sheet.points[edges[:, 0]] - sheet.points[edges[:, 1]], axis=1), 99)
     lost = _far_from(sheet.points, edges, np.unique(sheet.triangles[largest]), 7 / 6 * half + float(edge))
     kept = ~lost[sheet.triangles].any(axis=1)
-    label = pieces(sheet.triangles[kept], len(sheet.points))
-    kept[np.flatnonzero(kept)[label != np.bincount(label, size[kept]).argmax()]] = False
+    rows = np.flatnonzero(kept)
+    kept[rows] = in_largest_piece(sheet, rows, size[rows])
     ribbons = np.flatnonzero(~kept)
     piece = pieces(sheet.triangles[ribbons], len(sheet.points))
     area = np.bincount(piece, size[ribbons])
