@@ -1,5 +1,5 @@
 /* Convex tools through the C interface: a hook of three bodies is added, turned, felt, saved and
- * replayed; bodies of all kinds are read back. body_faults.c has what is refused. */
+ * replayed; bodies of all kinds are read back. body_faults.c tests the refusals. */
 #include <math.h>
 #include <stdlib.h>
 

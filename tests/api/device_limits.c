@@ -1,4 +1,4 @@
-/* Haptic devices: what is refused, limits that can only be lowered, the trace of every tick. */
+/* Haptic devices: refusals, limits that can only be lowered, the trace of every tick. */
 #include "recorded_hand.h"
 
 static void what_makes_no_sense_is_refused(void) {

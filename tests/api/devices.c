@@ -1,5 +1,5 @@
 /* A haptic device that plays a recording holds a valve: grasps, forces, tools, and the state it
- * leaves. device_chords.c has chordae in the hand, device_limits.c what is refused and limited. */
+ * leaves. device_chords.c tests chordae in the hand, device_limits.c refusals and limits. */
 #include "recorded_hand.h"
 
 /* Plays the grasp to its end; returns the hash of the valve at that time. */

@@ -1,5 +1,5 @@
 /* Operations: undo and redo are exact, every operation ends rest, groups, checkpoints.
- * operation_faults.c has what is refused, operation_chords.c the lengths of chordae. */
+ * operation_faults.c tests refusals, operation_chords.c the lengths of chordae. */
 #include "examples.h"
 
 static void every_operation_can_be_taken_back_and_done_again(void) {

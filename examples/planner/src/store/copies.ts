@@ -1,6 +1,6 @@
-// Copies of sessions, and of surfaces with clicked points, in the browser, for recovery after a crash. Every plan has a copy under a key of its own, so that
-// neither a second tab nor the next plan writes over it. A tab holds a lock on the keys it writes to: copies without a
-// held lock were left behind. A browser without locks offers all of them.
+// Copies of sessions, and of surfaces with clicked points, in the browser, for recovery after a crash. Every plan has a
+// copy under a key of its own, so that neither a second tab nor the next plan writes over it. A tab holds a lock on the
+// keys it writes to: copies without a held lock were left behind. A browser without locks offers all of them.
 import type { FileUnit } from '../protocol';
 import type { Imported } from './state';
 

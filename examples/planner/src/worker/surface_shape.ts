@@ -1,6 +1,6 @@
 // The shape of a patient's surface before anything on it is clicked: its annulus, the axis into the atrium and the narrow
-// direction across it, guessed; its width. Computed in the worker: for
-// 100,000 triangles it takes longer than a page may be without an answer.
+// direction across it, guessed; its width. Computed in the worker: for 100,000 triangles it takes longer than a page may be
+// without an answer.
 import type { SurfaceShape } from '../protocol';
 import { cross, dot, minus, scale, unit, type Vector } from '../vector';
 import { rims } from './rims';
