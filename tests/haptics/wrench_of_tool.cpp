@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <mvs/sim.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
 
@@ -28,7 +29,7 @@ struct PushedTool {
     state = initial_state(*model);
     state.load = {MVS_SYSTOLE_PA, 1};
     settle(state);
-    orientation = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), Vec3(0.6, 0, 0.8));
+    orientation = Eigen::AngleAxisd(std::asin(0.6), Vec3::UnitY());
     for (const uint32_t node : {60u, 100u, 140u, 180u, 220u, 260u, 300u}) {
       if (place(state.x.get()[node])) return;
     }

@@ -3,17 +3,13 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <random>
 
 #include "linalg/small_eigen.h"
+#include "tests/dense.h"
 
 namespace mvs::core::test {
 namespace {
-
-using Dense = Eigen::MatrixXd;
 
 class Numbers {
  public:
@@ -47,14 +43,14 @@ Eigen::VectorXd flat(const BlockVector &rows) {
 }
 
 LinearMap product_with(const Dense &a) {
-  return [a](const BlockVector &v, BlockVector &y) { y = rows_of(a * flat(v)); };
+  return [a](const BlockVector &v, BlockVector &y) { y = rows_of(apply(a, flat(v))); };
 }
 LinearMap solution_with(const Dense &a) {
-  return product_with(a.inverse());
+  return product_with(inverse(a));
 }
 
 std::complex<double> leftmost_of(const Dense &a) {
-  const auto values = a.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(a);
   int k = 0;
   for (int i = 1; i < values.size(); ++i) {
     if (values[i].real() < values[k].real()) k = i;
@@ -65,8 +61,7 @@ std::complex<double> leftmost_of(const Dense &a) {
 // The leftmost eigenvalue of K v = kappa B v, its preconditioner the symmetric part of K.
 Eigenpair leftmost(const Dense &k, const std::vector<double> &weight, uint32_t most = 60) {
   const Dense symmetric = 0.5 * (k + k.transpose());
-  const double least =
-      Eigen::SelfAdjointEigenSolver<Dense>(symmetric, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double least = symmetric_eigenvalues(symmetric)[0];
   const Dense near = symmetric + std::max(0.0, 1 - least) * Dense::Identity(k.rows(), k.cols());
   const BlockVector start = rows_of(Eigen::VectorXd::LinSpaced(k.rows(), 1, 2));
   return leftmost_eigenvalue(product_with(k), solution_with(near), weight, {start}, {1e-8, most});
@@ -84,10 +79,9 @@ TEST_CASE("the_smallest_eigenvalue_of_a_tridiagonal_matrix_is_that_of_dense_alge
       if (k + 1 < n) beside.push_back(a(k, k + 1) = a(k + 1, k) = numbers());
     }
     const SmallestEigen found = smallest_eigen(diagonal, beside);
-    const Eigen::SelfAdjointEigenSolver<Dense> dense(a);
-    CHECK(found.value == doctest::Approx(dense.eigenvalues()[0]).epsilon(1e-12));
+    CHECK(found.value == doctest::Approx(symmetric_eigenvalues(a)[0]).epsilon(1e-12));
     const Eigen::Map<const Eigen::VectorXd> v(found.vector.data(), n);
-    CHECK((a * v - found.value * v).norm() < 1e-12);
+    CHECK((apply(a, v) - found.value * v).norm() < 1e-12);
     CHECK(v.norm() == doctest::Approx(1).epsilon(1e-14));
   }
 }
@@ -100,14 +94,12 @@ TEST_CASE("the_leftmost_eigenvalue_of_a_small_matrix_is_that_of_dense_algebra") 
     const std::complex<double> value = leftmost_of(a);
     CHECK(found.real == doctest::Approx(value.real()).epsilon(1e-9));
     CHECK(found.imaginary == doctest::Approx(std::abs(value.imag())).epsilon(1e-9));
-    Eigen::VectorXcd v(n);
-    for (int k = 0; k < n; ++k) {
-      v[k] = {found.vector_real[static_cast<size_t>(k)],
-              found.vector_imaginary[static_cast<size_t>(k)]};
-    }
-    const std::complex<double> own(found.real, found.imaginary);
-    CHECK((a.cast<std::complex<double>>() * v - own * v).norm() < 1e-12 * n);
-    CHECK(v.norm() == doctest::Approx(1).epsilon(1e-14));
+    const Eigen::Map<const Eigen::VectorXd> re(found.vector_real.data(), n),
+        im(found.vector_imaginary.data(), n);
+    const double a_re = found.real, a_im = found.imaginary;
+    CHECK((apply(a, re) - a_re * re + a_im * im).norm() < 1e-12 * n);
+    CHECK((apply(a, im) - a_re * im - a_im * re).norm() < 1e-12 * n);
+    CHECK(std::hypot(re.norm(), im.norm()) == doctest::Approx(1).epsilon(1e-14));
   }
 }
 
@@ -127,15 +119,15 @@ TEST_CASE("lanczos_finds_the_smallest_eigenvalue_of_a_large_matrix") {
   Numbers numbers(3);
   for (const int n : {3, 30, 150}) {
     const Dense factor = numbers.matrix(n);
-    const Dense a = factor * factor.transpose() + 1e-3 * Dense::Identity(n, n);
-    const Eigen::SelfAdjointEigenSolver<Dense> dense(a);
+    const Dense a = product(factor, factor.transpose()) + 1e-3 * Dense::Identity(n, n);
+    const SymmetricEigen dense = symmetric_eigen(a);
     std::vector<BlockVector> basis;
     const Eigenpair found = smallest_eigenvalue(solution_with(a), rows_of(Eigen::VectorXd::Ones(n)),
                                                 {1e-6, 100}, basis);
     CHECK(found.error <= 1e-6);
-    CHECK(found.real == doctest::Approx(dense.eigenvalues()[0]).epsilon(1e-9));
+    CHECK(found.real == doctest::Approx(dense.values[0]).epsilon(1e-9));
     const Eigen::VectorXd v = flat(found.vector);
-    CHECK(std::abs(v.dot(dense.eigenvectors().col(0))) == doctest::Approx(1).epsilon(1e-6));
+    CHECK(std::abs(v.dot(dense.vectors.col(0))) == doctest::Approx(1).epsilon(1e-6));
     CHECK(basis.size() == found.iterations);
   }
 }
@@ -155,7 +147,7 @@ TEST_CASE("davidson_finds_the_leftmost_eigenvalue_of_an_unsymmetric_pencil") {
   Numbers numbers(4);
   for (const int n : {3, 30, 90}) {
     const Dense factor = numbers.matrix(n), other = numbers.matrix(n);
-    const Dense k = factor * factor.transpose() + (other - other.transpose());
+    const Dense k = product(factor, factor.transpose()) + (other - other.transpose());
     std::vector<double> weight;
     Eigen::VectorXd inverse(n);
     for (int r = 0; r < n / 3; ++r) {
@@ -180,13 +172,12 @@ TEST_CASE("zieglers_column_flutters_above_its_critical_load") {
     k << 2 - p, p - 1, -1, 1;
     return k;
   };
-  Dense mass(2, 2);
-  mass << 3, 1, 1, 1;
-  // in coordinates with a unit mass matrix
-  const Dense l = mass.llt().matrixL();
+  // in coordinates with a unit mass matrix: the Cholesky factor of (3 1; 1 1)
+  Dense l = Dense::Zero(2, 2);
+  l << std::sqrt(3.0), 0, std::sqrt(1 / 3.0), std::sqrt(2 / 3.0);
   const auto pencil = [&](double p) {
     Dense k = 9 * Dense::Identity(3, 3);
-    k.topLeftCorner<2, 2>() = l.inverse() * stiffness(p) * l.inverse().transpose();
+    k.topLeftCorner<2, 2>() = product(product(inverse(l), stiffness(p)), inverse(l).transpose());
     return k;
   };
   const double critical = 3.5 - std::sqrt(2.0);
@@ -195,7 +186,7 @@ TEST_CASE("zieglers_column_flutters_above_its_critical_load") {
   CHECK(leftmost(pencil(1.001 * critical), {1}).real > 0);
   const auto least = [&](double p) {
     const Dense k = stiffness(p);
-    return Eigen::SelfAdjointEigenSolver<Dense>(0.5 * (k + k.transpose())).eigenvalues()[0];
+    return symmetric_eigenvalues(0.5 * (k + k.transpose()))[0];
   };
   // det Ks = (2 - p) (2 + p) / 4
   CHECK(least(1.999) > 0);

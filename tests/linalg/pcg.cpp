@@ -1,10 +1,10 @@
 // Preconditioned conjugate gradients.
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 
 #include "linalg/pcg.h"
+#include "tests/dense.h"
 #include "tests/solve/bench.h"
 
 using namespace mvs::core;
@@ -28,16 +28,16 @@ Eigen::VectorXd powers_of(double base) {
 }
 
 // A symmetric matrix with these eigenvalues.
-Eigen::MatrixXd with_spectrum(Random &random, const Eigen::VectorXd &values) {
-  Eigen::MatrixXd any(values.size(), values.size());
+Dense with_spectrum(Random &random, const Eigen::VectorXd &values) {
+  Dense any(values.size(), values.size());
   for (Eigen::Index i = 0; i < any.size(); ++i) any(i) = random(-1, 1);
-  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(any).householderQ();
-  return q * values.asDiagonal() * q.transpose();
+  const Dense q = orthonormal(any);
+  return product(q * values.asDiagonal(), q.transpose());
 }
 
-PcgResult solve(const Eigen::MatrixXd &a, const Positions &b, Positions &x, const PcgGoal &goal) {
+PcgResult solve(const Dense &a, const Positions &b, Positions &x, const PcgGoal &goal) {
   Pcg pcg;
-  const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(a * flat(v)); };
+  const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(apply(a, flat(v))); };
   const auto none_there = [](const Positions &r, Positions &z) { z = r; };
   return pcg.solve(multiply, none_there, b, x, goal);
 }
@@ -49,7 +49,7 @@ TEST_CASE("conjugate_gradients_end_after_as_many_iterations_as_eigenvalues") {
   Random random(11);
   Eigen::VectorXd values(30);
   for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = 1.0 + static_cast<double>(i % 3);
-  const Eigen::MatrixXd a = with_spectrum(random, values);
+  const Dense a = with_spectrum(random, values);
   const Positions b = random.vectors(10, 1);
   Positions x;
   const PcgResult two = solve(a, b, x, {1e-12, 2});
@@ -58,17 +58,17 @@ TEST_CASE("conjugate_gradients_end_after_as_many_iterations_as_eigenvalues") {
   const PcgResult three = solve(a, b, x, {1e-12, 30});
   CHECK(three.iterations == 3);
   // rounding of thirty sums
-  CHECK((a * flat(x) - flat(b)).norm() <= 1e-12 * flat(b).norm());
+  CHECK((apply(a, flat(x)) - flat(b)).norm() <= 1e-12 * flat(b).norm());
 }
 
 TEST_CASE("conjugate_gradients_report_the_true_residual") {
   Random random(12);
-  const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.4));
+  const Dense a = with_spectrum(random, powers_of(1.4));
   const Positions b = random.vectors(10, 1);
   for (const uint32_t most : {1u, 4u, 9u}) {
     Positions x;
     const PcgResult result = solve(a, b, x, {1e-12, most});
-    const double left = (a * flat(x) - flat(b)).norm() / flat(b).norm();
+    const double left = (apply(a, flat(x)) - flat(b)).norm() / flat(b).norm();
     CHECK(result.iterations == most);
     CHECK(result.error == doctest::Approx(left).epsilon(1e-8));
     CHECK(flat(b).dot(flat(x)) > 0);  // downhill
@@ -79,33 +79,33 @@ TEST_CASE("conjugate_gradients_report_the_true_residual") {
 // removes it.
 TEST_CASE("conjugate_gradients_start_from_a_guess_that_leads_downhill") {
   Random random(16);
-  const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.4));
-  const Eigen::LLT<Eigen::MatrixXd> exact(a);
+  const Dense a = with_spectrum(random, powers_of(1.4));
+  const Dense exact = inverse(a);
   const Positions b = random.vectors(10, 1);
-  const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(a * flat(v)); };
+  const auto multiply = [&](const Positions &v, Positions &y) { y = rows_of(apply(a, flat(v))); };
   const auto precondition = [&](const Positions &r, Positions &z) {
-    z = rows_of(exact.solve(flat(r)));
+    z = rows_of(apply(exact, flat(r)));
   };
-  const double size = std::sqrt(flat(b).dot(exact.solve(flat(b))));
+  const double size = std::sqrt(flat(b).dot(apply(exact, flat(b))));
   Pcg pcg;
   Positions x;
-  const Positions solution = rows_of(0.3 * exact.solve(flat(b)));
+  const Positions solution = rows_of(0.3 * apply(exact, flat(b)));
   for (const Positions &guess : {solution, random.vectors(10, 1), rows_of(-flat(solution))}) {
     const PcgResult result = pcg.solve(multiply, precondition, b, guess, x, {1e-3, 0});
-    const Eigen::VectorXd left = flat(b) - a * flat(x);
+    const Eigen::VectorXd left = flat(b) - apply(a, flat(x));
     CHECK(flat(b).dot(flat(x)) >= 0);
     // cancellation where nearly all of b is removed
-    CHECK(std::abs(result.error - std::sqrt(left.dot(exact.solve(left))) / size) <= 1e-7);
+    CHECK(std::abs(result.error - std::sqrt(left.dot(apply(exact, left))) / size) <= 1e-7);
   }
   CHECK(flat(x).isZero(0));  // a guess that leads uphill is discarded
   // one iteration is made although the guess meets the goal, and removes the rest of the error
   CHECK(pcg.solve(multiply, precondition, b, solution, x, {0.9, 9}).iterations == 1);
-  CHECK((a * flat(x) - flat(b)).norm() <= 1e-12 * flat(b).norm());
+  CHECK((apply(a, flat(x)) - flat(b)).norm() <= 1e-12 * flat(b).norm());
 }
 
 TEST_CASE("conjugate_gradients_give_up_a_goal_out_of_reach") {
   Random random(14);
-  const Eigen::MatrixXd a = with_spectrum(random, powers_of(2.0));
+  const Dense a = with_spectrum(random, powers_of(2.0));
   const Positions b = random.vectors(10, 1);
   Positions x;
   const PcgResult given_up = solve(a, b, x, {1e-3, 8, 0.1});
@@ -116,7 +116,7 @@ TEST_CASE("conjugate_gradients_give_up_a_goal_out_of_reach") {
 
 TEST_CASE("slow_conjugate_gradients_end_with_a_lower_accuracy") {
   Random random(15);
-  const Eigen::MatrixXd a = with_spectrum(random, powers_of(1.1));
+  const Dense a = with_spectrum(random, powers_of(1.1));
   const Positions b = random.vectors(10, 1);
   Positions x;
   const uint32_t all = solve(a, b, x, {1e-3, 30}).iterations;

@@ -1,13 +1,12 @@
 // Stability of equilibria: margins against dense algebra and closed forms; unstable ones are left.
 #include "solve/stability.h"
 
-#include <Eigen/Eigenvalues>
-
 #include <cstdlib>
 
 #include "anatomy/parametric.h"
 #include "base/error.h"
 #include "solve/nodes.h"
+#include "tests/dense.h"
 #include "tests/model/small_valve.h"
 #include "tests/solve/bench.h"
 
@@ -16,7 +15,7 @@ namespace {
 
 // The tangent of a state in full, over the rows of the free nodes.
 struct DenseTangent {
-  Eigen::MatrixXd symmetric, skew;
+  Dense symmetric, skew;
   Eigen::VectorXd damping;
   std::vector<uint32_t> node_of;
 
@@ -32,7 +31,7 @@ struct DenseTangent {
     total_energy.hessian(state.x, Curvature::exact, system, profile);
     node_of = system.node_of;
     const int n = 3 * static_cast<int>(system.matrix.size());
-    symmetric = skew = Eigen::MatrixXd::Zero(n, n);
+    symmetric = skew = Dense::Zero(n, n);
     damping.resize(n);
     for (uint32_t c = 0; c < system.matrix.size(); ++c) {
       for (uint32_t k = system.matrix.start[c]; k < system.matrix.start[c + 1]; ++k) {
@@ -61,21 +60,18 @@ struct DenseTangent {
     for (size_t r = 0; r < node_of.size(); ++r) {
       const auto row = static_cast<Eigen::Index>(3 * r);
       const Mat3 block = symmetric.block<3, 3>(row, row);
-      const double least = Eigen::SelfAdjointEigenSolver<Mat3>(block).eigenvalues()[0];
+      const double least = symmetric_eigenvalues(block)[0];
       if (model.vertex_area[node_of[r]] == 0 && least < bound) continue;
       for (int axis = 0; axis < 3; ++axis) kept.push_back(row + axis);
     }
-    symmetric = Eigen::MatrixXd(symmetric(kept, kept));
-    skew = Eigen::MatrixXd(skew(kept, kept));
+    symmetric = Dense(symmetric(kept, kept));
+    skew = Dense(skew(kept, kept));
     damping = Eigen::VectorXd(damping(kept));
   }
-  double stiffness() const {
-    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric, Eigen::EigenvaluesOnly)
-        .eigenvalues()[0];
-  }
+  double stiffness() const { return symmetric_eigenvalues(symmetric)[0]; }
   double rate() const {
-    const Eigen::MatrixXd slope = damping.cwiseInverse().asDiagonal() * (symmetric + skew);
-    return -slope.eigenvalues().real().minCoeff();
+    const Dense slope = damping.cwiseInverse().asDiagonal() * (symmetric + skew);
+    return -eigenvalues(slope).real().minCoeff();
   }
 };
 
