@@ -1,6 +1,8 @@
 // Local tissue models of grasps, balls, rods and chordae.
 #include "haptics/tissue_model_builder.h"
 
+#include <cmath>
+
 #include "geometry/distance.h"
 #include "model/chord_law.h"
 #include "model/model.h"
@@ -33,6 +35,21 @@ double nearest_on_axis(const Model &model, const std::vector<Vec3> &x, const Too
   return share;
 }
 
+// The shortest turn from one direction to another, half a turn about any normal of opposite ones.
+// (Eigen's own compiles a singular value decomposition for those.)
+Eigen::Quaterniond shortest_turn(const Vec3 &from, const Vec3 &to) {
+  const Vec3 a = from.normalized(), b = to.normalized();
+  const double cosine = a.dot(b);
+  if (cosine <= -1 + 1e-12) {  // the cross product is rounding there
+    const Vec3 other = std::abs(a.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
+    const Vec3 normal = a.cross(other).normalized();
+    return {0, normal.x(), normal.y(), normal.z()};
+  }
+  const double twice = std::sqrt((1 + cosine) * 2);  // of the cosine of half the angle
+  const Vec3 axis = a.cross(b) * (1 / twice);
+  return {twice * 0.5, axis.x(), axis.y(), axis.z()};
+}
+
 // Returns the orientation of the hand when the tool moved last. A convex tool keeps it; of a rod it
 // is the present one, turned to the rod's axis by the shortest way: rotation about the axis changes
 // nothing.
@@ -41,7 +58,7 @@ Eigen::Quaterniond orientation_of(const Tool &tool, const Eigen::Quaterniond &ha
     const Quaternion q = quaternion_of(tool.axis);
     return Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
   }
-  return Eigen::Quaterniond::FromTwoVectors(hand * Vec3::UnitZ(), tool.axis) * hand;
+  return shortest_turn(hand * Vec3::UnitZ(), tool.axis) * hand;
 }
 
 }  // namespace

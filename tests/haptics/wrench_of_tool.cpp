@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "anatomy/parametric.h"
 #include "haptics/tissue_model_builder.h"
@@ -184,4 +185,18 @@ TEST_CASE("the stiffness of a tool is the slope of its force and torque, to firs
 TEST_CASE("the local model of a tool predicts force and torque within 10 % around") {
   compare_predictions(ToolKind::rod);
   compare_predictions(ToolKind::convex);
+}
+
+TEST_CASE("the orientation of a rod is the hand's, turned to the rod's axis by the shortest way") {
+  const PushedTool pushed(ToolKind::rod);
+  TissueModelBuilder maker;
+  for (const double angle : {0.0, 0.3, 3.0, std::numbers::pi}) {  // opposite directions at last
+    const Eigen::Quaterniond hand =
+        pushed.orientation * Eigen::AngleAxisd(angle, Vec3(0.6, 0.8, 0));
+    const Eigen::Quaterniond found =
+        maker.of_tool(*pushed.model, pushed.state, pushed.tool(), &hand).orientation;
+    // rounding, of an arc cosine near its end as well
+    CHECK_LT((found * Vec3::UnitZ() - pushed.tool().axis).norm(), 1e-14);
+    CHECK_LT(std::abs(found.angularDistance(hand) - angle), 1e-7);
+  }
 }
