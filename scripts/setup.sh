@@ -150,11 +150,11 @@ make_venv() {
 }
 
 # Has .venv import the Python module of the release tree, which compiles nothing of the library a
-# second time.
+# second time: python_module [TARGET ...] builds other targets beside it.
 python_module() {
   local site
   build_preset release -DMVS_PYTHON=ON "-DPython_EXECUTABLE=$PWD/.venv/bin/python" \
-    "-Dpybind11_DIR=$(.venv/bin/python -m pybind11 --cmakedir)" -- --target mvs_python || return 1
+    "-Dpybind11_DIR=$(.venv/bin/python -m pybind11 --cmakedir)" -- --target mvs_python "$@" || return 1
   # an installed one would be found before it
   .venv/bin/pip uninstall --quiet --yes libmvs 2>/dev/null
   site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))') || return 1
