@@ -5,11 +5,23 @@
 #include "text/readouts.h"
 
 namespace cli {
+namespace {
+
+constexpr double rest_residual = 1e-5;  // N: mvs_settle_options.residual
+
+}  // namespace
 
 AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name) {
   sim.set_load(pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle();
-  if (!stats.converged) {
+  if (!stats.converged && stats.growth_rate > 0 && stats.residual <= rest_residual) {
+    std::fprintf(
+        stderr,
+        "mvs: warning: %s is in equilibrium, but not at rest: the equilibrium is unstable, "
+        "and a disturbance of it grows by e in %.2g s of overdamped motion; change the "
+        "chordae or the pressure\n",
+        name.c_str(), 1 / stats.growth_rate);
+  } else if (!stats.converged) {
     std::fprintf(stderr, "mvs: warning: %s is not at rest after %u iterations, residual %.1e N\n",
                  name.c_str(), stats.iterations, stats.residual);
   }
