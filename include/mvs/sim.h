@@ -184,18 +184,18 @@ typedef struct mvs_stats {
   double energy;   /* J, total potential energy at the end */
   double kinetic;  /* J, kinetic energy at the end */
   double wall_s;   /* s, elapsed time */
-  /* Margins of mvs_stability at the equilibrium that a settle found; 0 where none was found, and
-   * with MVS_SETTLE_NO_MARGINS. */
+  /* Margins of mvs_stability at the last equilibrium that a settle found; 0 where none was found,
+   * and at a stable one with MVS_SETTLE_NO_MARGINS. */
   double stiffness_margin; /* N/m */
   double growth_rate;      /* 1/s */
 } mvs_stats;
 
 /* Moves the valve to stable static equilibrium under the load: an unstable one (mvs_stability) is
- * left along its mode. Ending without convergence is not an error: the valve is then at the last
- * iterate and stats->converged is 0. MVS_E_CANCELLED if the progress
- * callback cancelled, MVS_E_DIVERGED if numbers left their range, or if a leaflet grows to
- * ten times its area because its law cannot bear the pressure. `options` and `stats` are nullable.
- */
+ * left along its mode; a valve that always returns to it (its free edge flutters) stays there.
+ * Ending without convergence is not an error: stats->converged is 0, the valve is at the last
+ * iterate, or at that equilibrium with growth_rate > 0. MVS_E_CANCELLED if the progress callback
+ * cancelled, MVS_E_DIVERGED if numbers left their range, or if a leaflet grows to ten times its
+ * area because its law cannot bear the pressure. `options` and `stats` are nullable. */
 MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats *stats);
 
 /* Begins a settle in slices, for a host whose only thread has to answer in between (the worker of a

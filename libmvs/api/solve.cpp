@@ -114,10 +114,14 @@ void finish_settle(mvs_sim &sim, const Snapshot &before, State state,
   sim.hands.done(sim.present()->state);
   sim.stats = found;
   if (stats) write_struct(stats, public_stats(found), "stats");
+  const bool returns =
+      !found.converged && found.growth_rate > 0 && found.residual <= how.tolerance();
+  const char *outcome = found.converged ? "converged"
+                        : returns       ? "in an unstable equilibrium, to which it always returns,"
+                                        : "not converged";
   sim.log(found.converged ? MVS_LOG_INFO : MVS_LOG_WARNING,
-          "settle: %s after %u iterations, residual %.3g N, %.3f s",
-          found.converged ? "converged" : "not converged", found.iterations, found.residual,
-          found.wall_s);
+          "settle: %s after %u iterations, residual %.3g N, %.3f s", outcome, found.iterations,
+          found.residual, found.wall_s);
 }
 
 // Works on the slices of a simulator; an error ends them.

@@ -124,6 +124,9 @@ inline constexpr uint32_t most_still = max_polish_pause + 6;
 // of 1/8 lowered the norm by a twentieth, ten times in a row. With 2 trials for 5, springs of
 // 27,000 vertices take 26 iterations for 33; on up to 6,800 vertices they are as many.
 inline constexpr int polish_trials = 2;
+// The same after an unstable equilibrium was left: in the cycle around it shares of 1/32 to a
+// quarter lead back.
+inline constexpr int patient_trials = 7;
 inline constexpr double polish_backtracking = 0.5, polish_decrease = 0.1;
 
 }  // namespace newton
@@ -189,6 +192,11 @@ inline constexpr double min_shift = 0.01, shift_growth = 4, max_shift = 1e12;
 // m, the longest displacement of a node by which a settle leaves an unstable equilibrium: at least;
 // at most, while the energy falls. The next stable one was 14 to 130 um away where one was found.
 inline constexpr double leave_by = 1e-5, leave_at_most = 1e-3;
+// Returns to one unstable equilibrium after which a settle ends there, and the share of leave_by
+// within which it is the same one. Around an equilibrium that flutters the valve moves in a cycle,
+// of 80 um at the free edge of a valve on a real annulus, and no iteration leads away from it.
+inline constexpr uint32_t most_returns = 4;
+inline constexpr double returned_share = 0.5;
 // Rest forces below which the stability is that of the equilibrium nearby.
 inline constexpr double early_residual = 0.03;
 

@@ -41,13 +41,40 @@ std::vector<uint8_t> loose_rows(const Model &model, const HessianAssembler &syst
   return is_loose;
 }
 
-// Holds loose rows where they are.
+// The elimination of a loose row with this block takes this from the block of a row that is coupled
+// to it: all that its chord adds there, where no other chord of the loose row is tight.
+Mat3 taken(const Mat3 &coupling, Mat3 block) {
+  block.diagonal().array() += set::loose_stiffness;
+  if (!is_above(block, 0)) return Mat3::Zero();  // the point of a tool that slides
+  return coupling * block.inverse() * coupling.transpose();
+}
+
+// Holds loose rows where they are, without the stiffness that their chordae would get from that: a
+// chord to a point that nothing else holds has none. The rows are eliminated, but for the coupling
+// of other rows by them; chordae between two of them are cut.
 void hold(const std::vector<uint8_t> &is_loose, BlockMatrix &matrix) {
+  std::vector<Mat3> own(matrix.size());
+  for (uint32_t c = 0; c < matrix.size(); ++c) own[c] = matrix.value[matrix.start[c]];
+  const auto for_couplings = [&](auto use) {
+    for (uint32_t c = 0; c < matrix.size(); ++c) {
+      for (uint32_t k = matrix.start[c] + 1; k < matrix.start[c + 1]; ++k) {
+        const uint32_t r = matrix.row[k];
+        if (is_loose[c] || is_loose[r]) use(r, c, matrix.value[k]);
+      }
+    }
+  };
+  for_couplings([&](uint32_t r, uint32_t c, const Mat3 &block) {
+    if (!is_loose[r] || !is_loose[c]) return;
+    own[r] += block;  // of a chord: minus its stiffness
+    own[c] += block.transpose();
+  });
+  for_couplings([&](uint32_t r, uint32_t c, Mat3 &block) {
+    if (!is_loose[c]) matrix.value[matrix.start[c]] -= taken(block.transpose(), own[r]);
+    if (!is_loose[r]) matrix.value[matrix.start[r]] -= taken(block, own[c]);
+    block.setZero();
+  });
   for (uint32_t c = 0; c < matrix.size(); ++c) {
     if (is_loose[c]) matrix.value[matrix.start[c]] = Mat3::Identity();
-    for (uint32_t k = matrix.start[c] + 1; k < matrix.start[c + 1]; ++k) {
-      if (is_loose[c] || is_loose[matrix.row[k]]) matrix.value[k].setZero();
-    }
   }
 }
 
@@ -79,14 +106,13 @@ std::vector<Vec3> mode_of(const BlockVector &rows, const HessianAssembler &syste
 
 StabilityCheck::StabilityCheck() : factor_(make_block_factor()) {}
 
-// Factorises Ks plus a diagonal, with loose rows held; false if that is not positive definite.
-bool StabilityCheck::factorise(const HessianAssembler &system, const std::vector<uint8_t> &is_loose,
-                               const std::vector<double> &added, SolveStats &stats) {
+// Factorises a matrix plus a diagonal; false if that is not positive definite.
+bool StabilityCheck::factorise(const BlockMatrix &matrix, const std::vector<double> &added,
+                               SolveStats &stats) {
   const PhaseTimer timer(stats.work, MVS_PHASE_FACTOR);
   const bool same_pattern =
-      is_analysed_ && matrix_.start == system.matrix.start && matrix_.row == system.matrix.row;
-  matrix_ = system.matrix;
-  hold(is_loose, matrix_);
+      is_analysed_ && matrix_.start == matrix.start && matrix_.row == matrix.row;
+  matrix_ = matrix;
   for (uint32_t r = 0; r < matrix_.size(); ++r) {
     matrix_.value[matrix_.start[r]].diagonal().array() += added[r];
   }
@@ -105,7 +131,9 @@ Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_ene
   std::vector<double> added = damping;
   for (double &number : added) number *= set::max_rate;
   const std::vector<uint8_t> is_loose = loose_rows(model, system);
-  const bool is_definite = factorise(system, is_loose, added, stats);
+  BlockMatrix stiffness = system.matrix;
+  hold(is_loose, stiffness);
+  const bool is_definite = factorise(stiffness, added, stats);
   if (is_definite && !margins) {
     last_shift_ = 0;
     return found;
@@ -116,7 +144,7 @@ Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_ene
     MVS_MUST(shift < set::max_shift, MVS_E_DIVERGED, "settle",
              "the stiffness matrix is not finite; check the materials");
     const std::vector<double> everywhere(added.size(), shift);
-    if (factorise(system, is_loose, everywhere, stats)) break;
+    if (factorise(stiffness, everywhere, stats)) break;
   }
   last_shift_ = shift;
   const PhaseTimer timer(stats.work, MVS_PHASE_SOLVE);
@@ -128,7 +156,7 @@ Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_ene
   };
   std::vector<Vec3> by_node(x.size(), Vec3::Zero()), skew(x.size(), Vec3::Zero());
   const LinearMap multiply = [&](const BlockVector &v, BlockVector &y) {
-    product.multiply(system.matrix, v, y);
+    product.multiply(stiffness, v, y);
     for (size_t r = 0; r < v.size(); ++r) by_node[system.node_of[r]] = v[r];
     std::fill(skew.begin(), skew.end(), Vec3::Zero());
     total_energy.add_skew(x, by_node, skew);

@@ -40,8 +40,7 @@ class StabilityCheck {
                   const HessianAssembler &system, bool margins, SolveStats &stats);
 
  private:
-  bool factorise(const HessianAssembler &system, const std::vector<uint8_t> &is_loose,
-                 const std::vector<double> &added, SolveStats &stats);
+  bool factorise(const BlockMatrix &matrix, const std::vector<double> &added, SolveStats &stats);
 
   std::function<void()> poll_ = [] {};
   std::unique_ptr<DirectSolver> factor_;

@@ -1,5 +1,8 @@
 """Simulator.build_valve: surfaces become valves that close; findings; refusals."""
 
+import os
+from pathlib import Path
+
 import mvs
 import numpy as np
 import pytest
@@ -88,6 +91,37 @@ def test_tissue_missing_at_a_torn_edge_is_a_guess_that_can_be_given_back(surface
         assert sim.snapshot().hash == opened.hash
     assert second["edge_lost"].source == mvs.FindingSource.GIVEN
     assert (second["leak_interval"].values == first["leak_interval"].values).all()
+
+
+def test_a_gap_that_opens_in_one_point_leaves_no_slit_that_touches_itself():
+    # of the triangles that are missing one has a single corner on the free edge: filled as a notch
+    # it left a slit whose sides touched at rest, and the valve never came to rest
+    torn = {**data.torn(data.generated(shape="founding"), 0.1, 8), "leak": False}
+    opened, found, closed = built(torn)
+    assert found["pinched_gaps"].source == mvs.FindingSource.GUESSED
+    assert closed.at_rest
+    rest, edge = np.asarray(opened.node_rest), np.asarray(opened.free_edge_nodes)
+    apart = np.linalg.norm(rest[edge][:, None] - rest[edge], axis=2)
+    near = (np.arange(len(edge))[:, None] - np.arange(len(edge))) % len(edge)
+    # vertices of the free edge that are no neighbours along it: half an edge or more apart
+    assert apart[(near > 1) & (near < len(edge) - 1)].min() > 0.5e-3
+
+
+def test_a_valve_that_flutters_ends_at_the_unstable_equilibrium():
+    folder = Path(os.environ.get("MVS_TEST_DATA", "none"))
+    if not (folder / "kaiser_mitral_normal_1" / "N32.json").is_file():
+        pytest.skip("no kaiser_mitral_normal_1 in MVS_TEST_DATA")
+    surface = data.moved(data.kaiser(folder, "N32"), 17)
+    with mvs.Simulator() as sim:
+        sim.build_valve(**surface, leak=False)
+        sim.set_load(mvs.SYSTOLE_PA)
+        stats = sim.settle()
+        stability = sim.snapshot().stability
+    # it was in the cycle around it after 1,000 iterations
+    assert not stats.converged and not stats.stable
+    assert stats.iterations < 300 and stats.residual < 1e-5
+    assert stats.growth_rate > 1 and not stability.stable
+    assert stability.growth_rate == pytest.approx(stats.growth_rate, rel=0.01)
 
 
 def test_bad_arguments_are_refused_and_change_nothing(surface):

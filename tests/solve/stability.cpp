@@ -54,17 +54,22 @@ struct DenseTangent {
     }
   }
 
-  // Without the rows of branch points whose own block has an eigenvalue below a bound.
+  // Without the rows of branch points whose own block has an eigenvalue below a bound: they are
+  // eliminated, each with as much stiffness to ground as the bound.
   void leave_out(const Model &model, double bound) {
-    std::vector<Eigen::Index> kept;
+    std::vector<Eigen::Index> kept, loose;
     for (size_t r = 0; r < node_of.size(); ++r) {
       const auto row = static_cast<Eigen::Index>(3 * r);
       const Mat3 block = symmetric.block<3, 3>(row, row);
-      const double least = symmetric_eigenvalues(block)[0];
-      if (model.vertex_area[node_of[r]] == 0 && least < bound) continue;
-      for (int axis = 0; axis < 3; ++axis) kept.push_back(row + axis);
+      const bool is_loose =
+          model.vertex_area[node_of[r]] == 0 && symmetric_eigenvalues(block)[0] < bound;
+      for (int axis = 0; axis < 3; ++axis) (is_loose ? loose : kept).push_back(row + axis);
     }
+    const Dense coupling = symmetric(kept, loose);
+    Dense own = symmetric(loose, loose);
+    own.diagonal().array() += bound;
     symmetric = Dense(symmetric(kept, kept));
+    if (!loose.empty()) symmetric -= product(product(coupling, inverse(own)), coupling.transpose());
     skew = Dense(skew(kept, kept));
     damping = Eigen::VectorXd(damping(kept));
   }
@@ -172,6 +177,42 @@ TEST_CASE("margins_leave_out_branch_points_that_carry_nothing") {
   CHECK(found.stiffness == about(dense.stiffness(), 0.01));
   CHECK(found.stiffness > 0.01);
   CHECK(found.rate == about(dense.rate(), 0.01));
+}
+
+// Held where it is, the point would make an anchor of the chord, and the truss stable.
+TEST_CASE("a_chord_to_a_point_that_nothing_else_holds_has_no_stiffness") {
+  const Pyramid pyramid;
+  const double z = 0.8 * pyramid.snap_height(), length = 5e-3;
+  Valve valve = pyramid.model.valve;
+  const Vec3 apex(0, 0, z), point = apex + (1 + 1e-9) * length * Vec3::UnitZ();
+  valve.rest.push_back(point);
+  valve.rest.push_back(point + length * Vec3::UnitX());
+  Chord chord, trunk;
+  chord.id = 1;
+  chord.a = 7;
+  chord.b = 0;
+  chord.rest_length = length;
+  trunk.id = 2;
+  trunk.a = 8;
+  trunk.b = 7;
+  trunk.rest_length = 2 * length;  // slack
+  valve.chords.push_back(chord);
+  valve.chords.push_back(trunk);
+  const Model model = model_of_sheet(valve, {1, 2, 3, 4, 5, 6, 8});
+  State state = initial_state(model);
+  state.x.edit()[0] = apex;
+  state.load.pressure = pyramid.pressure_at(z);
+  const Stability tight = check_stability(model, state);
+  CHECK_FALSE(tight.is_stable);
+  CHECK(tight.stiffness == about(pyramid.vertical(z), 0.01));
+  // with a trunk that is tight as well it is an anchor
+  valve.chords[1].rest_length = (1 - 1e-6) * length;
+  valve.rest[8] = point + length * Vec3::UnitZ();
+  const Model in_line = model_of_sheet(valve, {1, 2, 3, 4, 5, 6, 8});
+  State held = initial_state(in_line);
+  held.x.edit()[0] = apex;
+  held.load.pressure = pyramid.pressure_at(z);
+  CHECK(check_stability(in_line, held).is_stable);
 }
 
 TEST_CASE("a_truss_snaps_at_its_critical_pressure") {

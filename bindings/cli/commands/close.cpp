@@ -1,5 +1,4 @@
 // `mvs close`: settles a valve under systolic pressure and measures it.
-#include <cstdio>
 #include <map>
 #include <optional>
 
@@ -131,12 +130,7 @@ void run_close(const CloseOptions &options, Console &console) {
   }
   const mvs_measures measures = closed.valve.measure();
   if (!options.out.empty()) closed.valve.save(options.out);
-  if (!closed.stats.converged) {
-    std::fprintf(stderr,
-                 "mvs: warning: not converged after %u iterations, residual %.1e N; the shape is "
-                 "not an equilibrium (see --max-iterations)\n",
-                 closed.stats.iterations, closed.stats.residual);
-  }
+  warn_unsettled(closed.stats, options.in);
   print(console, closed_json(options, closed, measures), closed_text(options, closed, measures));
   demand_rest(console, closed.stats, options.allow_unsettled);
 }

@@ -5,14 +5,33 @@
 #include "text/readouts.h"
 
 namespace cli {
+namespace {
+
+constexpr double rest_residual = 1e-5;  // N: mvs_settle_options.residual
+
+}  // namespace
+
+void warn_unsettled(const mvs_stats &stats, const std::string &name) {
+  if (stats.converged) return;
+  if (stats.growth_rate > 0 && stats.residual <= rest_residual) {
+    std::fprintf(stderr,
+                 "mvs: warning: %s is in an unstable equilibrium, to which it always returns: a "
+                 "disturbance grows by e in %.2g s of overdamped motion, as where the free edge "
+                 "flutters; change the chordae or the pressure\n",
+                 name.c_str(), 1 / stats.growth_rate);
+    return;
+  }
+  std::fprintf(
+      stderr,
+      "mvs: warning: %s is not at rest after %u iterations, residual %.1e N: its shape is not "
+      "an equilibrium\n",
+      name.c_str(), stats.iterations, stats.residual);
+}
 
 AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name) {
   sim.set_load(pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle();
-  if (!stats.converged) {
-    std::fprintf(stderr, "mvs: warning: %s is not at rest after %u iterations, residual %.1e N\n",
-                 name.c_str(), stats.iterations, stats.residual);
-  }
+  warn_unsettled(stats, name);
   mvs::Snapshot valve = sim.snapshot();
   const mvs_measures measures = valve.measure();
   return {std::move(valve), stats, measures};

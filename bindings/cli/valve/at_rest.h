@@ -14,8 +14,11 @@ struct AtRest {
   mvs_measures measures;
 };
 
-// Settles under a pressure and measures. A valve that is not at rest is a result, not an error:
-// stderr gets a warning with `name`.
+// Unless the valve is at rest, a warning with `name` on stderr: how it ended.
+void warn_unsettled(const mvs_stats &stats, const std::string &name);
+
+// Settles under a pressure and measures. A valve that is not at rest is a result, not an error: it
+// is warned of.
 AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name);
 
 // Adds --allow-unsettled, which has a command that closes valves end with 0 all the same.

@@ -13,9 +13,6 @@
 namespace mvs::core {
 namespace {
 
-// A loop shorter than this share of the longest one is a hole: 20 to 30 mm around, 6 to 10 mm
-// across. The free edge of a severe stenosis (1 cm2) is longer, 35 mm.
-constexpr double hole_share = 0.2;
 // A longer loop is a hole up to this share, 35 to 45 mm around, if it spans no more than a round
 // one of 7 mm and lies in one leaflet: at most a tenth of its rim has the label of the other one,
 // or, without labels, the tissue around lies in its plane. The mean cosine between both normals is

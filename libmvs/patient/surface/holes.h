@@ -12,6 +12,9 @@ struct RimLoop {
   LoopShape shape;
 };
 
+// A loop shorter than this share of the longest one is a hole: 20 to 30 mm around, 6 to 10 mm
+// across. The free edge of a severe stenosis (1 cm2) is longer, 35 mm.
+inline constexpr double hole_share = 0.2;
 // m2: a longer loop is a hole if it spans less, as much as a round hole of 7 mm.
 inline constexpr double long_hole_area = 40e-6;
 

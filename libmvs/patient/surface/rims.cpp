@@ -13,6 +13,7 @@
 #include "patient/surface/boundary.h"
 #include "patient/surface/cut_handles.h"
 #include "patient/surface/holes.h"
+#include "patient/surface/pinched_gaps.h"
 
 namespace mvs::core {
 namespace {
@@ -247,6 +248,7 @@ void check_open(const std::vector<RimLoop> &rims, Findings &findings) {
 }  // namespace
 
 SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings &findings) {
+  fill_pinched_gaps(sheet, findings);
   std::vector<RimLoop> rims = sorted_rims(sheet);
   fill_holes(sheet, rims, findings);
   check_rims(rims);

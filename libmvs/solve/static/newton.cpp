@@ -1,10 +1,10 @@
 // Newton's method: polish steps near rest, the boundary, step limits, the presolve of a local
-// subproblem. trust_region.cpp has the steps far from rest.
+// subproblem. trust_region.cpp has the steps far from rest, unstable.cpp leaves unstable
+// equilibria.
 #include "solve/static/newton.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "energy/forces.h"
@@ -173,56 +173,21 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
   const bool remove_lambda = system_.applied_lambda() < settings::newton::max_removed_lambda;
   system_.solve(at_.gradient, !remove_lambda, step_.newton, stats_);
   limit_step();
-  if (!search_on_force()) return false;
+  // near an equilibrium that it left before, most steps are too long for few trials
+  namespace set = settings::newton;
+  if (!search_on_force(unstable_.empty() ? set::polish_trials : set::patient_trials)) return false;
   evaluate();
   return true;
 }
 
-Stability Newton::check_stability(bool margins) {
-  return check_.check(*model_, total_energy_, at_.x, system_.hessian(), margins, stats_);
-}
-
-bool Newton::is_stable(bool margins) {
-  system_.assemble(Curvature::exact, stats_.work);
-  const Stability found = check_stability(margins);
-  stats_.stable = found.is_stable;
-  stats_.stiffness_margin = found.stiffness;
-  stats_.growth_rate = found.rate;
-  if (!found.is_stable) leave(found);
-  return found.is_stable;
-}
-
-// Along the mode, to the side where the residual forces push, as far as the energy falls.
-void Newton::leave(const Stability &unstable) {
-  namespace set = settings::stability;
-  const double turn = dot(at_.gradient, unstable.mode) > 0 ? -1 : 1;
-  double lowest = std::numeric_limits<double>::infinity();
-  std::vector<Vec3> farthest;
-  double way = set::leave_by;
-  while (way <= set::leave_at_most) {
-    step_.newton = unstable.mode;
-    for (Vec3 &d : step_.newton) d *= turn * way;
-    limit_step();
-    for (size_t i = 0; i < at_.x.size(); ++i) trial_[i] = at_.x[i] + step_.limited[i];
-    const double energy = total_energy_.energy(trial_);
-    ++stats_.work.passes;
-    if (energy >= lowest) break;
-    lowest = energy;
-    farthest = trial_;
-    way *= 2;
-  }
-  at_.x = std::move(farthest);
-  evaluate();
-}
-
 // Backtracking line search on the norm of the force.
-bool Newton::search_on_force() {
+bool Newton::search_on_force(int trials) {
   const PhaseTimer timer(stats_.work, MVS_PHASE_LINE_SEARCH);
   Profile inside{};
   const double before = free_norm();
   std::vector<Vec3> kept = at_.gradient;
   double share = 1;
-  for (int trial = 0; trial < settings::newton::polish_trials; ++trial) {
+  for (int trial = 0; trial < trials; ++trial) {
     for (size_t i = 0; i < at_.x.size(); ++i) trial_[i] = at_.x[i] + share * step_.limited[i];
     total_energy_.gradient(trial_, at_.gradient, inside);
     ++stats_.work.passes;

@@ -69,8 +69,11 @@ class Newton {
   void iterate(PolishSchedule &polish);
   void move_boundary(BoundaryRamp &ramp);
   // Whether the present positions, which are in equilibrium, are a stable one. If not, the valve
-  // leaves it. `margins`: see SolveOptions.
+  // leaves it, unless it always returns to it. `margins`: see SolveOptions.
   bool is_stable(bool margins);
+  // Whether the valve left one unstable equilibrium again and again, and is there: it flutters
+  // around it.
+  bool always_returns() const;
   // Moves the nodes to `state`, with zero velocities; returns the statistics.
   SolveStats finish(State &state);
 
@@ -98,8 +101,9 @@ class Newton {
   void evaluate();
   bool newton_polish_step(PolishSchedule &polish);
   Stability check_stability(bool margins);
+  bool has_returned() const;
   void leave(const Stability &unstable);
-  bool search_on_force();
+  bool search_on_force(int trials);
   // `has_exact`: the system holds the exact Hessian of the present positions.
   void trust_region_step(bool has_exact);
   double try_step(double &predicted_reduction);
@@ -124,6 +128,8 @@ class Newton {
   Step step_;
   std::vector<Vec3> trial_;  // m, positions
   DisplacementLimit limit_;
+  std::vector<Vec3> unstable_;  // m, nodes at the last unstable equilibrium; empty: none yet
+  uint32_t returns_ = 0;        // to it, in a row
 };
 
 }  // namespace mvs::core

@@ -46,6 +46,7 @@ bool NewtonSettling::advance() {
   const bool balanced = arrived && newton_.residual() <= tolerance_;
   converged_ = balanced && (!checks_stability_ || newton_.is_stable(margins_));
   if (converged_ || newton_.stats().iterations == most_ || newton_.reached_limit()) return false;
+  if (newton_.always_returns()) return false;
   if (still_ > settings::newton::most_still) return false;
   watch_.look(newton_.x(), newton_.residual());
   ++newton_.stats().iterations;

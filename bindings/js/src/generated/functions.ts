@@ -1105,10 +1105,11 @@ export class Functions extends Calls {
 
   /**
    * Moves the valve to stable static equilibrium under the load: an unstable one (mvs_stability) is
-   * left along its mode. Ending without convergence is not an error: the valve is then at the last
-   * iterate and stats->converged is 0. MVS_E_CANCELLED if the progress callback cancelled,
-   * MVS_E_DIVERGED if numbers left their range, or if a leaflet grows to ten times its area because
-   * its law cannot bear the pressure. `options` and `stats` are nullable.
+   * left along its mode; a valve that always returns to it (its free edge flutters) stays there.
+   * Ending without convergence is not an error: stats->converged is 0, the valve is at the last
+   * iterate, or at that equilibrium with growth_rate > 0. MVS_E_CANCELLED if the progress callback
+   * cancelled, MVS_E_DIVERGED if numbers left their range, or if a leaflet grows to ten times its
+   * area because its law cannot bear the pressure. `options` and `stats` are nullable.
    */
   mvs_settle(sim: SimHandle, options?: SettleOptions | null): Stats {
     return this.invoke(signatures.mvs_settle!, [sim, options]) as never;
