@@ -223,7 +223,9 @@ export type Section = Float32Array;
 export interface Hand {
   tool: 'grasp' | 'ball';
   node: number;
+  /** Where it begins, and where it goes at once. */
   position: number[];
+  to: number[];
 }
 
 export interface Cost {

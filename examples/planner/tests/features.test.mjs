@@ -148,13 +148,6 @@ describe('planner features', () => {
     await name.waitFor({ state: 'detached' });
   });
 
-  it('says_what_the_colours_of_contact_mean', async () => {
-    await page.locator('.colours select').selectOption('coaptation');
-    const legend = await page.locator('.scale').innerText();
-    for (const word of ['touching', 'apart', 'no leaflet faces it']) assert.ok(legend.includes(word), legend);
-    await page.locator('.colours select').selectOption('tissue');
-  });
-
   it('sews_in_a_ring_from_a_file', async () => {
     // an ellipse of 36 by 27 mm, in metres
     const lines = Array.from({ length: 40 }, (_, k) => {

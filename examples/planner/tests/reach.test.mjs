@@ -209,6 +209,43 @@ describe('planner for everybody', () => {
     });
   });
 
+  it('covers_no_control_that_has_the_focus_by_a_notice', async () => {
+    await withPlanner({}, async ({ page }) => {
+      await begin(page, 'ring');
+      for (const [width, height] of [
+        [1280, 720],
+        [853, 480],
+        [820, 1180],
+        [320, 256],
+      ]) {
+        await page.setViewportSize({ width, height });
+        await page.waitForTimeout(300);
+        const covered = await page.evaluate(async () => {
+          const text =
+            '“Valve 3: dilated, and a short chord” is finished. Its repair can be opened once more.';
+          window.planner.state.notice.value = { kind: 'error', text };
+          const bad = [];
+          for (const control of document.querySelectorAll('button, select, input, summary, textarea')) {
+            const notice = document.querySelector('[data-testid=notice]');
+            if (!control.checkVisibility() || notice?.contains(control)) continue;
+            control.focus();
+            // it is scrolled to in one frame, the notice makes way in the next one
+            for (let k = 0; k < 3; ++k) await new Promise(requestAnimationFrame);
+            const [a, b] = [control, document.querySelector('[data-testid=notice]')].map((part) =>
+              part.getBoundingClientRect(),
+            );
+            if (a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom)
+              bad.push(
+                `${control.ariaLabel || control.textContent} at ${a.top} to ${a.bottom}, ${b.top} to ${b.bottom}`,
+              );
+          }
+          return bad;
+        });
+        assert.deepEqual(covered, [], `${width} x ${height}`);
+      }
+    });
+  });
+
   it('turns_and_zooms_with_fingers', async () => {
     await withPlanner({ width: 820, height: 1180, touch: true }, async ({ page, context }) => {
       const client = await context.newCDPSession(page);

@@ -70,6 +70,13 @@ describe('planner read and touched', () => {
     await undo(page);
   });
 
+  it('says_what_the_colours_of_contact_mean', async () => {
+    await page.locator('.colours select').selectOption('coaptation');
+    const legend = await page.locator('.scale').innerText();
+    for (const word of ['touching', 'apart', 'no leaflet faces it']) assert.ok(legend.includes(word), legend);
+    await page.locator('.colours select').selectOption('tissue');
+  });
+
   it('says_the_pull_of_the_chord_under_the_pointer', async () => {
     await page.keyboard.press('2');
     await cameraRests(page);

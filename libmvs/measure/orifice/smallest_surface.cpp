@@ -26,9 +26,14 @@ constexpr double overshoot = 1.7;  // of the move of a free node: 1.5 to 1.8 nee
 // than this many spacings of samples, since it could skip a fold.
 constexpr int sweeps_between = 6, sweeps_of_motion = 2;
 constexpr double continued_by = 4, most_continued = 1e3, longest_slide = 0.5;
-// A rim edge whose midpoint is farther from the sheet than this share of its length does not run
-// along the sheet. The value is 0.13 over a crease of 60 degrees, 0.5 across a sealed passage.
+// A segment between two points of the sheet whose midpoint is farther from the sheet than this
+// share of its length does not run along the sheet. The value is 0.13 over a crease of 60 degrees,
+// 0.5 across a passage.
 constexpr double off_of_length = 0.15;
+
+bool runs_along(const Rail &sheet, const Vec3 &a, const Vec3 &b) {
+  return sheet.tree.is_within(0.5 * (a + b), off_of_length * (b - a).norm());
+}
 
 enum class Hold : uint8_t { free, slides, stays };
 enum class OnRim : uint8_t { unknown, no, yes };
@@ -84,9 +89,7 @@ void Shrinking::hold_rim(size_t on_samples) {
   for_each_edge(sides, [&](size_t first, size_t last) {
     if (last == first + 2) return;
     const Edge &e = sides[first].edge;
-    const Vec3 middle = 0.5 * (mesh_.x[e[0]] + mesh_.x[e[1]]);
-    const double off = off_of_length * (mesh_.x[e[0]] - mesh_.x[e[1]]).norm();
-    const bool along = last == first + 1 && sheet_.tree.is_within(middle, off);
+    const bool along = last == first + 1 && runs_along(sheet_, mesh_.x[e[0]], mesh_.x[e[1]]);
     for (int k = 0; k < 2; ++k) {
       Hold &hold = hold_[e[k]];
       hold = along && hold != Hold::stays ? Hold::slides : Hold::stays;
@@ -152,12 +155,16 @@ Vec3 Shrinking::move_of(uint32_t v) {
 }
 
 // Returns the nearest point of the sheet. A node on the rim of the sheet may move inwards, but not
-// along the rim, which would round off corners or shorten a slit from its end.
+// along the rim, which would round off corners or shorten a slit from its end. No node moves to
+// other tissue across the opening: the surface would have a gap where it was. One that begins on
+// the wall comes to the sheet.
 Vec3 Shrinking::slide(uint32_t v, const Vec3 &p) {
   const Vec3 &x = mesh_.x[v];
   const Vec3 there = search_.nearest(v, p).point;
   if (on_rim_[v] == OnRim::unknown) on_rim_[v] = search_.is_on_rim(v, x) ? OnRim::yes : OnRim::no;
-  return on_rim_[v] == OnRim::yes && search_.is_on_rim(v, there) ? x : there;
+  if (on_rim_[v] == OnRim::yes && search_.is_on_rim(v, there)) return x;
+  const bool comes = !sheet_.tree.is_within(x, 1e-3 * sheet_.grain);
+  return comes || runs_along(sheet_, x, there) ? there : x;
 }
 
 // Applies the move, or a part of it, if that lowers the area; returns the decrease.

@@ -1,23 +1,20 @@
-// The page: bar, picture, panels, dialogs, keys.
+// The page: bar, picture, panels, dialogs.
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
-import { apply, discard, pickField } from '../store/edit';
+import { apply, discard } from '../store/edit';
 import { openFile } from '../store/files';
-import { openTo, redo, undo } from '../store/history';
-import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { appTexts, barTexts, help, importTexts, planTexts, t } from '../text/texts';
-import { clipKey } from '../view/clip';
-import type { MapName } from '../view/colours';
-import { maps } from '../view/colours';
+import { appTexts, barTexts, help, planTexts, t } from '../text/texts';
 import type { Preset } from '../view/camera';
 import { Viewport } from '../view/viewport';
-import { Dialogs, Notice, Recovery } from './dialogs';
+import { Dialogs } from './dialogs';
+import { Notice, Recovery } from './notice';
 import { Button } from './parts';
 import { ImportPanel } from './import';
+import { onKey, showPanel, tabs } from './keys';
 import { PlanPanel } from './plan';
 import { RepairPanel } from './repair';
 import { Scale } from './scale';
-import { chooseFile, TopBar, ViewBar } from './toolbar';
+import { TopBar, ViewBar } from './toolbar';
 import { TourPanel } from './tour';
 import { ValvePanel } from './valve';
 import { Verdict } from './verdict';
@@ -25,17 +22,6 @@ import { Verdict } from './verdict';
 let viewport: Viewport | null = null;
 export const view = (): Viewport | null => viewport;
 const go = (preset: Preset): void => viewport?.go(preset);
-
-type Tab = [state.Panel, string, string];
-const panels: Tab[] = [
-  ['valve', appTexts.valve, 'V'],
-  ['repair', appTexts.repair, 'R'],
-  ['plan', appTexts.plan, 'P'],
-  ['tour', appTexts.tour, 'L'],
-];
-/** The panel of an import, as long as there is one. */
-const importTab: Tab = ['import', importTexts.tab, 'I'];
-const tabs = (): Tab[] => (state.imported.value ? [...panels, importTab] : panels);
 
 function Panels() {
   const panel = state.panel.value;
@@ -162,67 +148,6 @@ function Picture() {
   );
 }
 
-/** Opens a panel and goes to its tab, so that Tab goes on into the panel. */
-function showPanel(name: state.Panel): void {
-  state.panel.value = name;
-  requestAnimationFrame(() => document.getElementById(`tab-${name}`)?.focus());
-}
-
-const mapNames: MapName[] = ['tissue', ...(Object.keys(maps) as MapName[])];
-
-/** Keys of the page; not while text is typed. */
-function onKey(event: KeyboardEvent): void {
-  const target = event.target as HTMLElement;
-  const typing =
-    /^(INPUT|TEXTAREA|SELECT)$/.test(target.tagName) &&
-    (target as HTMLInputElement).type !== 'range' &&
-    (target as HTMLInputElement).type !== 'checkbox';
-  if (state.dialog.value) return;
-  const control = event.ctrlKey || event.metaKey;
-  const key = event.key.toLowerCase();
-  if (control) {
-    // in a text, undo and redo belong to the text; the browser would save and open pages by the others
-    if (key === 's') void saveSession();
-    else if (key === 'o') chooseFile();
-    else if (key === 'z' && !event.shiftKey && !typing) void undo();
-    else if ((key === 'y' || (key === 'z' && event.shiftKey)) && !typing) void redo();
-    else return;
-    event.preventDefault();
-    return;
-  }
-  if (event.key === 'Escape' && state.picking.value === 'outline') return pickField(null);
-  if (event.key === 'Escape' && state.draft.value) return discard();
-  if (event.key === 'Escape') state.choice.value = null;
-  if (typing || event.altKey) return;
-  if (
-    event.key === 'Enter' &&
-    state.draft.value &&
-    state.picking.value !== 'outline' &&
-    target.tagName !== 'BUTTON' &&
-    target.tagName !== 'SUMMARY'
-  )
-    return void apply();
-  const views: Record<string, Preset> = { 1: 'surgeon', 2: 'ventricle', 3: 'commissure', 4: 'section' };
-  if (views[key]) {
-    if (key === '4') state.sectionOn.value = true;
-    return go(views[key]);
-  }
-  if (clipKey(key)) return;
-  const panel = tabs().find(([, , letter]) => letter.toLowerCase() === key);
-  if (panel) showPanel(panel[0]);
-  else if (key === 'o' && state.main.value && !state.draft.value)
-    void openTo(state.openness.value >= 1 ? 0 : 1);
-  else if (key === 'w' && !state.motion.value) state.past.value = !state.inPast.value;
-  else if (key === 'x') state.sectionOn.value = !state.sectionOn.value;
-  else if (key === 'c') state.chordsOn.value = !state.chordsOn.value;
-  else if (key === 'n') state.labelsOn.value = !state.labelsOn.value;
-  else if (key === 'm') state.map.value = mapNames[(mapNames.indexOf(state.map.value) + 1) % mapNames.length];
-  else if ((key === 'g' || key === 'b') && !state.draft.value) {
-    const tool = key === 'g' ? 'grasp' : 'push';
-    state.tool.value = state.tool.value === tool ? 'look' : tool;
-  } else if (key === '?') state.dialog.value = 'keys';
-}
-
 /** A file may be dropped anywhere: where the page does not take it, the browser leaves the page for the file. */
 function onDrag(event: DragEvent): void {
   event.preventDefault();
@@ -267,14 +192,15 @@ function onPress(event: MouseEvent): void {
 
 export function App() {
   useEffect(() => {
-    window.addEventListener('keydown', onKey);
+    const onKeyDown = (event: KeyboardEvent) => onKey(event, go);
+    window.addEventListener('keydown', onKeyDown);
     window.addEventListener('dragover', onDrag);
     window.addEventListener('dragleave', onDragEnd);
     window.addEventListener('drop', onDrop);
     window.addEventListener('mousedown', onPress, true);
     window.addEventListener('click', onPress, true);
     return () => {
-      window.removeEventListener('keydown', onKey);
+      window.removeEventListener('keydown', onKeyDown);
       window.removeEventListener('dragover', onDrag);
       window.removeEventListener('dragleave', onDragEnd);
       window.removeEventListener('drop', onDrop);

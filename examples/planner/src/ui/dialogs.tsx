@@ -1,8 +1,6 @@
-// Dialogs: the list of keys, the report; a notice at the foot of the page; the offer to recover a session.
+// Dialogs: the list of keys, the report.
 import { useEffect, useRef } from 'preact/hooks';
 import type { ComponentChildren } from 'preact';
-import { fail } from '../store/requests';
-import { forgetCopy, recover, recoverable } from '../store/recovery';
 import * as state from '../store/state';
 import { appTexts, barTexts, dialogTexts, help } from '../text/texts';
 import { Button } from './parts';
@@ -58,45 +56,4 @@ export function Dialogs() {
   }
   if (state.dialog.value === 'report') return <ReportDialog />;
   return null;
-}
-
-export function Notice() {
-  const notice = state.notice.value;
-  useEffect(() => {
-    if (notice?.kind !== 'info') return;
-    const timer = setTimeout(() => (state.notice.value = null), notice.action ? 30_000 : 8000);
-    return () => clearTimeout(timer);
-  }, [notice]);
-  if (!notice) return null;
-  return (
-    <div
-      class={`notice ${notice.kind}`}
-      role={notice.kind === 'error' ? 'alert' : 'status'}
-      data-testid="notice"
-    >
-      <span>{notice.text}</span>
-      {notice.action && (
-        <Button kind="main" onClick={() => ((state.notice.value = null), notice.action!.run())}>
-          {notice.action.text}
-        </Button>
-      )}
-      <Button kind="quiet" onClick={() => (state.notice.value = null)}>
-        {appTexts.close}
-      </Button>
-    </div>
-  );
-}
-
-export function Recovery() {
-  const [kept] = recoverable.value;
-  if (!kept || !state.ready.value) return null;
-  return (
-    <div class="notice info" role="status" data-testid="recovery">
-      <span>{dialogTexts.left(kept.title, new Date(kept.saved).toLocaleString(), kept.surface)}</span>
-      <Button kind="main" onClick={() => void recover().catch(fail)}>
-        {dialogTexts.recover}
-      </Button>
-      <Button onClick={() => void forgetCopy().catch(fail)}>{dialogTexts.forget}</Button>
-    </div>
-  );
 }

@@ -1,33 +1,12 @@
-// Fields of operations: a number with a slider, a part of the valve, a place on a leaflet, a choice, a direction, a text.
+// Fields of operations: a part of the valve, a place on a leaflet, a choice, a direction, a text; numbers are in number.tsx.
 import { Crosshair } from 'lucide-preact';
 import { pickField, setField } from '../store/edit';
 import * as state from '../store/state';
-import { figure, formTexts } from '../text/texts';
+import { formTexts } from '../text/texts';
 import type { FieldInfo, FieldValue, Site } from '../protocol';
 import { Button } from './parts';
+import { labelOf, NumberField, type FieldProps } from './number';
 import { PointsField } from './points';
-
-/** Ranges and steps of sliders: usual values, where the library accepts more. */
-const sliders: Record<string, Record<string, [number, number, number]>> = {
-  ring: { size: [24, 40, 2] },
-  band: { factor: [0.6, 1, 0.01] },
-  annulus_scale: { factor: [0.7, 1.2, 0.01], ap: [0.7, 1.2, 0.01], cc: [0.7, 1.2, 0.01] },
-  neochord: { length: [5, 40, 0.5] },
-  chord_add: { length: [5, 40, 0.5] },
-  chord_length: { length: [3, 45, 0.1] },
-  clip: { position: [-1, 1, 0.05], angle: [-45, 45, 5], width: [2, 12, 0.5] },
-  resect: { position: [-1, 1, 0.05], width: [2, 20, 0.5], depth: [2, 15, 0.5] },
-  patch: { width: [4, 25, 0.5], height: [3, 18, 0.5] },
-};
-
-/** Names that hold shares, shown in per cent. */
-const shares = new Set(['factor', 'ap', 'cc', 'ap_ratio', 'area_factor']);
-
-interface FieldProps {
-  kind: string;
-  field: FieldInfo;
-  label?: string;
-}
 
 export function Field(props: FieldProps) {
   const { field } = props;
@@ -39,118 +18,6 @@ export function Field(props: FieldProps) {
   if (field.type === 'vector') return <VectorField {...props} />;
   if (field.type === 'points') return <PointsField {...props} />;
   return <TextField {...props} />;
-}
-
-function labelOf({ field, label }: FieldProps): string {
-  return label ?? (field.label || field.name);
-}
-
-/** Present length of the chord in the form, for "18.2 mm, was 20.4". */
-function restOfChord(): number | null {
-  const id = state.draft.value?.fields.chord;
-  return state.main.value?.figures.chords.find((chord) => chord.id === id)?.rest ?? null;
-}
-
-/** The value of an empty field; "0, the middle" is 0. Only plain numbers, and zero, are free of units. */
-function fallbackOf(field: FieldInfo): number | undefined {
-  if (!field.fallback) return undefined;
-  const value = Number.isFinite(field.fallbackValue)
-    ? field.fallbackValue
-    : field.unit && !/^0\b(?!\.)/.test(field.fallback)
-      ? NaN
-      : parseFloat(field.fallback);
-  return Number.isFinite(value) ? value : undefined;
-}
-
-/** A number as it stands in its box; the present length of a chord as its card says it. */
-function textOf(value: number | undefined, scale: number, present: number | null): string {
-  if (value === undefined) return '';
-  return value === present ? figure(value) : String(+(value * scale).toPrecision(6));
-}
-
-/** ms without a key after which a typed number is tried. */
-const pause = 700;
-let typing = 0;
-
-function NumberField(props: FieldProps) {
-  const { kind, field } = props;
-  const value = state.draft.value?.fields[field.name] as number | undefined;
-  const percent = shares.has(field.name) && field.unit === '';
-  const scale = percent ? 100 : 1;
-  const unit = percent ? '%' : field.unit;
-  const range = sliders[kind]?.[field.name];
-  const rest = kind === 'chord_length' && field.name === 'length' ? restOfChord() : null;
-  const given = fallbackOf(field);
-  const fallback = field.name === 'length' ? (state.added.value?.rest ?? given) : given;
-  const set = (text: string) => {
-    const number = parseFloat(text.replace(',', '.'));
-    setField(field.name, Number.isFinite(number) ? number / scale : undefined);
-  };
-  const shown = value ?? (range ? fallback : undefined);
-  const text = textOf(value, scale, rest);
-  const low = rest ? +(0.4 * rest).toFixed(1) : range?.[0];
-  const high = rest ? +(1.6 * rest).toFixed(1) : range?.[1];
-  return (
-    <div class="field" title={field.help}>
-      <label for={`f-${field.name}`}>{labelOf(props)}</label>
-      <div class="number">
-        {range && (
-          <span class="slide">
-            <input
-              type="range"
-              aria-label={labelOf(props)}
-              min={low! * scale}
-              max={high! * scale}
-              step={range[2] * scale}
-              value={(shown ?? (low! + high!) / 2) * scale}
-              onInput={(event) => set(event.currentTarget.value)}
-            />
-            <span class="ends" aria-hidden="true">
-              <i>{+(low! * scale).toPrecision(4)}</i>
-              <i>{+(high! * scale).toPrecision(4)}</i>
-            </span>
-          </span>
-        )}
-        <input
-          id={`f-${field.name}`}
-          type="number"
-          inputMode="decimal"
-          step="any"
-          value={text}
-          placeholder={
-            fallback !== undefined
-              ? String(+(fallback * scale).toPrecision(3))
-              : field.fallback
-                ? formTexts.auto
-                : ''
-          }
-          onInput={(event) => {
-            // a number that was typed to its end is tried without Enter; "19." goes on
-            const { currentTarget: box } = event;
-            const typed = box.value;
-            window.clearTimeout(typing);
-            if (typed === text || String(parseFloat(typed)) !== typed) return;
-            typing = window.setTimeout(() => box.isConnected && box.value === typed && set(typed), pause);
-          }}
-          onChange={(event) => event.currentTarget.value !== text && set(event.currentTarget.value)}
-          onKeyDown={(event) => {
-            // Enter takes a number that was typed; once more, with its preview in sight, it applies
-            if (event.key !== 'Enter' || event.currentTarget.value === text) return;
-            event.preventDefault();
-            set(event.currentTarget.value);
-          }}
-        />
-        <span class="unit">{unit}</span>
-      </div>
-      {kind === 'ring' && field.name === 'size' && (
-        <small>{formTexts.sizeFrom(state.main.value?.figures.measures.annulusCc ?? NaN)}</small>
-      )}
-      {rest !== null && value !== undefined && <small>{formTexts.change(rest, value)}</small>}
-      {value === undefined && field.fallback && !rest && !Number.isFinite(field.fallbackValue) && (
-        <small>{formTexts.leftEmpty(field.fallback)}</small>
-      )}
-    </div>
-  );
 }
 
 function PickButton({ field }: { field: FieldInfo }) {

@@ -30,9 +30,10 @@ export function OperationForm() {
   const draft = state.draft.value!;
   const info = state.operations.value.find((operation) => operation.name === draft.kind)!;
   const words = wordsOf(draft.kind, info.help);
-  const first =
-    prominent[draft.kind] ?? info.fields.filter((field) => field.required).map((field) => field.name);
   const usable = info.fields.filter((field) => field.type !== 'point' && !field.name.startsWith('landmarks'));
+  // of an operation that the page does not know: what is required, or all of them where nothing is
+  const required = usable.filter((field) => field.required);
+  const first = prominent[draft.kind] ?? (required.length ? required : usable).map((field) => field.name);
   const picking = state.picking.value;
   // a list of points that is given or drawn stands instead of other fields
   const points = replacements[draft.kind];

@@ -81,7 +81,8 @@ function grasp(view: Viewport, hit: Hit): Drag {
   }
   request(
     'hand_begin',
-    { tool: ball ? 'ball' : 'grasp', node: surface.node, position },
+    // from there the ball goes into the tissue at once: a press without a drag pushes it
+    { tool: ball ? 'ball' : 'grasp', node: surface.node, position, to: [...surface.at] },
     {
       motion: (motion) => {
         state.receive(motion.picture);
@@ -90,7 +91,7 @@ function grasp(view: Viewport, hit: Hit): Drag {
     },
   ).catch(fail);
   state.handing.value = true;
-  return { kind: 'hand', depth: surface.distance - (ball ? ballGap : 0) };
+  return { kind: 'hand', depth: surface.distance };
 }
 
 /** Moves the tool of the hand in the plane in which it began. */

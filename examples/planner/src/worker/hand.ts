@@ -15,7 +15,7 @@ const mostSteps = 8;
 export class HandLoop {
   private tool: bigint;
   private running = true;
-  private target: number[] | null = null;
+  private target: number[] | null;
 
   constructor(
     private readonly sim: Simulator,
@@ -23,7 +23,8 @@ export class HandLoop {
     private readonly show: (motion: Motion) => void,
     private readonly failed: (error: unknown) => void,
   ) {
-    const position = hand.position.map((v) => v / mm);
+    const [position, to] = [hand.position, hand.to].map((place) => place.map((v) => v / mm));
+    this.target = to;
     this.tool =
       hand.tool === 'grasp'
         ? sim.grasp(hand.node, { position, max_force: 3 })
