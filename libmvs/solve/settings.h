@@ -124,8 +124,9 @@ inline constexpr uint32_t most_still = max_polish_pause + 6;
 // of 1/8 lowered the norm by a twentieth, ten times in a row. With 2 trials for 5, springs of
 // 27,000 vertices take 26 iterations for 33; on up to 6,800 vertices they are as many.
 inline constexpr int polish_trials = 2;
-// The same after an unstable equilibrium was left: in the cycle around it shares of 1/32 to a
-// quarter lead back.
+// The same after a return to an unstable equilibrium: in the cycle around it shares of 1/32 to a
+// quarter lead back. Already after the first leaving, they led back at once from a place from which
+// others lead to a stable equilibrium.
 inline constexpr int patient_trials = 7;
 inline constexpr double polish_backtracking = 0.5, polish_decrease = 0.1;
 

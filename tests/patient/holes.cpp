@@ -355,3 +355,46 @@ TEST_CASE("rims_that_touch_in_a_point_around_a_wide_gap_stay") {
   CHECK(findings.empty());
   CHECK(sheet.triangles == before.triangles);
 }
+
+TEST_CASE("rims_follow_the_cut_of_a_handle_at_the_edge") {
+  // a tube in place of two triangles, each with one corner on the free edge: all loops around it
+  // pass one of these corners
+  constexpr uint32_t round = 60, down = 8, edge = down * round;
+  Surface s = funnel(round, down);
+  const auto take = [&](uint32_t corner) {
+    for (size_t t = 0; t < s.triangles.size(); ++t) {
+      Tri tri = s.triangles[t];
+      if (std::count_if(tri.begin(), tri.end(), [](uint32_t i) { return i >= edge; }) != 1)
+        continue;
+      const auto at = std::find(tri.begin(), tri.end(), corner);
+      if (at == tri.end()) continue;
+      std::rotate(tri.begin(), at, tri.end());
+      s.triangles.erase(s.triangles.begin() + static_cast<std::ptrdiff_t>(t));
+      return tri;
+    }
+    return Tri{none, none, none};
+  };
+  const auto [v, a, b] = take(edge + 10);
+  const auto [w, c, d] = take(edge + 20);
+  REQUIRE(v != none);
+  REQUIRE(w != none);
+  for (const Tri &t :
+       {Tri{v, a, d}, Tri{v, d, w}, Tri{a, b, c}, Tri{a, c, d}, Tri{b, v, w}, Tri{b, w, c}}) {
+    s.triangles.push_back(t);
+  }
+  LeafletSheet sheet = cleaned(s);
+  const size_t before = boundary_loops(sheet)[1].size();
+  Findings findings;
+  SheetRims rims = find_rims(sheet, {}, findings);
+  REQUIRE(find(findings, "cut_handles"));
+  CHECK(rims.free_edge.size() > before);
+  std::vector<std::vector<uint32_t>> loops = boundary_loops(sheet);
+  REQUIRE(loops.size() == 2);
+  for (std::vector<uint32_t> *rim : {&rims.annulus, &rims.free_edge}) {
+    std::sort(rim->begin(), rim->end());
+    CHECK(std::any_of(loops.begin(), loops.end(), [&](std::vector<uint32_t> loop) {
+      std::sort(loop.begin(), loop.end());
+      return loop == *rim;
+    }));
+  }
+}

@@ -86,10 +86,13 @@ void cut(LeafletSheet &surface, const SurfaceLoop &loop) {
   const Vec3 centre = centre_of(surface, loop.vertices);
   const std::vector<uint8_t> on_loop = marks_of(loop.vertices, before);
   open_along(surface, loop.vertices);
-  // both new boundaries, known by the vertices of the loop and by new ones
+  // both new boundaries, of vertices of the loop and new ones alone; a loop with a vertex on a rim
+  // makes one of them a part of that rim
   std::vector<std::vector<uint32_t>> caps;
   for (std::vector<uint32_t> &rim : boundary_loops(surface)) {
-    if (rim[0] >= before || on_loop[rim[0]] != 0) caps.push_back(std::move(rim));
+    const bool is_new = std::all_of(rim.begin(), rim.end(),
+                                    [&](uint32_t i) { return i >= before || on_loop[i] != 0; });
+    if (is_new) caps.push_back(std::move(rim));
   }
   for (const std::vector<uint32_t> &cap : caps) fill_hole(surface, cap);
   const double reach = loop.length / 6.283185307179586 + smoothed_reach;

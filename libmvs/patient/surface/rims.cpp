@@ -252,7 +252,13 @@ SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings
   std::vector<RimLoop> rims = sorted_rims(sheet);
   fill_holes(sheet, rims, findings);
   check_rims(rims);
+  const size_t triangles = sheet.triangles.size();
   check_handles(sheet, findings);
+  if (sheet.triangles.size() != triangles) {  // a cut may have passed a rim
+    rims = sorted_rims(sheet);
+    fill_holes(sheet, rims, findings);
+    check_rims(rims);
+  }
   order_rims(sheet, rims, landmarks, findings);
   orient(sheet, rims, landmarks.tips, findings);
   check_open(rims, findings);

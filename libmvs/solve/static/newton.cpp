@@ -173,9 +173,9 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
   const bool remove_lambda = system_.applied_lambda() < settings::newton::max_removed_lambda;
   system_.solve(at_.gradient, !remove_lambda, step_.newton, stats_);
   limit_step();
-  // near an equilibrium that it left before, most steps are too long for few trials
+  // in the cycle around an equilibrium that it returned to, most steps are too long for few trials
   namespace set = settings::newton;
-  if (!search_on_force(unstable_.empty() ? set::polish_trials : set::patient_trials)) return false;
+  if (!search_on_force(returns_ == 0 ? set::polish_trials : set::patient_trials)) return false;
   evaluate();
   return true;
 }
