@@ -25,7 +25,7 @@ const facts: [string, (chord: Chord) => string, string, ((chord: Chord) => strin
   [repairTexts.limit, (chord) => String(percentOfLimit(shareOfLimit(chord))), '%'],
 ];
 
-/** Of these a form has room for; the share says whether pull or stretch is beyond its limit. */
+/** The facts that a form has room for; the share says whether pull or stretch is beyond its limit. */
 const briefFacts = facts.filter(([label]) => label === repairTexts.rest || label === repairTexts.limit);
 
 /** `after`: the chord in the preview of a change; `brief`: in a form, whose fields stay in sight below. */
