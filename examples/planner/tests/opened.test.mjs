@@ -131,4 +131,30 @@ describe('what is opened', () => {
     await open(page, copy);
     assert.match(await page.getByTestId('notice').innerText(), /^Session opened/);
   });
+
+  it('saves_a_valve_as_obj_and_opens_it_again', async () => {
+    await begin(page, 'ring');
+    await apply(page);
+    const { measures, valve } = await figures(page);
+    await openPanel(page, 'Plan');
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('button', { name: 'Valve as OBJ' }).click(),
+    ]);
+    assert.match(download.suggestedFilename(), /\.obj$/);
+    const copy = temporaryFile('repaired.obj', readFileSync(await download.path()));
+    await healthy(page);
+    await closed(page);
+    await open(page, copy);
+    await closed(page);
+    const again = await figures(page);
+    assert.equal(again.valve, valve);
+    // coordinates are written to the last bit; the page settles the valve again, to 1e-4 N
+    for (const name of ['annulusAp', 'coaptationMean', 'tentingHeight'])
+      assert.ok(
+        Math.abs(again.measures[name] - measures[name]) < 0.05,
+        `${name}: ${again.measures[name]} after ${measures[name]} mm`,
+      );
+    assert.equal(again.measures.orifice, measures.orifice);
+  });
 });

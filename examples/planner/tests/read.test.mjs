@@ -92,6 +92,43 @@ describe('planner read and touched', () => {
     for (const text of said) assert.match(text, /mm without pull, (pull \d+\smN, stretch [\d.]+\s%|slack)/);
   });
 
+  it('turns_pans_and_zooms_with_the_mouse_at_a_lower_resolution', async () => {
+    const box = await page.locator('.canvas canvas').boundingBox();
+    // a corner of the picture without tissue
+    const [x, y] = [box.x + 40, box.y + box.height - 60];
+    const camera = () =>
+      page.evaluate(() => {
+        const { orientation, target, distance } = window.planner.viewport.camera;
+        return { turn: orientation.toArray(), target: target.toArray(), distance };
+      });
+    const drag = async (button) => {
+      await page.mouse.move(x, y);
+      await page.mouse.down({ button });
+      for (let k = 1; k <= 5; ++k) await page.mouse.move(x + 12 * k, y - 8 * k);
+      await page.mouse.up({ button });
+    };
+    const start = await camera();
+    await drag('left');
+    const turned = await camera();
+    assert.notDeepEqual(turned.turn, start.turn);
+    assert.deepEqual([turned.target, turned.distance], [start.target, start.distance]);
+    await drag('right');
+    const panned = await camera();
+    assert.notDeepEqual(panned.target, turned.target);
+    assert.deepEqual([panned.turn, panned.distance], [turned.turn, turned.distance]);
+    await page.mouse.wheel(0, -300);
+    assert.ok((await camera()).distance < 0.95 * panned.distance, 'the wheel brings the valve nearer');
+    // fewer pixels while it moves, three for two of the screen at rest
+    const sizes = await page.evaluate(() => {
+      const { viewport } = window.planner;
+      return [true, false].map((fast) => {
+        viewport.draw(fast);
+        return viewport.renderer.canvas.width / viewport.width;
+      });
+    });
+    assert.ok(sizes[0] <= 1 && Math.abs(sizes[1] - 1.5) < 0.01, `${sizes}`);
+  });
+
   it('drags_the_section_plane', async () => {
     await page.keyboard.press('4');
     await cameraRests(page);

@@ -25,7 +25,10 @@ const facts: [string, (chord: Chord) => string, string, ((chord: Chord) => strin
   [repairTexts.limit, (chord) => String(percentOfLimit(shareOfLimit(chord))), '%'],
 ];
 
-/** `after`: the chord in the preview of a change; `brief`: in a form, which has no room for an explanation. */
+/** The facts that a form has room for; the share says whether pull or stretch is beyond its limit. */
+const briefFacts = facts.filter(([label]) => label === repairTexts.rest || label === repairTexts.limit);
+
+/** `after`: the chord in the preview of a change; `brief`: in a form, whose fields stay in sight below. */
 export function ChordFacts({ chord, after, brief }: { chord: Chord; after?: Chord; brief?: boolean }) {
   const fact = (of: (chord: Chord) => string, unit: string) => {
     const [was, now] = [of(chord), of(after ?? chord)];
@@ -38,7 +41,7 @@ export function ChordFacts({ chord, after, brief }: { chord: Chord; after?: Chor
       <h3>{repairTexts.chord(chord.name)}</h3>
       <p>{repairTexts.between(kinds[chord.kind], chord.heads, chord.scallops)}</p>
       <dl>
-        {facts.map(([label, of, unit, limit]) => (
+        {(brief ? briefFacts : facts).map(([label, of, unit, limit]) => (
           <>
             <dt>{label}</dt>
             <dd
