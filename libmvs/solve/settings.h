@@ -209,6 +209,19 @@ inline constexpr double residual = 0.2;  // rest forces: its rim is as far from 
 
 }  // namespace local_subproblem
 
+// Nonlinear elimination: the local subproblem around the nodes with the largest forces that is
+// settled after an iteration of the whole valve.
+namespace elimination {
+
+inline constexpr double force_share = 0.03;  // of the residual: above it a node is disturbed
+inline constexpr double max_disturbed_share = 0.02;  // of the nodes: above it no subproblem
+inline constexpr double radius = 3;                 // around the disturbed nodes, mean edge lengths
+inline constexpr double max_displacement = 0.2e-3;  // m, of a node from its start
+inline constexpr uint32_t max_iterations = 6;
+inline constexpr double residual = 0.1;  // of the force above which nodes are disturbed
+
+}  // namespace elimination
+
 // Nested iteration over coarser meshes.
 namespace mesh_hierarchy {
 

@@ -13,7 +13,8 @@
 // (collision/step_limiter.h).
 //
 // Where only a few nodes are far from rest, as after an operation on a closed valve, a local
-// subproblem around them is settled first (local_subproblem.h): it only improves the start.
+// subproblem around them is settled first, and after each iteration another one around the nodes
+// with the largest forces (local_settles.cpp). Both only improve the start of the next iteration.
 #pragma once
 
 #include "energy/total_energy.h"
@@ -47,6 +48,13 @@ struct ForceLevels {
   double polish_below = 0;  // for polish steps
 };
 
+// The settle of a local subproblem (local_subproblem.h).
+struct LocalSettle {
+  double radius, max_displacement;  // m: of its free nodes around the disturbed ones; of a node
+  double residual;                  // N, at which it ends
+  uint32_t max_iterations;
+};
+
 // Whether the leaflets are of springs or of the bilinear membrane alone, whose stiffness does not
 // grow with strain beyond their kink.
 bool has_bilinear_tissue(const Model &model);
@@ -66,6 +74,9 @@ class Newton {
   void presolve_locally(const Load &load);
   // Whether more nodes are disturbed than a local subproblem may have.
   bool has_many_disturbed() const;
+  // Settles the neighbourhood of the nodes with the largest forces, if these are few and above the
+  // tolerance, N. Moves no node unless the forces of the whole valve fall.
+  void eliminate(const Load &load, double tolerance);
   void iterate(PolishSchedule &polish);
   void move_boundary(BoundaryRamp &ramp);
   // Whether the present positions, which are in equilibrium, are a stable one. If not, the valve
@@ -96,6 +107,8 @@ class Newton {
     bool reached = false;
   };
   void evaluate();
+  void settle_around(const std::vector<uint32_t> &disturbed, const Load &load,
+                     const LocalSettle &how);
   bool newton_polish_step(PolishSchedule &polish);
   Stability check_stability(bool margins);
   void leave(const Stability &unstable);

@@ -30,8 +30,9 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
   newton_.set_poll([this] { watch_.poll(); });
   newton_.begin(state, max_displacement);
   polish_.best_residual = newton_.rest_force();
-  // a local subproblem has no tools
-  may_presolve_ = state.tools.empty() && max_displacement == 0 && ramp_.is_there(newton_.x());
+  // a local subproblem has no tools, and is not divided again
+  has_local_ = state.tools.empty() && max_displacement == 0;
+  may_presolve_ = has_local_ && ramp_.is_there(newton_.x());
 }
 
 bool NewtonSettling::begins_far_from_rest() const {
@@ -54,6 +55,7 @@ bool NewtonSettling::advance() {
   }
   const std::vector<Vec3> before = newton_.x();
   newton_.iterate(polish_);
+  if (has_local_ && arrived) newton_.eliminate(load_, tolerance_);
   still_ = same_bits(before, newton_.x()) ? still_ + 1 : 0;
   return true;
 }

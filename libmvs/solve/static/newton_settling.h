@@ -27,7 +27,8 @@ class NewtonSettling final : public Settling {
   double tolerance_;  // N
   uint32_t most_;     // iterations
   bool checks_stability_, margins_;
-  bool may_presolve_;  // a local subproblem, in the first iteration
+  bool has_local_;     // local subproblems are settled where they pay
+  bool may_presolve_;  // one of them, in the first iteration
   bool converged_ = false;
   Load load_;
   uint32_t still_ = 0;  // iterations in a row that moved no node

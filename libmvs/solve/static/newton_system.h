@@ -54,7 +54,11 @@ class NewtonSystem {
   // then is.
   void factorise(double &lambda, SolveStats &stats);
   double applied_lambda() const { return applied_lambda_; }
-  DirectSolver &factor() { return *factor_; }
+  // The solver of the factor, for another matrix. The next factorisation analyses its pattern anew.
+  DirectSolver &lend_factor() {
+    is_analysed_ = false;
+    return *factor_;
+  }
 
   // The step of all nodes for the gradient g. Where H is exact and `with_lambda` is false the step
   // solves the system without lambda.
