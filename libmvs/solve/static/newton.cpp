@@ -32,9 +32,10 @@ Newton::Newton(const Model &model, DirectSolver &factor)
   check_.use_workers(factor.workers());
 }
 
-void Newton::begin(const State &state, double max_displacement) {
+void Newton::begin(const State &state, const LocalStart &local) {
   at_.x = state.x;
-  if (max_displacement > 0) limit_ = {max_displacement, state.x};
+  if (local.max_displacement > 0) limit_ = {local.max_displacement, state.x};
+  lambda_ = local.lambda;
   trial_.resize(at_.x.size());
   total_energy_.set_pressure(state.load.pressure);
   total_energy_.set_tools(state.tools);
@@ -97,7 +98,9 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
   system_.assemble(Curvature::exact, stats_.work);
   if (!system_.try_factorise(0, stats_)) {
     ++stats_.shifted;
-    if (at_.residual > settings::stability::early_residual * forces_.rest) return false;
+    // a local subproblem has no masses, and its stability is not that of the valve
+    const bool is_local = limit_.distance > 0;
+    if (is_local || at_.residual > settings::stability::early_residual * forces_.rest) return false;
     if (at_.residual > polish.stable_residual) {
       const Stability found = check_stability(false);
       if (!found.is_stable) {

@@ -26,6 +26,10 @@
 
 namespace mvs::core {
 
+// Iterations until an attempt that may fail is made again; after the next failure.
+struct Pause {
+  int wait = 0, length = 1;
+};
 // When a polish step is tried, and with which lambda.
 struct PolishSchedule {
   double best_residual;  // N, the smallest that a polish step reached
@@ -48,10 +52,17 @@ struct ForceLevels {
   double polish_below = 0;  // for polish steps
 };
 
+// How the settle of a local subproblem begins; as it is: that of a whole valve.
+struct LocalStart {
+  double max_displacement = 0;  // m, of a node: it ends there; 0: unlimited
+  double lambda = 1;            // of the first factorisation
+};
+
 // The settle of a local subproblem (local_subproblem.h).
 struct LocalSettle {
-  double radius, max_displacement;  // m: of its free nodes around the disturbed ones; of a node
-  double residual;                  // N, at which it ends
+  double radius;  // m, of its free nodes around the disturbed ones
+  LocalStart start;
+  double residual;  // N, at which it ends
   uint32_t max_iterations;
 };
 
@@ -67,8 +78,8 @@ class Newton {
     system_.set_poll(poll);
     check_.set_poll(poll);
   }
-  // Starts at a state. `max_displacement`: m, of a local subproblem; 0: unlimited.
-  void begin(const State &state, double max_displacement);
+  // Starts at a state; `local`: see LocalStart.
+  void begin(const State &state, const LocalStart &local);
   // Settles the neighbourhood of a few disturbed nodes, held by the remaining valve: many
   // iterations there cost less than one of the whole valve.
   void presolve_locally(const Load &load);
@@ -137,6 +148,7 @@ class Newton {
   Step step_;
   std::vector<Vec3> trial_;  // m, positions
   DisplacementLimit limit_;
+  Pause elimination_;
 };
 
 }  // namespace mvs::core

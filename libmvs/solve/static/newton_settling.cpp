@@ -16,7 +16,7 @@ uint32_t max_iterations(const SolveOptions &options) {
 
 NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const State &state,
                                const SolveOptions &options, const Progress &progress,
-                               double max_displacement)
+                               const LocalStart &local)
     : tolerance_(options.tolerance()),
       most_(max_iterations(options)),
       checks_stability_(options.checks_stability),
@@ -28,10 +28,10 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
       watch_(model, state.x, state.load, tolerance_, progress) {
   const AddedTime timer(seconds_);
   newton_.set_poll([this] { watch_.poll(); });
-  newton_.begin(state, max_displacement);
+  newton_.begin(state, local);
   polish_.best_residual = newton_.rest_force();
   // a local subproblem has no tools, and is not divided again
-  has_local_ = state.tools.empty() && max_displacement == 0;
+  has_local_ = state.tools.empty() && local.max_displacement == 0;
   may_presolve_ = has_local_ && ramp_.is_there(newton_.x());
 }
 

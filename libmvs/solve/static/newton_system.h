@@ -40,6 +40,7 @@ class NewtonSystem {
   // To be called before each ordering, factorisation and solution, which take long on a fine mesh;
   // it may throw.
   void set_poll(std::function<void()> poll) { poll_ = std::move(poll); }
+  void poll() const { poll_(); }
   // Begins a closure under a pressure of this size, Pa.
   void set_scale(double pressure, double mean_area);
 
