@@ -26,8 +26,8 @@ class NewtonSettling final : public Settling {
   double tolerance_;  // N
   uint32_t most_;     // iterations
   bool checks_stability_, margins_;
-  bool has_local_;     // local subproblems are settled where they pay
-  bool may_presolve_;  // one of them, in the first iteration
+  bool may_presolve_;  // a local subproblem, in the first iteration
+  bool eliminates_;    // settles local subproblems after iterations
   bool converged_ = false;
   Load load_;
   uint32_t still_ = 0;  // iterations in a row that moved no node
