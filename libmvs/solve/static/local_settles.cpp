@@ -69,7 +69,9 @@ void Newton::presolve_locally(const Load &load) {
 // the forces little it pauses: far from rest nodes reach their limit of displacement at once.
 void Newton::eliminate(const Load &load, double tolerance) {
   namespace set = settings::elimination;
-  if (at_.residual <= tolerance) return;
+  // this near to the equilibrium iterations converge quadratically and end more exactly
+  const double near_rest = settings::stability::early_residual * forces_.rest;
+  if (at_.residual <= std::max(tolerance, near_rest)) return;
   if (elimination_.wait > 0) {
     --elimination_.wait;
     return;
