@@ -1,5 +1,5 @@
-// Newton's method: polish steps near rest, the boundary, step limits, the presolve of a local
-// subproblem. trust_region.cpp has the steps far from rest, unstable.cpp leaves unstable
+// Newton's method: polish steps near rest, the boundary, step limits. trust_region.cpp has the
+// steps far from rest, local_settles.cpp the local subproblems, unstable.cpp leaves unstable
 // equilibria.
 #include "solve/static/newton.h"
 
@@ -7,42 +7,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "energy/forces.h"
 #include "linalg/gmres.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
-#include "solve/static/local_subproblem.h"
-#include "solve/static/newton_settling.h"
 
 namespace mvs::core {
-namespace {
-
-// Free nodes whose force is above `disturbed_residual` rest forces.
-std::vector<uint32_t> disturbed_nodes(const Model &model, const std::vector<Vec3> &g,
-                                      double rest_force) {
-  std::vector<uint32_t> nodes;
-  for (uint32_t i = 0; i < g.size(); ++i) {
-    const bool far = g[i].squaredNorm() > settings::local_subproblem::disturbed_residual *
-                                              settings::local_subproblem::disturbed_residual *
-                                              rest_force * rest_force;
-    if (far && !model.topology.fixed[i]) nodes.push_back(i);
-  }
-  return nodes;
-}
-
-bool are_many(const std::vector<uint32_t> &disturbed, size_t nodes) {
-  return static_cast<double>(disturbed.size()) >
-         settings::local_subproblem::max_disturbed_share * static_cast<double>(nodes);
-}
-
-}  // namespace
-
-bool far_from_rest(const Model &model, const State &state) {
-  if (!boundary_is_there(model, state.x, state.load.boundary_fraction, 0)) return true;
-  const std::vector<Vec3> force = evaluate_forces(model, state).total;
-  const double rest_force = scale_of(state.load) * mean_area(model);
-  return are_many(disturbed_nodes(model, force, rest_force), state.x.size());
-}
 
 bool has_bilinear_tissue(const Model &model) {
   const auto &leaflets = model.valve.leaflets;
@@ -63,9 +32,10 @@ Newton::Newton(const Model &model, DirectSolver &factor)
   check_.use_workers(factor.workers());
 }
 
-void Newton::begin(const State &state, double max_displacement) {
+void Newton::begin(const State &state, const LocalStart &local) {
   at_.x = state.x;
-  if (max_displacement > 0) limit_ = {max_displacement, state.x};
+  if (local.max_displacement > 0) limit_ = {local.max_displacement, state.x};
+  lambda_ = local.lambda;
   trial_.resize(at_.x.size());
   total_energy_.set_pressure(state.load.pressure);
   total_energy_.set_tools(state.tools);
@@ -88,35 +58,6 @@ SolveStats Newton::finish(State &state) {
   stats_.contact_pairs = static_cast<uint32_t>(total_energy_.contact().contact_pairs().size());
   stats_.skipped |= total_energy_.skipped();
   return stats_;
-}
-
-bool Newton::has_many_disturbed() const {
-  return are_many(disturbed_nodes(*model_, at_.gradient, forces_.rest), at_.x.size());
-}
-
-void Newton::presolve_locally(const Load &load) {
-  const std::vector<uint32_t> disturbed = disturbed_nodes(*model_, at_.gradient, forces_.rest);
-  const size_t nodes = at_.x.size();
-  if (disturbed.empty() || are_many(disturbed, nodes)) return;
-  const auto most =
-      static_cast<size_t>(settings::local_subproblem::max_free_share * static_cast<double>(nodes));
-  const LocalSubproblem region = make_local_subproblem(
-      *model_, at_.x, disturbed,
-      {settings::local_subproblem::radius, most, settings::local_subproblem::max_displacement});
-  State state;
-  for (const uint32_t i : region.node) state.x.push_back(at_.x[i]);
-  state.load = load;
-  SolveOptions options;
-  options.max_iterations = settings::local_subproblem::max_iterations;
-  options.residual = settings::local_subproblem::residual * forces_.rest;
-  options.checks_stability = false;
-  NewtonSettling settling(region.model, system_.factor(), state, options, {},
-                          settings::local_subproblem::max_displacement);
-  const SolveStats done = run(settling, state);
-  const auto &x = state.x.get();
-  for (size_t k = 0; k < x.size(); ++k) at_.x[region.node[k]] = x[k];
-  stats_.work.add(done.work);
-  evaluate();
 }
 
 void Newton::evaluate() {
@@ -157,7 +98,9 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
   system_.assemble(Curvature::exact, stats_.work);
   if (!system_.try_factorise(0, stats_)) {
     ++stats_.shifted;
-    if (at_.residual > settings::stability::early_residual * forces_.rest) return false;
+    // a local subproblem has no masses, and its stability is not that of the valve
+    const bool is_local = limit_.distance > 0;
+    if (is_local || at_.residual > settings::stability::early_residual * forces_.rest) return false;
     if (at_.residual > polish.stable_residual) {
       const Stability found = check_stability(false);
       if (!found.is_stable) {

@@ -13,7 +13,8 @@
 // (collision/step_limiter.h).
 //
 // Where only a few nodes are far from rest, as after an operation on a closed valve, a local
-// subproblem around them is settled first (local_subproblem.h): it only improves the start.
+// subproblem around them is settled first, and after each iteration another one around the nodes
+// with the largest forces (local_settles.cpp). Both only improve the start of the next iteration.
 #pragma once
 
 #include "energy/total_energy.h"
@@ -25,6 +26,10 @@
 
 namespace mvs::core {
 
+// Iterations until an attempt that may fail is made again; after the next failure.
+struct Pause {
+  int wait = 0, length = 1;
+};
 // When a polish step is tried, and with which lambda.
 struct PolishSchedule {
   double best_residual;  // N, the smallest that a polish step reached
@@ -47,6 +52,20 @@ struct ForceLevels {
   double polish_below = 0;  // for polish steps
 };
 
+// How the settle of a local subproblem begins; as it is: that of a whole valve.
+struct LocalStart {
+  double max_displacement = 0;  // m, of a node: it ends there; 0: unlimited
+  double lambda = 1;            // of the first factorisation
+};
+
+// The settle of a local subproblem (local_subproblem.h).
+struct LocalSettle {
+  double radius;  // m, of its free nodes around the disturbed ones
+  LocalStart start;
+  double residual;  // N, at which it ends
+  uint32_t max_iterations;
+};
+
 // Whether the leaflets are of springs or of the bilinear membrane alone, whose stiffness does not
 // grow with strain beyond their kink.
 bool has_bilinear_tissue(const Model &model);
@@ -59,13 +78,16 @@ class Newton {
     system_.set_poll(poll);
     check_.set_poll(poll);
   }
-  // Starts at a state. `max_displacement`: m, of a local subproblem; 0: unlimited.
-  void begin(const State &state, double max_displacement);
+  // Starts at a state; `local`: see LocalStart.
+  void begin(const State &state, const LocalStart &local);
   // Settles the neighbourhood of a few disturbed nodes, held by the remaining valve: many
   // iterations there cost less than one of the whole valve.
   void presolve_locally(const Load &load);
   // Whether more nodes are disturbed than a local subproblem may have.
   bool has_many_disturbed() const;
+  // Settles the neighbourhood of the nodes with the largest forces, if these are few and above the
+  // tolerance, N. Moves no node unless the forces of the whole valve fall.
+  void eliminate(const Load &load, double tolerance);
   void iterate(PolishSchedule &polish);
   void move_boundary(BoundaryRamp &ramp);
   // Whether the present positions, which are in equilibrium, are a stable one. If not, the valve
@@ -99,6 +121,8 @@ class Newton {
     bool reached = false;
   };
   void evaluate();
+  void settle_around(const std::vector<uint32_t> &disturbed, const Load &load,
+                     const LocalSettle &how);
   bool newton_polish_step(PolishSchedule &polish);
   Stability check_stability(bool margins);
   bool has_returned() const;
@@ -130,6 +154,7 @@ class Newton {
   DisplacementLimit limit_;
   std::vector<Vec3> unstable_;  // m, nodes at the last unstable equilibrium; empty: none yet
   uint32_t returns_ = 0;        // to it, in a row
+  Pause elimination_;
 };
 
 }  // namespace mvs::core

@@ -12,11 +12,10 @@ namespace mvs::core {
 
 class NewtonSettling final : public Settling {
  public:
-  // `max_displacement`: m, of a local subproblem; 0: unlimited. The model and the factor must
-  // outlive it.
+  // The model and the factor must outlive it.
   NewtonSettling(const Model &model, DirectSolver &factor, const State &state,
                  const SolveOptions &options, const Progress &progress,
-                 double max_displacement = 0);
+                 const LocalStart &local = {});
   bool advance() override;
   // Sets velocities to zero.
   SolveStats finish(State &state) override;
@@ -28,6 +27,7 @@ class NewtonSettling final : public Settling {
   uint32_t most_;     // iterations
   bool checks_stability_, margins_;
   bool may_presolve_;  // a local subproblem, in the first iteration
+  bool eliminates_;    // settles local subproblems after iterations
   bool converged_ = false;
   Load load_;
   uint32_t still_ = 0;  // iterations in a row that moved no node

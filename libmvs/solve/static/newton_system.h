@@ -40,6 +40,7 @@ class NewtonSystem {
   // To be called before each ordering, factorisation and solution, which take long on a fine mesh;
   // it may throw.
   void set_poll(std::function<void()> poll) { poll_ = std::move(poll); }
+  void poll() const { poll_(); }
   // Begins a closure under a pressure of this size, Pa.
   void set_scale(double pressure, double mean_area);
 
@@ -54,7 +55,11 @@ class NewtonSystem {
   // then is.
   void factorise(double &lambda, SolveStats &stats);
   double applied_lambda() const { return applied_lambda_; }
-  DirectSolver &factor() { return *factor_; }
+  // The solver of the factor, for another matrix. The next factorisation analyses its pattern anew.
+  DirectSolver &lend_factor() {
+    is_analysed_ = false;
+    return *factor_;
+  }
 
   // The step of all nodes for the gradient g. Where H is exact and `with_lambda` is false the step
   // solves the system without lambda.
