@@ -118,7 +118,8 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
   limit_step();
   // in the cycle around an equilibrium that it returned to, most steps are too long for few trials
   namespace set = settings::newton;
-  if (!search_on_force(returns_ == 0 ? set::polish_trials : set::patient_trials)) return false;
+  if (!search_on_force(unstable_.returns == 0 ? set::polish_trials : set::patient_trials))
+    return false;
   evaluate();
   return true;
 }

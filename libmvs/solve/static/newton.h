@@ -66,6 +66,19 @@ struct LocalSettle {
   uint32_t max_iterations;
 };
 
+// A local subproblem ends when a node would leave the region that it was cut out for.
+struct DisplacementLimit {
+  double distance = 0;       // m; 0: unlimited
+  std::vector<Vec3> origin;  // of the nodes
+  bool reached = false;
+};
+
+// The last unstable equilibrium that a settle found.
+struct UnstableEquilibrium {
+  std::vector<Vec3> x;   // m, of the nodes; empty: none yet
+  uint32_t returns = 0;  // to it, in a row
+};
+
 // Whether the leaflets are of springs or of the bilinear membrane alone, whose stiffness does not
 // grow with strain beyond their kink.
 bool has_bilinear_tissue(const Model &model);
@@ -114,12 +127,6 @@ class Newton {
     std::vector<Vec3> newton, limited;  // m: solution of the linear system; after all limits
     double far_share = 0;               // of the nodes: those whose Newton step is much too long
   };
-  // A local subproblem ends when a node would leave the region that it was cut out for.
-  struct DisplacementLimit {
-    double distance = 0;       // m; 0: unlimited
-    std::vector<Vec3> origin;  // of the nodes
-    bool reached = false;
-  };
   void evaluate();
   void settle_around(const std::vector<uint32_t> &disturbed, const Load &load,
                      const LocalSettle &how);
@@ -152,8 +159,7 @@ class Newton {
   Step step_;
   std::vector<Vec3> trial_;  // m, positions
   DisplacementLimit limit_;
-  std::vector<Vec3> unstable_;  // m, nodes at the last unstable equilibrium; empty: none yet
-  uint32_t returns_ = 0;        // to it, in a row
+  UnstableEquilibrium unstable_;
   Pause elimination_;
 };
 

@@ -19,24 +19,24 @@ bool Newton::is_stable(bool margins) {
   stats_.stiffness_margin = found.stiffness;
   stats_.growth_rate = found.rate;
   if (found.is_stable) return true;
-  returns_ = has_returned() ? returns_ + 1 : 0;
-  unstable_ = at_.x;
+  unstable_.returns = has_returned() ? unstable_.returns + 1 : 0;
+  unstable_.x = at_.x;
   if (!always_returns()) leave(found);
   return false;
 }
 
 bool Newton::always_returns() const {
-  return returns_ == settings::stability::most_returns;
+  return unstable_.returns == settings::stability::most_returns;
 }
 
 // Whether the leaflets are where the last unstable equilibrium was. Branch points of slack chordae
 // may be anywhere.
 bool Newton::has_returned() const {
   constexpr double near = settings::stability::returned_share * settings::stability::leave_by;
-  if (unstable_.empty()) return false;
+  if (unstable_.x.empty()) return false;
   for (size_t i = 0; i < at_.x.size(); ++i) {
     if (model_->vertex_area[i] == 0) continue;
-    if ((at_.x[i] - unstable_[i]).squaredNorm() > near * near) return false;
+    if ((at_.x[i] - unstable_.x[i]).squaredNorm() > near * near) return false;
   }
   return true;
 }
@@ -46,7 +46,7 @@ bool Newton::has_returned() const {
 void Newton::leave(const Stability &unstable) {
   namespace set = settings::stability;
   const double pushed = dot(at_.gradient, unstable.mode) > 0 ? -1 : 1;
-  const double turn = returns_ % 2 == 0 ? pushed : -pushed;
+  const double turn = unstable_.returns % 2 == 0 ? pushed : -pushed;
   double lowest = std::numeric_limits<double>::infinity();
   std::vector<Vec3> farthest;
   double way = set::leave_by;
