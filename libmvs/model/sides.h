@@ -54,9 +54,25 @@ inline std::vector<uint8_t> vertex_marks(const std::vector<Tri> &triangles, size
   return marks;
 }
 
+// Normal of a triangle with corners in `x`, twice its area long, m2.
+inline Vec3 area_normal(const std::vector<Vec3> &x, const Tri &t) {
+  return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+}
+
+// The sum of these over the triangles around each vertex.
+inline std::vector<Vec3> area_normals(const std::vector<Vec3> &x,
+                                      const std::vector<Tri> &triangles) {
+  std::vector<Vec3> normals(x.size(), Vec3::Zero());
+  for (const Tri &t : triangles) {
+    const Vec3 n = area_normal(x, t);
+    for (const uint32_t i : t) normals[i] += n;
+  }
+  return normals;
+}
+
 // Area of a triangle with corners in `x`, m2.
 inline double triangle_area(const std::vector<Vec3> &x, const Tri &t) {
-  return 0.5 * (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).norm();
+  return 0.5 * area_normal(x, t).norm();
 }
 
 // Area of a surface, m2.

@@ -21,17 +21,13 @@ std::vector<Vec3> triangle_normals(const std::vector<Vec3> &x, const std::vector
   std::vector<Vec3> normals;
   normals.reserve(triangles.size());
   for (const Tri &t : triangles) {
-    normals.push_back((x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).normalized());
+    normals.push_back(area_normal(x, t).normalized());
   }
   return normals;
 }
 
 std::vector<Vec3> point_normals(const std::vector<Vec3> &x, const std::vector<Tri> &triangles) {
-  std::vector<Vec3> normals(x.size(), Vec3::Zero());
-  for (const Tri &t : triangles) {
-    const Vec3 n = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-    for (const uint32_t i : t) normals[i] += n;
-  }
+  std::vector<Vec3> normals = area_normals(x, triangles);
   for (Vec3 &n : normals) n.normalize();
   return normals;
 }

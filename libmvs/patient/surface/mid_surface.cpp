@@ -13,17 +13,10 @@
 namespace mvs::core {
 namespace {
 
-Vec3 doubled_area(const std::vector<Vec3> &x, const Tri &t) {
-  return (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-}
-
 // Area-weighted normals, twice the mean with those of the neighbours: noise of an image turns
 // single ones.
 std::vector<Vec3> smooth_normals(const LeafletSheet &sheet) {
-  std::vector<Vec3> normal(sheet.x.size(), Vec3::Zero());
-  for (const Tri &t : sheet.triangles) {
-    for (const uint32_t i : t) normal[i] += doubled_area(sheet.x, t);
-  }
+  std::vector<Vec3> normal = area_normals(sheet.x, sheet.triangles);
   for (Vec3 &n : normal) n.normalize();
   for (int round = 0; round < 2; ++round) {
     std::vector<Vec3> sum = normal;
@@ -45,8 +38,8 @@ std::vector<uint8_t> harmed(const LeafletSheet &sheet, const std::vector<Vec3> &
     for (const uint32_t i : sheet.triangles[t]) marks[i] = 1;
   };
   for (uint32_t t = 0; t < sheet.triangles.size(); ++t) {
-    const Vec3 before = doubled_area(sheet.x, sheet.triangles[t]);
-    const Vec3 after = doubled_area(x, sheet.triangles[t]);
+    const Vec3 before = area_normal(sheet.x, sheet.triangles[t]);
+    const Vec3 after = area_normal(x, sheet.triangles[t]);
     if (after.dot(before) < 0.2 * before.squaredNorm()) mark(t);
   }
   for (const Edge &pair : find_intersections(x, sheet.triangles)) {

@@ -1,10 +1,10 @@
 // Vertices of a rim at one place, and the gap between them.
 #include "patient/surface/pinched_gaps.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "base/error.h"
+#include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/fill_hole.h"
 #include "patient/surface/holes.h"
@@ -24,34 +24,12 @@ struct Gap {
   double length = 0;  // m
 };
 
-double length_of(const LeafletSheet &sheet, const std::vector<uint32_t> &loop) {
-  double length = 0;
-  for (size_t k = 0; k < loop.size(); ++k) {
-    length += (sheet.x[loop[(k + 1) % loop.size()]] - sheet.x[loop[k]]).norm();
-  }
-  return length;
-}
-
 // A boundary has tissue on its left, seen from the tip of the normal: around a gap it turns
 // clockwise.
-bool surrounds_gap(const LeafletSheet &sheet, const std::vector<Vec3> &normal, const Gap &gap) {
-  Vec3 area = Vec3::Zero(), up = Vec3::Zero();
-  const Vec3 &from = sheet.x[gap.ring[0]];
-  for (size_t k = 1; k < gap.ring.size(); ++k) {
-    up += normal[gap.ring[k]];
-    if (k + 1 == gap.ring.size()) break;
-    area += (sheet.x[gap.ring[k]] - from).cross(sheet.x[gap.ring[k + 1]] - from);
-  }
-  return area.dot(up) < 0;
-}
-
-std::vector<Vec3> normals_of(const LeafletSheet &sheet) {
-  std::vector<Vec3> normal(sheet.x.size(), Vec3::Zero());
-  for (const Tri &t : sheet.triangles) {
-    const Vec3 n = (sheet.x[t[1]] - sheet.x[t[0]]).cross(sheet.x[t[2]] - sheet.x[t[0]]);
-    for (const uint32_t i : t) normal[i] += n;
-  }
-  return normal;
+bool surrounds_gap(const std::vector<Vec3> &normal, const Gap &gap, const LoopShape &shape) {
+  Vec3 up = Vec3::Zero();
+  for (size_t k = 1; k < gap.ring.size(); ++k) up += normal[gap.ring[k]];
+  return shape.area.dot(up) < 0;
 }
 
 // Pairs of places of a loop with the same point, which follow each other in the order of points.
@@ -72,25 +50,26 @@ std::vector<std::array<size_t, 2>> coincident_places(const LeafletSheet &sheet,
   return places;
 }
 
-// The shortest gap; its ring is empty if there is none.
+// The shortest gap; its ring is empty if no gap exists.
 Gap shortest_gap(const LeafletSheet &sheet) {
   const std::vector<std::vector<uint32_t>> loops = boundary_loops(sheet);
   double longest = 0;
-  for (const auto &loop : loops) longest = std::max(longest, length_of(sheet, loop));
+  for (const auto &loop : loops) longest = std::max(longest, shape_of(sheet, loop).length);
   std::vector<Vec3> normal;
   Gap best;
   best.length = hole_share * longest;
   for (const auto &loop : loops) {
     for (const auto &[first, second] : coincident_places(sheet, loop)) {
-      if (normal.empty()) normal = normals_of(sheet);
+      if (normal.empty()) normal = area_normals(sheet.x, sheet.triangles);
       const size_t n = loop.size();
       for (const auto &[from, to] : {std::pair{first, second}, std::pair{second, first + n}}) {
         Gap gap;
         for (size_t k = from; k < to; ++k) gap.ring.push_back(loop[k % n]);
         gap.other = loop[to % n];
-        gap.length = length_of(sheet, gap.ring);
-        if (gap.ring.size() < 3 || gap.length >= best.length) continue;
-        if (surrounds_gap(sheet, normal, gap)) best = std::move(gap);
+        if (gap.ring.size() < 3) continue;
+        const LoopShape shape = shape_of(sheet, gap.ring);
+        gap.length = shape.length;
+        if (gap.length < best.length && surrounds_gap(normal, gap, shape)) best = std::move(gap);
       }
     }
   }

@@ -245,20 +245,23 @@ void check_open(const std::vector<RimLoop> &rims, Findings &findings) {
   findings.push_back(finding);
 }
 
+// Fills holes; two rims remain.
+std::vector<RimLoop> rims_without_holes(LeafletSheet &sheet, Findings &findings) {
+  std::vector<RimLoop> rims = sorted_rims(sheet);
+  fill_holes(sheet, rims, findings);
+  check_rims(rims);
+  return rims;
+}
+
 }  // namespace
 
 SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings &findings) {
   fill_pinched_gaps(sheet, findings);
-  std::vector<RimLoop> rims = sorted_rims(sheet);
-  fill_holes(sheet, rims, findings);
-  check_rims(rims);
+  std::vector<RimLoop> rims = rims_without_holes(sheet, findings);
   const size_t triangles = sheet.triangles.size();
   check_handles(sheet, findings);
-  if (sheet.triangles.size() != triangles) {  // a cut may have passed a rim
-    rims = sorted_rims(sheet);
-    fill_holes(sheet, rims, findings);
-    check_rims(rims);
-  }
+  const bool is_cut = sheet.triangles.size() != triangles;
+  if (is_cut) rims = rims_without_holes(sheet, findings);  // a cut may have passed a rim
   order_rims(sheet, rims, landmarks, findings);
   orient(sheet, rims, landmarks.tips, findings);
   check_open(rims, findings);
