@@ -30,6 +30,9 @@ constexpr double continued_by = 4, most_continued = 1e3, longest_slide = 0.5;
 // share of its length does not run along the sheet. The value is 0.13 over a crease of 60 degrees,
 // 0.5 across a passage.
 constexpr double off_of_length = 0.15;
+// Of the grain of the sheet: a node farther from the sheet than this is not on it. Nodes on it are
+// there but for rounding.
+constexpr double off_sheet = 1e-3;
 
 bool runs_along(const Rail &sheet, const Vec3 &a, const Vec3 &b) {
   return sheet.tree.is_within(0.5 * (a + b), off_of_length * (b - a).norm());
@@ -163,8 +166,8 @@ Vec3 Shrinking::slide(uint32_t v, const Vec3 &p) {
   const Vec3 there = search_.nearest(v, p).point;
   if (on_rim_[v] == OnRim::unknown) on_rim_[v] = search_.is_on_rim(v, x) ? OnRim::yes : OnRim::no;
   if (on_rim_[v] == OnRim::yes && search_.is_on_rim(v, there)) return x;
-  const bool comes = !sheet_.tree.is_within(x, 1e-3 * sheet_.grain);
-  return comes || runs_along(sheet_, x, there) ? there : x;
+  const auto comes = [&] { return !sheet_.tree.is_within(x, off_sheet * sheet_.grain); };
+  return runs_along(sheet_, x, there) || comes() ? there : x;
 }
 
 // Applies the move, or a part of it, if that lowers the area; returns the decrease.
