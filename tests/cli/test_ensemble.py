@@ -101,6 +101,7 @@ class Ensemble(Shell):
         self.assertIn("0 of 2 members at rest", done.stdout)
         self.assertEqual(done.stdout.count("NOT at rest"), 3)
         self.assertIn("not at rest after 2 iterations", done.stderr)
+        self.assertIn("--max-iterations", done.stderr)
         found = self.json(*early)["ensemble"]
         self.assertIsNone(found["lowest"])
         self.assertIsNone(found["measures"]["annulus_ap_mm"]["mean"])

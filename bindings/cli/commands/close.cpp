@@ -130,7 +130,7 @@ void run_close(const CloseOptions &options, Console &console) {
   }
   const mvs_measures measures = closed.valve.measure();
   if (!options.out.empty()) closed.valve.save(options.out);
-  warn_unsettled(closed.stats, options.in);
+  warn_unsettled(closed.stats, options.in, " (see --max-iterations)");
   print(console, closed_json(options, closed, measures), closed_text(options, closed, measures));
   demand_rest(console, closed.stats, options.allow_unsettled);
 }

@@ -11,7 +11,7 @@ constexpr double rest_residual = 1e-5;  // N: mvs_settle_options.residual
 
 }  // namespace
 
-void warn_unsettled(const mvs_stats &stats, const std::string &name) {
+void warn_unsettled(const mvs_stats &stats, const std::string &name, const char *hint) {
   if (stats.converged) return;
   if (stats.growth_rate > 0 && stats.residual <= rest_residual) {
     std::fprintf(stderr,
@@ -24,8 +24,8 @@ void warn_unsettled(const mvs_stats &stats, const std::string &name) {
   std::fprintf(
       stderr,
       "mvs: warning: %s is not at rest after %u iterations, residual %.1e N: its shape is not "
-      "an equilibrium\n",
-      name.c_str(), stats.iterations, stats.residual);
+      "an equilibrium%s\n",
+      name.c_str(), stats.iterations, stats.residual, hint);
 }
 
 AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name) {

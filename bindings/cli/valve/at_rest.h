@@ -14,8 +14,9 @@ struct AtRest {
   mvs_measures measures;
 };
 
-// Unless the valve is at rest, a warning with `name` on stderr: how it ended.
-void warn_unsettled(const mvs_stats &stats, const std::string &name);
+// Unless the valve is at rest, a warning with `name` on stderr: how it ended, and a hint for one
+// that is in no equilibrium.
+void warn_unsettled(const mvs_stats &stats, const std::string &name, const char *hint = "");
 
 // Settles under a pressure and measures. A valve that is not at rest is a result, not an error: it
 // is warned of.
