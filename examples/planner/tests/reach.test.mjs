@@ -5,6 +5,15 @@ import { pathToFileURL } from 'node:url';
 import { closed, figures, openBrowser, openPlanner, page_path, withPlanner } from './browser.mjs';
 import { answered, apply, begin, openForm, openPanel, shareOfTissue, tabTo, undo } from './person.mjs';
 
+/** Runs a check in windows of these sizes, each after the page has found its layout. */
+async function inWindows(page, sizes, check) {
+  for (const [width, height] of sizes) {
+    await page.setViewportSize({ width, height });
+    await page.waitForTimeout(300);
+    await check(`${width} x ${height}`);
+  }
+}
+
 describe('planner for everybody', () => {
   it('is_used_with_the_keyboard_alone', async () => {
     await withPlanner({}, async ({ page }) => {
@@ -174,14 +183,13 @@ describe('planner for everybody', () => {
 
   it('reaches_everything_in_small_windows_and_at_two_and_four_times_the_size', async () => {
     await withPlanner({}, async ({ page }) => {
-      for (const [width, height] of [
+      const sizes = [
         [1024, 768],
         [640, 360],
         [360, 640],
         [320, 256],
-      ]) {
-        await page.setViewportSize({ width, height });
-        await page.waitForTimeout(300);
+      ];
+      await inWindows(page, sizes, async (size) => {
         // after scrolling down at most: nothing is scrolled sideways
         const cut = await page.evaluate(() => {
           const bad = [];
@@ -204,22 +212,21 @@ describe('planner for everybody', () => {
           if (picture.height < 150) bad.push(`picture ${picture.height} px high`);
           return [...bad, ...sideways.map((part) => `${part.className} is scrolled sideways`)];
         });
-        assert.deepEqual(cut, [], `${width} x ${height}`);
-      }
+        assert.deepEqual(cut, [], size);
+      });
     });
   });
 
   it('covers_no_control_that_has_the_focus_by_a_notice', async () => {
     await withPlanner({}, async ({ page }) => {
       await begin(page, 'ring');
-      for (const [width, height] of [
+      const sizes = [
         [1280, 720],
         [853, 480],
         [820, 1180],
         [320, 256],
-      ]) {
-        await page.setViewportSize({ width, height });
-        await page.waitForTimeout(300);
+      ];
+      await inWindows(page, sizes, async (size) => {
         const covered = await page.evaluate(async () => {
           const text =
             '“Valve 3: dilated, and a short chord” is finished. Its repair can be opened once more.';
@@ -241,8 +248,8 @@ describe('planner for everybody', () => {
           }
           return bad;
         });
-        assert.deepEqual(covered, [], `${width} x ${height}`);
-      }
+        assert.deepEqual(covered, [], size);
+      });
     });
   });
 
