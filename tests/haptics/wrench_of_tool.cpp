@@ -36,7 +36,7 @@ struct PushedTool {
     }
     FAIL("no place for the tool");
   }
-  // What a tool keeps of an orientation.
+  // A rod keeps its axis of an orientation, a convex tool the Rodrigues vector.
   Vec3 axis_of(const Eigen::Quaterniond &q) const {
     if (kind == ToolKind::rod) return q * Vec3::UnitZ();
     return rodrigues_of({q.w(), q.x(), q.y(), q.z()});
@@ -169,7 +169,7 @@ void compare_predictions(ToolKind kind) {
           100 * half.torque);
   CHECK_LT(whole.force, 0.1);
   CHECK_LT(half.torque, 0.1);
-  // What the model leaves out is of second order, a quarter at half the way, but for the difference
+  // The error of the model is of second order, a quarter at half the way, but for the difference
   // of the stiffness above, less than 1 %.
   CHECK_LT(half.force, 0.3 * whole.force + 0.005);
   CHECK_LT(half.torque, 0.3 * whole.torque + 0.005);
