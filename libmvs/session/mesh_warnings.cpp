@@ -1,5 +1,5 @@
-// Checks of the mesh: crossings, needles, edges below the contact thickness, leaflet names, chordae
-// at the annulus.
+// Checks of the mesh: crossings, tissue that touches itself, needles, edges below the contact
+// thickness, leaflet names, chordae at the annulus.
 #include "session/mesh_warnings.h"
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "geometry/intersect.h"
 #include "measure/annulus/annulus.h"
 #include "measure/annulus/landmarks.h"
+#include "session/touching_tissue.h"
 
 namespace mvs::core {
 namespace {
@@ -94,6 +95,35 @@ void check_crossings(const Model &model, const std::vector<Vec3> &x, std::vector
               pairs.size(), list.c_str(), pairs.size() > listed ? ", ..." : "")});
 }
 
+std::string scallop_at(const Valve &valve, uint32_t triangle) {
+  return valve.scallops[valve.triangle_scallop[triangle]].name;
+}
+
+// Such tissue is held apart by the barrier alone, and takes long to come to rest, or never does.
+void check_touching(const Model &model, std::vector<Fault> &found) {
+  const TouchingTissue touching = find_touching_tissue(model);
+  if (touching.vertices == 0) return;
+  const Valve &valve = model.valve;
+  const Vec3 &p = valve.rest.get()[touching.vertex];
+  const double r = valve.contact_thickness;
+  const auto star = std::find_if(valve.triangles.begin(), valve.triangles.end(), [&](const Tri &t) {
+    return std::find(t.begin(), t.end(), touching.vertex) != t.end();
+  });
+  const uint32_t beside = static_cast<uint32_t>(star - valve.triangles.begin());
+  found.push_back(
+      {format("node %u", touching.vertex),
+       format(
+           "%zu vertices lie nearer than the contact thickness of %.3g m at rest to parts of the "
+           "leaflets that are not joined to them within %.3g m: node %u of %s at (%.4g, %.4g, "
+           "%.4g) m is %.3g m from triangle %u of %s; parts closer than %.3g m at rest do not "
+           "touch each other, the barrier only separates them, and the valve may not come to "
+           "rest: separate them in the mesh, or give a smaller contact thickness",
+           touching.vertices, r, joined_reach * r, touching.vertex,
+           scallop_at(valve, beside).c_str(), p.x(), p.y(), p.z(), touching.distance,
+           touching.triangle, scallop_at(valve, touching.triangle).c_str(),
+           contact_rest_distance * r)});
+}
+
 void check_needles(const Model &model, std::vector<Fault> &found) {
   const Needles needles = needles_of(model);
   if (needles.count == 0) return;
@@ -148,6 +178,7 @@ void check_chords_on_annulus(const Model &model, std::vector<Fault> &found) {
 std::vector<Fault> mesh_warnings(const Model &model, const std::vector<Vec3> &x) {
   std::vector<Fault> found;
   check_crossings(model, x, found);
+  check_touching(model, found);
   check_short_edges(model, found);
   check_needles(model, found);
   check_anterior(model, found);

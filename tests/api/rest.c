@@ -1,5 +1,6 @@
 /* Rest is part of the state: what finds it, what ends it, what keeps it; no settle is endless. */
 #include <math.h>
+#include <stdio.h>
 
 #include "check.h"
 #include "funnel.h"
@@ -207,6 +208,45 @@ static void triangles_that_cross_are_warned_of(void) {
   CHECK(crossings == 1);
 }
 
+typedef struct told {
+  int count;
+  char part[64], sentence[512];
+} told;
+
+static void take_touching(void *user, const char *part, const char *sentence) {
+  told *t = user;
+  if (!strstr(sentence, "do not touch each other")) return;
+  ++t->count;
+  snprintf(t->part, sizeof t->part, "%s", part);
+  snprintf(t->sentence, sizeof t->sentence, "%s", sentence);
+}
+
+/* A tip of the lowest row, 0.4 mm from the opposite wall: they would pass for one piece of tissue,
+   without contact. */
+static void tissue_that_touches_itself_at_rest_is_warned_of(void) {
+  static funnel f;
+  static told t;
+  const uint32_t low = FUNNEL_SHEET - FUNNEL_SEGMENTS, across = low + FUNNEL_SEGMENTS / 2;
+  make_funnel(&f);
+  f.desc.contact_thickness = 1e-3;
+  MUST(mvs_check_valve(&f.desc, take_touching, &t));
+  CHECK(t.count == 0);
+  f.nodes[low][0] = f.nodes[across][0] + 0.4e-3;
+  MUST(mvs_check_valve(&f.desc, take_touching, &t));
+  CHECK(t.count == 1);
+  /* from the lower side of a triangle of node 56: 0.4 mm times the cosine of half a segment */
+  CHECK(strcmp(t.part, "node 48") == 0);
+  CHECK(strstr(t.sentence, "2 vertices lie nearer than the contact thickness of 0.001 m") != NULL);
+  CHECK(strstr(t.sentence, "node 48 of ") != NULL &&
+        strstr(t.sentence, " is 0.000392 m from") != NULL);
+  CHECK(strstr(t.sentence, "at (-0.0086, ") != NULL);
+  /* farther than the contact thickness */
+  f.nodes[low][0] = f.nodes[across][0] + 1.2e-3;
+  t.count = 0;
+  MUST(mvs_check_valve(&f.desc, take_touching, &t));
+  CHECK(t.count == 0);
+}
+
 int main(void) {
   MUST(mvs_create(NULL, &sim));
   only_a_settle_that_converges_finds_rest();
@@ -217,6 +257,7 @@ int main(void) {
   files_and_snapshots_keep_rest();
   tissue_that_yields_without_end_is_refused();
   triangles_that_cross_are_warned_of();
+  tissue_that_touches_itself_at_rest_is_warned_of();
   mvs_destroy(sim);
   return finish("rest");
 }

@@ -382,11 +382,18 @@ TEST_CASE("rims_follow_the_cut_of_a_handle_at_the_edge") {
        {Tri{v, a, d}, Tri{v, d, w}, Tri{a, b, c}, Tri{a, c, d}, Tri{b, v, w}, Tri{b, w, c}}) {
     s.triangles.push_back(t);
   }
+  // and a hole far from it, filled before the cut
+  constexpr uint32_t hole = 4 * round + 45;
+  std::erase_if(s.triangles,
+                [=](const Tri &t) { return std::find(t.begin(), t.end(), hole) != t.end(); });
   LeafletSheet sheet = cleaned(s);
   const size_t before = boundary_loops(sheet)[1].size();
   Findings findings;
   SheetRims rims = find_rims(sheet, {}, findings);
   REQUIRE(find(findings, "cut_handles"));
+  // one finding, though rims are looked at again after a cut
+  CHECK(std::count_if(findings.begin(), findings.end(),
+                      [](const Finding &f) { return f.name == "filled_holes"; }) == 1);
   CHECK(rims.free_edge.size() > before);
   std::vector<std::vector<uint32_t>> loops = boundary_loops(sheet);
   REQUIRE(loops.size() == 2);

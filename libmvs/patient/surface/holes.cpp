@@ -22,7 +22,7 @@ constexpr double long_hole_share = 0.4, hole_flatness = 0.55;
 constexpr double other_leaflet = 0.1;
 // m: a hole nearer to a rim may be a notch or an orifice behind a strand; two triangles.
 constexpr double beside_rim = 2e-3;
-constexpr double sure_hole = 0.9, doubtful_hole = 0.5, wrong_hole = 0.2;  // confidence
+constexpr double doubtful_hole = 0.5, wrong_hole = 0.2;  // confidence
 
 // A boundary loop that may be a hole.
 struct HoleSigns {
@@ -85,35 +85,37 @@ double way_to_rims(const LeafletSheet &sheet, const std::vector<RimLoop> &rims,
 
 }  // namespace
 
-void fill_holes(LeafletSheet &sheet, std::vector<RimLoop> &rims, Findings &findings) {
+void fill_holes(LeafletSheet &sheet, std::vector<RimLoop> &rims, FilledHoles &filled) {
   if (rims.size() < 2) return;
   const std::vector<Side> sides = sorted_sides(sheet.triangles);
   const double longest = rims[0].shape.length;
-  std::vector<double> lengths;
-  size_t triangles = 0, doubtful = 0;
-  double nearest = INFINITY, confidence = sure_hole;
   for (size_t k = rims.size(); k-- > 1;) {
     const HoleSigns signs = signs_of(sheet, sides, rims[k], longest);
     if (k == 1 ? !signs.is_small : !is_hole(rims[k], signs, longest)) continue;
     const double away = way_to_rims(sheet, rims, rims[k]);
-    nearest = std::min(nearest, away);
+    filled.nearest = std::min(filled.nearest, away);
     if (!signs.is_small || away < beside_rim || !signs.is_inside) {
-      ++doubtful;
-      confidence = std::min(confidence, signs.is_inside ? doubtful_hole : wrong_hole);
+      ++filled.doubtful;
+      filled.confidence = std::min(filled.confidence, signs.is_inside ? doubtful_hole : wrong_hole);
     }
-    triangles += fill_hole(sheet, rims[k].loop);
-    lengths.push_back(rims[k].shape.length);
+    filled.triangles += fill_hole(sheet, rims[k].loop);
+    filled.lengths.push_back(rims[k].shape.length);
     rims.erase(rims.begin() + static_cast<std::ptrdiff_t>(k));
   }
-  if (lengths.empty()) return;
+}
+
+void report_holes(const FilledHoles &filled, Findings &findings) {
+  if (filled.lengths.empty()) return;
+  const double longest = *std::max_element(filled.lengths.begin(), filled.lengths.end());
   findings.push_back(
-      {"filled_holes", FindingSource::guessed, confidence,
+      {"filled_holes", FindingSource::guessed, filled.confidence,
        format("%zu holes, the longest %.1f mm around, the nearest %.1f mm from a rim, were filled "
               "with %zu triangles; %zu of them are long, beside a rim or not inside of one "
               "leaflet: if one is a notch or a second orifice, cut the strand of tissue "
               "beside it",
-              lengths.size(), lengths.back() * 1e3, nearest * 1e3, triangles, doubtful),
-       lengths, "m"});
+              filled.lengths.size(), longest * 1e3, filled.nearest * 1e3, filled.triangles,
+              filled.doubtful),
+       filled.lengths, "m"});
 }
 
 }  // namespace mvs::core

@@ -246,9 +246,9 @@ void check_open(const std::vector<RimLoop> &rims, Findings &findings) {
 }
 
 // Fills holes; two rims remain.
-std::vector<RimLoop> rims_without_holes(LeafletSheet &sheet, Findings &findings) {
+std::vector<RimLoop> rims_without_holes(LeafletSheet &sheet, FilledHoles &filled) {
   std::vector<RimLoop> rims = sorted_rims(sheet);
-  fill_holes(sheet, rims, findings);
+  fill_holes(sheet, rims, filled);
   check_rims(rims);
   return rims;
 }
@@ -257,11 +257,13 @@ std::vector<RimLoop> rims_without_holes(LeafletSheet &sheet, Findings &findings)
 
 SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings &findings) {
   fill_pinched_gaps(sheet, findings);
-  std::vector<RimLoop> rims = rims_without_holes(sheet, findings);
+  FilledHoles filled;
+  std::vector<RimLoop> rims = rims_without_holes(sheet, filled);
   const size_t triangles = sheet.triangles.size();
   check_handles(sheet, findings);
   const bool is_cut = sheet.triangles.size() != triangles;
-  if (is_cut) rims = rims_without_holes(sheet, findings);  // a cut may have passed a rim
+  if (is_cut) rims = rims_without_holes(sheet, filled);  // a cut may have passed a rim
+  report_holes(filled, findings);
   order_rims(sheet, rims, landmarks, findings);
   orient(sheet, rims, landmarks.tips, findings);
   check_open(rims, findings);
