@@ -117,13 +117,15 @@ FibreStep fibre_step(const LeafletSheet &sheet, const std::vector<double> &u,
                      std::span<const uint32_t> star, uint32_t vertex, double sign) {
   // relative: of two equal ways, as on a symmetric sheet, the first is taken, whatever the rounding
   constexpr double tie = 1e-6;
+  // of the whole way from rim to rim, which is 1: a smaller rise is an error of the solution
+  constexpr double least_gain = 1e-9;
   FibreStep best;
   double steepest = 0;
   const auto offer = [&](uint32_t a, uint32_t b, double share) {
     const Vec3 q = sheet.x[a] + share * (sheet.x[b] - sheet.x[a]);
     const double gain = sign * (u[a] + share * (u[b] - u[a]) - u[vertex]);
     const double length = (q - sheet.x[vertex]).norm();
-    if (length <= 0 || gain / length <= (1 + tie) * steepest) return;
+    if (length <= 0 || gain <= least_gain || gain / length <= (1 + tie) * steepest) return;
     steepest = gain / length;
     best = {a, b, share, length};
   };
@@ -143,6 +145,26 @@ FibreStep fibre_step(const LeafletSheet &sheet, const std::vector<double> &u,
   return best;
 }
 
+// Steps for vertices without one, to their nearest neighbour that has one or is held, from ring to
+// ring. A triangle with two sides on a rim has such a corner: all around it is the value of the
+// rim.
+void complete_steps(const LeafletSheet &sheet, const Rows &stars, const std::vector<uint8_t> &held,
+                    std::vector<FibreStep> &step) {
+  for (bool any = true; any;) {
+    any = false;
+    const std::vector<FibreStep> before = step;
+    for (uint32_t i = 0; i < step.size(); ++i) {
+      if (held[i] != 0 || before[i].a != none) continue;
+      for (const uint32_t j : neighbours_in(sheet.triangles, stars[i], i)) {
+        if (held[j] == 0 && before[j].a == none) continue;
+        const double length = (sheet.x[j] - sheet.x[i]).norm();
+        if (step[i].a == none || length < step[i].length) step[i] = {j, j, 0, length};
+      }
+      any = any || step[i].a != none;
+    }
+  }
+}
+
 // Carries a length and a foot along the fibres: values where `held` stay. A vertex may depend on
 // one that comes later in the order, so passes are repeated until nothing moves.
 struct Transport {
@@ -160,6 +182,7 @@ Transport carry(const LeafletSheet &sheet, const std::vector<double> &u, const R
   for (uint32_t i = 0; i < n; ++i) {
     if (!held[i]) step[i] = fibre_step(sheet, u, stars[i], i, sign);
   }
+  complete_steps(sheet, stars, held, step);
   Transport t{std::vector<double>(n, 0), foot};
   constexpr int most_passes = 100;
   constexpr double still = 1e-9;  // m

@@ -77,6 +77,41 @@ TEST_CASE("heights_at_the_middles_of_the_leaflets_are_the_given_dimensions") {
   }
 }
 
+TEST_CASE("a_corner_with_neighbours_on_the_rim_alone_lies_beside_them") {
+  // triangles with two sides on the free edge, as coarse and torn surfaces have them: no fibre ends
+  // at such a corner, which had the height 0 and the foot 0
+  ParametricSheet p = parametric_sheet(430);
+  const SheetCoordinates plain = sheet_coordinates(p.sheet, p.rims);
+  const std::vector<double> heights = height_profile(p.rims, plain, 120);
+  std::vector<uint32_t> edge;
+  for (size_t k = 0; k < p.rims.free_edge.size(); ++k) {
+    const std::vector<uint32_t> &rim = p.rims.free_edge;
+    const uint32_t a = rim[k], b = rim[(k + 1) % rim.size()];
+    edge.push_back(a);
+    if (k % 10 != 0) continue;
+    const uint32_t corner = static_cast<uint32_t>(p.sheet.x.size());
+    p.sheet.x.push_back(0.5 * (p.sheet.x[a] + p.sheet.x[b]) - Vec3(0, 0, 0.5e-3));
+    p.sheet.triangles.push_back({b, a, corner});
+    p.sheet.label.push_back(LeafletLabel::unknown);
+    edge.push_back(corner);
+  }
+  p.rims.free_edge = edge;
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  for (size_t i = plain.foot.size(); i < p.sheet.x.size(); ++i) {
+    const Tri &t = p.sheet.triangles[p.sheet.triangles.size() - (p.sheet.x.size() - i)];
+    const double away = std::min(std::abs(around(c.foot[t[0]], c.foot[i], c.annulus_length)),
+                                 std::abs(around(c.foot[t[1]], c.foot[i], c.annulus_length)));
+    CHECK(away < 1e-12);
+    CHECK(c.whole[i] > std::min(c.whole[t[0]], c.whole[t[1]]));
+    CHECK(c.share[i] == 1);
+  }
+  const std::vector<double> with_corners = height_profile(p.rims, c, 120);
+  for (size_t k = 0; k < heights.size(); ++k) {
+    CHECK(with_corners[k] > heights[k] - 1e-9);
+    CHECK(with_corners[k] < heights[k] + 2e-3);  // sides of 2 mm
+  }
+}
+
 TEST_CASE("coordinates_move_with_the_sheet") {
   ParametricSheet p = parametric_sheet(430);
   const SheetCoordinates before = sheet_coordinates(p.sheet, p.rims);
