@@ -9,6 +9,7 @@
 #include "measure/annulus/landmarks.h"
 #include "model/sides.h"
 #include "patient/findings.h"
+#include "patient/leaflet_heights.h"
 #include "patient/leaflet_labels.h"
 #include "patient/leaflet_odds.h"
 
@@ -25,6 +26,8 @@ constexpr double least_guessed_share = 0.28;
 // m: a landmark farther from the surface is of another frame or patient. Landmarks of commissures
 // are placed by hand on images of 0.7 mm; networks err by up to 3.6 mm.
 constexpr double farthest_landmark = 8e-3;
+// m: given commissures farther from the surface than landmarks by hand are doubted.
+constexpr double near_landmark = 3e-3;
 // Odds of the leaflet that is said to be the anterior one, below which this is doubted.
 constexpr double doubtful_odds = 0.1;
 // Least over greatest height along the annulus, from which on no commissures are guessed: leaflets
@@ -40,40 +43,15 @@ Finding &add(Findings &findings, const char *name, FindingSource source, double 
   return findings.back();
 }
 
-// Mean over `half` neighbours on either side.
-std::vector<double> smoothed(const std::vector<double> &values, size_t half) {
-  const size_t n = values.size();
-  std::vector<double> mean(n, 0);
-  for (size_t k = 0; k < n; ++k) {
-    for (size_t j = 0; j <= 2 * half; ++j) mean[k] += values[(k + n + j - half) % n];
-    mean[k] /= static_cast<double>(2 * half + 1);
-  }
-  return mean;
-}
+// Feet of the commissures, and how far they are from the surface, m.
+struct CommissureFeet {
+  std::array<double, 2> feet{}, distance{};
+};
 
-// The greatest value over `half` neighbours on either side, then the least of those (morphological
-// closing): notches narrower than 2 half + 1 samples are filled, everything wider stays.
-std::vector<double> without_notches(const std::vector<double> &values, size_t half) {
-  const size_t n = values.size();
-  std::vector<double> greatest(n), least(n);
-  for (size_t k = 0; k < n; ++k) {
-    greatest[k] = values[k];
-    for (size_t j = 0; j <= 2 * half; ++j) {
-      greatest[k] = std::max(greatest[k], values[(k + n + j - half) % n]);
-    }
-  }
-  for (size_t k = 0; k < n; ++k) {
-    least[k] = greatest[k];
-    for (size_t j = 0; j <= 2 * half; ++j) {
-      least[k] = std::min(least[k], greatest[(k + n + j - half) % n]);
-    }
-  }
-  return least;
-}
-
-std::array<double, 2> feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
-                              const std::vector<Vec3> &points) {
-  std::array<double, 2> feet{};
+CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
+                       const std::vector<Vec3> &points) {
+  CommissureFeet found;
+  auto &[feet, distance] = found;
   for (size_t k = 0; k < 2; ++k) {
     const SheetPlace place = place_on(sheet, coordinates, points[k]);
     MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "commissures",
@@ -81,25 +59,23 @@ std::array<double, 2> feet_of(const LeafletSheet &sheet, const SheetCoordinates 
              "in one frame (LPS or RAS), of one patient and one phase?",
              k + 1, place.distance * 1e3, farthest_landmark * 1e3);
     feet[k] = place.foot;
+    distance[k] = place.distance;
   }
   const double apart = std::abs(around(feet[0], feet[1], coordinates.annulus_length));
   MVS_MUST(apart >= least_share * coordinates.annulus_length, MVS_E_OP, "commissures",
            "the commissures are %.1f mm apart along the annulus of %.0f mm, less than a fifth of "
            "it: give one point for each commissure",
            apart * 1e3, coordinates.annulus_length * 1e3);
-  return feet;
+  return found;
 }
 
-// The lowest sample within 2 mm: ends of the best fit are that exact, and indentations near.
-size_t lowest_near(const std::vector<double> &profile, size_t at) {
-  constexpr size_t reach = 2;
-  const size_t n = profile.size();
-  size_t best = at;
-  for (size_t k = 0; k <= 2 * reach; ++k) {
-    const size_t there = (at + n + k - reach) % n;
-    if (profile[there] < profile[best]) best = there;
-  }
-  return best;
+void say_given(const std::array<double, 2> &distance, Finding &finding) {
+  const double farthest = std::max(distance[0], distance[1]);
+  finding.sentence = format("the given points, %.1f and %.1f mm from the surface",
+                            distance[0] * 1e3, distance[1] * 1e3);
+  if (farthest <= near_landmark) return;
+  finding.confidence = near_landmark / farthest;
+  finding.sentence += ": are they of this patient and phase?";
 }
 
 // Clefts and tears are narrower than 6 mm, leaflets are low over 10 mm and more at a commissure.
@@ -140,6 +116,13 @@ std::array<double, 2> guessed_commissures(const AnnulusSamples &annulus,
              annulus.tips.empty() ? " and shape of the annulus"
                                   : ", shape of the annulus and place of the papillary tips",
              exact[i] * 1e3, exact[j] * 1e3));
+  if (const size_t others = other_low_places(annulus.height, i, j); others > 0) {
+    findings.back().confidence *= 0.5;
+    findings.back().sentence += format(
+        "; %zu other places along the annulus are as low: clefts, or commissures of a third "
+        "leaflet, as aortic and tricuspid valves have; a mitral valve is taken for granted",
+        others);
+  }
   const double width = length / samples;
   return {(static_cast<double>(i) + 0.5) * width, (static_cast<double>(j) + 0.5) * width};
 }
@@ -235,7 +218,7 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
   if (!commissures.empty()) {
     MVS_MUST(commissures.size() == 2, MVS_E_ARGUMENT, "commissures",
              "%zu commissures are given: a mitral valve has two", commissures.size());
-    add(findings, "commissures", FindingSource::given, 1, "the given points");
+    add(findings, "commissures", FindingSource::given, 1, "");
   } else {
     const std::array<double, 2> feet =
         area.anterior + area.posterior > 0
@@ -244,7 +227,8 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
     for (const double s : feet) commissures.push_back(annulus_point(sheet, rims, s));
   }
   // found points take the same way as given ones, so that giving them changes no bit
-  const auto feet = feet_of(sheet, coordinates, commissures);
+  const auto [feet, distance] = feet_of(sheet, coordinates, commissures);
+  if (!landmarks.commissures.empty()) say_given(distance, findings[at]);
   LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};
   if (!is_anterior(sheet, coordinates, landmarks, area, annulus, arcs, findings)) {
     arcs = {feet[1], feet[1] + wrapped(feet[0] - feet[1], length)};

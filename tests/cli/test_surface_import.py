@@ -135,6 +135,20 @@ class SurfaceImport(unittest.TestCase):
         self.assertEqual(same[0]["frame"], "LPS")
         self.assertEqual(same[0]["hash"], same[1]["hash"])
 
+    def test_landmarks_of_slicer_without_a_frame_are_told(self):
+        found = {row["name"]: row["values"]
+                 for row in self.imported("open.stl", "unframed.h5")["findings"]}
+        tips = [found["papillary_tips"][k:k + 3] for k in range(0, len(found["papillary_tips"]), 3)]
+        path = self.dir / "unframed.mrk.json"
+        write_markups(path, tips, "LPS")
+        markups = json.loads(path.read_text())
+        del markups["markups"][0]["coordinateSystem"]
+        path.write_text(json.dumps(markups))
+        arguments = ["import", self.dir / "open.stl", "-o", self.dir / "unframed.h5", "--edge", "2.4",
+                     "--tips", path]
+        self.assertIn("unframed.mrk.json: states no frame", self.ok(*arguments).stderr)
+        self.assertEqual(self.ok(*arguments, "--frame", "LPS").stderr, "")
+
     def test_a_valve_from_a_surface_in_RAS_is_written_in_LPS(self):
         def negated(points):
             return [(-x, -y, z) for x, y, z in points]

@@ -252,7 +252,9 @@ TEST_CASE("clean_surface_names_the_unit_of_surfaces_that_are_not_in_metres") {
   // read as mm: the widths are those of a valve in m and in cm
   CHECK_THROWS_WITH_AS(cleaned(scaled(1e-3)), doctest::Contains("give --unit m"), Error);
   CHECK_THROWS_WITH_AS(cleaned(scaled(1e-1)), doctest::Contains("give --unit cm"), Error);
-  CHECK_THROWS_WITH_AS(cleaned(scaled(30)), doctest::Contains("10 to 150 mm wide"), Error);
+  // mm read as cm
+  CHECK_THROWS_WITH_AS(cleaned(scaled(10)), doctest::Contains("give --unit mm"), Error);
+  CHECK_THROWS_WITH_AS(cleaned(scaled(1e4)), doctest::Contains("10 to 150 mm wide"), Error);
 }
 
 TEST_CASE("clean_surface_refuses_arrays_that_do_not_fit") {
@@ -278,6 +280,9 @@ TEST_CASE("clean_surface_refuses_arrays_that_do_not_fit") {
   CHECK_THROWS_WITH_AS(
       clean_surface(s.x, s.triangles, {}, std::vector<double>(s.x.size(), 1.5), findings),
       doctest::Contains("divide by 1000"), Error);
+  CHECK_THROWS_WITH_AS(
+      clean_surface(s.x, s.triangles, {}, std::vector<double>(s.x.size(), 0.9e-6), findings),
+      doctest::Contains("multiply by 1000"), Error);
 }
 
 TEST_CASE("clean_surface_welds_a_real_valve_by_ultrasound") {

@@ -9,6 +9,8 @@
 #include "base/error.h"
 #include "measure/annulus/landmarks.h"
 #include "model/sides.h"
+#include "patient/findings.h"
+#include "patient/leaflet_heights.h"
 #include "patient/leaflets.h"
 #include "tests/patient/parametric_sheet.h"
 
@@ -161,6 +163,42 @@ TEST_CASE("landmarks_that_were_found_give_the_same_leaflets_when_they_are_given"
   CHECK(given.to == found.to);
   CHECK(second[0].source == FindingSource::given);
   CHECK(second[0].value == first[0].value);
+}
+
+TEST_CASE("commissures_given_beside_the_surface_are_doubted") {
+  const ParametricSheet p = parametric_sheet(430);
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  Findings guessed;
+  find_leaflets(p.sheet, p.rims, c, {}, guessed);
+  std::vector<Vec3> points = points_in(*find_finding(guessed, "commissures"));
+  for (const double above : {2e-3, 6e-3}) {
+    std::vector<Vec3> moved = points;
+    for (Vec3 &x : moved) x.z() += above;
+    Findings found;
+    find_leaflets(p.sheet, p.rims, c, {moved, {}, {}}, found);
+    const Finding &said = *find_finding(found, "commissures");
+    CHECK(said.source == FindingSource::given);
+    CHECK(said.confidence == doctest::Approx(std::min(1.0, 3e-3 / above)).epsilon(0.02));
+    CHECK((said.sentence.find("of this patient") != std::string::npos) == (above > 3e-3));
+  }
+}
+
+TEST_CASE("places_as_low_as_the_commissures_are_counted") {
+  constexpr size_t n = 120;
+  const auto heights = [](size_t leaflets) {
+    std::vector<double> height;
+    for (size_t k = 0; k < n; ++k) {
+      const double u = static_cast<double>(k * leaflets % n) / n;
+      height.push_back(4e-3 + 40e-3 * u * (1 - u));
+    }
+    return height;
+  };
+  CHECK(other_low_places(heights(2), 0, 60) == 0);
+  CHECK(other_low_places(heights(3), 0, 40) == 1);
+  CHECK(other_low_places(heights(4), 0, 60) == 2);
+  std::vector<double> shallow = heights(2);
+  for (size_t k = 85; k < 96; ++k) shallow[k] *= 0.8;  // an indentation
+  CHECK(other_low_places(shallow, 0, 60) == 0);
 }
 
 TEST_CASE("labels_give_the_commissures_also_if_some_are_wrong") {

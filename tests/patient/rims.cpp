@@ -133,6 +133,18 @@ TEST_CASE("find_rims_takes_the_boundary_near_given_annulus_points") {
   for (const uint32_t i : p.rims.free_edge) landmarks.annulus.push_back(p.sheet.x[i]);
   Findings other;
   CHECK(rims_of(s, landmarks, other).annulus.size() == p.rims.free_edge.size());
+  CHECK(find(other, "annulus")->confidence < 0.5);
+  CHECK(find(other, "annulus")->sentence.find("points are not those of the free edge") !=
+        std::string::npos);
+  // points in the atrium, as of a surface with some of its wall
+  landmarks.annulus.clear();
+  for (const uint32_t i : p.rims.annulus) {
+    landmarks.annulus.push_back(p.sheet.x[i] + Vec3(0, 0, 4e-3));
+  }
+  Findings above;
+  rims_of(s, landmarks, above);
+  CHECK(find(above, "annulus")->confidence < 0.6);
+  CHECK(find(above, "annulus")->sentence.find("wall of the atrium") != std::string::npos);
   // LPS for RAS
   for (Vec3 &x : landmarks.annulus) x = Vec3(0.1, 0.1, 0) - x;
   CHECK_THROWS_WITH_AS(rims_of(s, landmarks, other), doctest::Contains("LPS or RAS"), Error);
@@ -143,11 +155,9 @@ TEST_CASE("find_rims_does_not_believe_tips_in_the_atrium") {
   RimLandmarks landmarks;
   landmarks.tips = {Vec3(10e-3, 0, 25e-3), Vec3(-10e-3, 0, 25e-3)};
   Findings findings;
-  rims_of(surface_of(p.sheet), landmarks, findings);
-  // the free edge is farther from such tips
-  CHECK(find(findings, "annulus")->confidence < 0.5);
-  CHECK(find(findings, "annulus")->sentence.find("by its shape the other one") !=
-        std::string::npos);
+  // the free edge is farther from such tips, and would pass for the annulus
+  CHECK_THROWS_WITH_AS(rims_of(surface_of(p.sheet), landmarks, findings),
+                       doctest::Contains("tips lie below the free edge"), Error);
   for (const uint32_t i : p.rims.annulus) landmarks.annulus.push_back(p.sheet.x[i]);
   CHECK_THROWS_WITH_AS(rims_of(surface_of(p.sheet), landmarks, findings),
                        doctest::Contains("on the other side"), Error);
@@ -196,6 +206,21 @@ TEST_CASE("shape_of_a_circle_is_that_of_the_circle") {
   CHECK(shape.area.norm() == doctest::Approx(pi * 256e-6).epsilon(2e-4));
   CHECK(shape.centre.norm() < 1e-15);
   CHECK(shape.turning == doctest::Approx(1));
+}
+
+TEST_CASE("a_small_valve_is_as_open_as_a_large_one") {
+  // the valve of an infant: an annulus of 33 mm, edges 0.9 mm apart
+  const auto pressed = [](double size) {
+    Surface s = funnel(48, 12);
+    for (Vec3 &x : s.x) x.y() *= 1 + (0.2 - 1) * x.z() / -12e-3;
+    for (Vec3 &x : s.x) x *= size;
+    return s;
+  };
+  for (const double size : {1.0, 0.33}) {
+    Findings findings;
+    rims_of(pressed(size), {}, findings);
+    CHECK(find(findings, "orifice")->confidence > 0.3);
+  }
 }
 
 TEST_CASE("find_rims_doubts_and_refuses_closed_leaflets") {

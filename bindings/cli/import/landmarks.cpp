@@ -15,6 +15,10 @@ mvs_patient_frame frame_number(const std::string &frame) {
   return frame == "RAS" ? MVS_PATIENT_FRAME_RAS : MVS_PATIENT_FRAME_UNKNOWN;
 }
 
+bool is_of_slicer(const std::string &path) {
+  return path.ends_with(".json") || path.ends_with(".fcsv");
+}
+
 }  // namespace
 
 void add_file_options(CLI::App &command, FileOptions &options) {
@@ -49,7 +53,7 @@ void PatientFiles::add_surface(const std::string &path) {
 void PatientFiles::add_landmarks(const std::string &path) {
   if (path.empty() || files_.contains(path)) return;
   mvs_surface_file_options how = {};
-  const bool states_unit = path.size() > 5 && path.substr(path.size() - 5) == ".json";
+  const bool states_unit = path.ends_with(".json");
   how.unit = states_unit ? 0 : unit_number(options_.unit);
   how.frame = MVS_PATIENT_FRAME_LPS;
   files_.emplace(path, mvs::SurfaceFile(path, how));
@@ -58,6 +62,13 @@ void PatientFiles::add_landmarks(const std::string &path) {
 void PatientFiles::settle_frames() {
   unstated_ = frame_number(options_.frame);
   if (unstated_ != MVS_PATIENT_FRAME_UNKNOWN) return;
+  for (const auto &[path, file] : files_) {
+    if (file.info().file_frame != MVS_PATIENT_FRAME_UNKNOWN || !is_of_slicer(path)) continue;
+    log_to_stderr(nullptr, MVS_LOG_WARNING,
+                  (path + ": states no frame, as files of 3D Slicer do: it is taken to be in the "
+                          "frame of the other files; if it is not, say so by --frame")
+                      .c_str());
+  }
   unstated_ = file(surface_).info().file_frame;
   if (unstated_ != MVS_PATIENT_FRAME_UNKNOWN) return;
   std::string first;

@@ -1,4 +1,4 @@
-// Euler characteristic, which rim is the annulus, which side the atrium.
+// Euler characteristic, holes, which side is the atrium.
 #include "patient/surface/rims.h"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include "patient/surface/cut_handles.h"
 #include "patient/surface/holes.h"
 #include "patient/surface/pinched_gaps.h"
+#include "patient/surface/which_rim.h"
 
 namespace mvs::core {
 namespace {
@@ -21,12 +22,13 @@ namespace {
 // m: a free edge so far from the plane of the annulus is on the side of the ventricle. Normal
 // leaflets reach 10 mm deep; at 2.5 mm noise of an image can turn the sign.
 constexpr double sure_depth = 5e-3;
-// m: papillary tips lie 15 to 40 mm below the annulus, also in a dilated ventricle.
-constexpr double farthest_papillary_tip = 70e-3;
 // m: the mean width of the orifice (twice its area over the length of the free edge). Real and
 // parametric open valves have 3.7 mm and more; below one thickness the edges touch along most of
 // their length.
 constexpr double closed_width = 1e-3, doubtful_width = 3e-3;
+// m: the annulus of a small adult valve. Widths scale with it: the edges of an infant's valve with
+// an annulus of 33 mm lie 1 mm apart.
+constexpr double whole_annulus = 100e-3;
 
 std::string list_of_lengths(const std::vector<RimLoop> &rims) {
   std::string list;
@@ -73,113 +75,6 @@ void check_handles(LeafletSheet &sheet, Findings &findings) {
            "there, or a bridge of tissue passes over the orifice; open the surface at these places "
            "(smaller handles are cut)",
            handles, longest_handle * 1e3);
-}
-
-// The mean distance of points from the curve of a rim.
-double mean_distance(const LeafletSheet &sheet, const RimLoop &rim,
-                     const std::vector<Vec3> &points) {
-  double sum = 0;
-  for (const Vec3 &p : points) {
-    double least2 = INFINITY;
-    for (size_t k = 0; k < rim.loop.size(); ++k) {
-      const Vec3 &a = sheet.x[rim.loop[k]], &b = sheet.x[rim.loop[(k + 1) % rim.loop.size()]];
-      const double length2 = (b - a).squaredNorm();
-      const double s = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
-      least2 = std::min(least2, (a + s * (b - a) - p).squaredNorm());
-    }
-    sum += std::sqrt(least2);
-  }
-  return sum / static_cast<double>(points.size());
-}
-
-// Whether the first rim is the annulus, with how it was decided.
-bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims,
-                     const std::vector<Vec3> &points, Finding &finding) {
-  const double d0 = mean_distance(sheet, rims[0], points);
-  const double d1 = mean_distance(sheet, rims[1], points);
-  const double near = std::min(d0, d1), far = std::max(d0, d1);
-  MVS_MUST(
-      near <= farthest_annulus, MVS_E_OP, "annulus",
-      "the annulus points lie %.1f mm from the nearest boundary of the surface in the mean, at "
-      "most %.0f mm are accepted: are both in one frame (LPS or RAS), of one patient and one "
-      "phase?",
-      near * 1e3, farthest_annulus * 1e3);
-  finding.source = FindingSource::given;
-  finding.confidence = far > 0 ? (far - near) / far : 0;
-  finding.sentence = format(
-      "the boundary %.1f mm from the given points in the mean; the other one is %.1f mm away",
-      near * 1e3, far * 1e3);
-  return d0 <= d1;
-}
-
-// How much a rim looks like an annulus: its spanned area, times its roundness (4 pi area /
-// length^2) over the square of its turning, as the free edge has scallops. Annulus over free
-// edge: 2.2 for a parametric valve with a saddle of 9 mm, 3.1 for its default, 28 for a real valve
-// by ultrasound, 37 and more for designed ones. (Deviations from a plane mislead: a saddle is less
-// plane than many a free edge.)
-double annulus_likeness(const LoopShape &shape) {
-  const double area = shape.area.norm();
-  return area * area / (shape.length * shape.length * shape.turning * shape.turning);
-}
-
-bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
-                   Finding &finding) {
-  std::array<double, 2> apart{};
-  for (size_t k = 0; k < 2; ++k) {
-    for (const Vec3 &tip : tips) apart[k] += (tip - rims[k].shape.centre).norm();
-    apart[k] /= static_cast<double>(tips.size());
-  }
-  const double near = std::min(apart[0], apart[1]), far = std::max(apart[0], apart[1]);
-  MVS_MUST(near <= farthest_papillary_tip, MVS_E_OP, "papillary_tips",
-           "the papillary tips lie %.0f mm from the middle of the nearer boundary in the mean, at "
-           "most %.0f mm are accepted: are both in one frame (LPS or RAS)?",
-           near * 1e3, farthest_papillary_tip * 1e3);
-  // the free edge of a normal valve is two thirds as far from the tips
-  finding.confidence = std::clamp(3 * (far - near) / far, 0.0, 1.0);
-  finding.sentence = format(
-      "the boundary whose middle is %.0f mm from the papillary tips; the other one is %.0f mm away",
-      far * 1e3, near * 1e3);
-  const size_t annulus = apart[0] >= apart[1] ? 0 : 1;
-  const double odds =
-      annulus_likeness(rims[1 - annulus].shape) / annulus_likeness(rims[annulus].shape);
-  if (odds > 1) {
-    finding.confidence /= odds;
-    finding.sentence +=
-        "; by its shape the other one is the annulus: give points of the annulus, "
-        "and check the frame of the tips";
-  }
-  return annulus == 0;
-}
-
-bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
-  const double a = annulus_likeness(rims[0].shape), b = annulus_likeness(rims[1].shape);
-  const double odds = std::max(a, b) / std::max(std::min(a, b), 1e-300);
-  const LoopShape &annulus = rims[a >= b ? 0 : 1].shape, &edge = rims[a >= b ? 1 : 0].shape;
-  finding.source = FindingSource::guessed;
-  finding.confidence = std::min((odds - 1) / (odds + 1), 0.95);
-  finding.sentence = format(
-      "the boundary that is larger, rounder and smoother: it is %.0f mm long, spans %.0f mm2 and "
-      "has a total curvature of %.1f turns; the other one is %.0f mm long, spans %.0f mm2 and has "
-      "%.1f turns; give points of the annulus if this is wrong",
-      annulus.length * 1e3, annulus.area.norm() * 1e6, annulus.turning, edge.length * 1e3,
-      edge.area.norm() * 1e6, edge.turning);
-  return a >= b;
-}
-
-// Puts the annulus first.
-void order_rims(const LeafletSheet &sheet, std::vector<RimLoop> &rims,
-                const RimLandmarks &landmarks, Findings &findings) {
-  Finding finding;
-  finding.name = "annulus";
-  const bool first = !landmarks.annulus.empty()
-                         ? first_by_points(sheet, rims, landmarks.annulus, finding)
-                         : (!landmarks.tips.empty() ? first_by_tips(rims, landmarks.tips, finding)
-                                                    : first_by_shape(rims, finding));
-  if (!first) std::swap(rims[0], rims[1]);
-  std::vector<Vec3> points;
-  for (const uint32_t node : rims[0].loop) points.push_back(sheet.x[node]);
-  set_points(points, finding);
-  findings.push_back(finding);
 }
 
 // The direction from the ventricle into the atrium: from the free edge to the annulus, or from the
@@ -231,15 +126,16 @@ void check_open(const std::vector<RimLoop> &rims, Findings &findings) {
   const LoopShape &annulus = rims[0].shape, &edge = rims[1].shape;
   const double area = std::abs(edge.area.dot(annulus.area.normalized()));
   const double width = 2 * area / edge.length;
-  MVS_MUST(width >= closed_width, MVS_E_OP, "points",
+  const double scale = std::min(1.0, annulus.length / whole_annulus);
+  MVS_MUST(width >= scale * closed_width, MVS_E_OP, "points",
            "the leaflets seem to be closed: their edges are %.2f mm apart in the mean, seen from "
            "the atrium; give the open leaflets, and these as the closed ones",
            width * 1e3);
   Finding finding;
   finding.name = "orifice";
-  finding.confidence = std::min(1.0, width / doubtful_width);
+  finding.confidence = std::min(1.0, width / (scale * doubtful_width));
   finding.sentence = format("%.0f mm2 between the free edges, seen from the atrium%s", area * 1e6,
-                            width < doubtful_width ? ": are these the open leaflets?" : "");
+                            width < scale * doubtful_width ? ": are these the open leaflets?" : "");
   finding.value = {area};
   finding.unit = "m2";
   findings.push_back(finding);
@@ -264,7 +160,7 @@ SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings
   const bool is_cut = sheet.triangles.size() != triangles;
   if (is_cut) rims = rims_without_holes(sheet, filled);  // a cut may have passed a rim
   report_holes(filled, findings);
-  order_rims(sheet, rims, landmarks, findings);
+  order_rims(sheet, landmarks, rims, findings);
   orient(sheet, rims, landmarks.tips, findings);
   check_open(rims, findings);
   return {std::move(rims[0].loop), std::move(rims[1].loop)};

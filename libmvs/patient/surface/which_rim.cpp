@@ -1,0 +1,151 @@
+// By given points, by papillary tips, or by shape.
+#include "patient/surface/which_rim.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "patient/findings.h"
+
+namespace mvs::core {
+namespace {
+
+// m: papillary tips lie 15 to 40 mm below the annulus, also in a dilated ventricle.
+constexpr double farthest_papillary_tip = 70e-3;
+// m: points of the annulus are placed by hand on images of 0.7 mm; farther from a rim in the mean
+// they say that tissue is missing or that the wall of the atrium belongs to the surface.
+constexpr double near_annulus = 2e-3;
+// How many times more like an annulus the other boundary may be than the one that tips show. Real
+// annuli are 3 to 37 times more like one than their free edges.
+constexpr double most_odds = 3;
+
+// The mean distance of points from the curve of a rim.
+double mean_distance(const LeafletSheet &sheet, const RimLoop &rim,
+                     const std::vector<Vec3> &points) {
+  double sum = 0;
+  for (const Vec3 &p : points) {
+    double least2 = INFINITY;
+    for (size_t k = 0; k < rim.loop.size(); ++k) {
+      const Vec3 &a = sheet.x[rim.loop[k]], &b = sheet.x[rim.loop[(k + 1) % rim.loop.size()]];
+      const double length2 = (b - a).squaredNorm();
+      const double s = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
+      least2 = std::min(least2, (a + s * (b - a) - p).squaredNorm());
+    }
+    sum += std::sqrt(least2);
+  }
+  return sum / static_cast<double>(points.size());
+}
+
+// How much a rim looks like an annulus: its spanned area, times its roundness (4 pi area /
+// length^2) over the square of its turning, as the free edge has scallops. Annulus over free
+// edge: 2.2 for a parametric valve with a saddle of 9 mm, 3.1 for its default, 28 for a real valve
+// by ultrasound, 37 and more for designed ones. (Deviations from a plane mislead: a saddle is less
+// plane than many a free edge.)
+double annulus_likeness(const LoopShape &shape) {
+  const double area = shape.area.norm();
+  return area * area / (shape.length * shape.length * shape.turning * shape.turning);
+}
+
+// Lowers the confidence in the annulus if the other boundary is more like one by its shape. Returns
+// how many times more.
+double doubt_shape(const std::vector<RimLoop> &rims, size_t annulus, const char *remedy,
+                   Finding &finding) {
+  const double odds =
+      annulus_likeness(rims[1 - annulus].shape) / annulus_likeness(rims[annulus].shape);
+  if (odds > 1) {
+    finding.confidence /= odds;
+    finding.sentence += format("; by its shape the other one is the annulus: %s", remedy);
+  }
+  return odds;
+}
+
+// Whether the first rim is the annulus, with how it was decided.
+bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims,
+                     const std::vector<Vec3> &points, Finding &finding) {
+  const double d0 = mean_distance(sheet, rims[0], points);
+  const double d1 = mean_distance(sheet, rims[1], points);
+  const double near = std::min(d0, d1), far = std::max(d0, d1);
+  MVS_MUST(
+      near <= farthest_annulus, MVS_E_OP, "annulus",
+      "the annulus points lie %.1f mm from the nearest boundary of the surface in the mean, at "
+      "most %.0f mm are accepted: are both in one frame (LPS or RAS), of one patient and one "
+      "phase?",
+      near * 1e3, farthest_annulus * 1e3);
+  finding.source = FindingSource::given;
+  finding.confidence = far > 0 ? (far - near) / far : 0;
+  finding.sentence = format(
+      "the boundary %.1f mm from the given points in the mean; the other one is %.1f mm away",
+      near * 1e3, far * 1e3);
+  if (near > near_annulus) {
+    finding.confidence = std::min(finding.confidence, near_annulus / near);
+    finding.sentence +=
+        "; the leaflets are taken to begin at this boundary, not at the points: if tissue between "
+        "them is the wall of the atrium, cut it off there";
+  }
+  doubt_shape(rims, d0 <= d1 ? 0 : 1, "check that the points are not those of the free edge",
+              finding);
+  return d0 <= d1;
+}
+
+bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
+                   Finding &finding) {
+  std::array<double, 2> apart{};
+  for (size_t k = 0; k < 2; ++k) {
+    for (const Vec3 &tip : tips) apart[k] += (tip - rims[k].shape.centre).norm();
+    apart[k] /= static_cast<double>(tips.size());
+  }
+  const double near = std::min(apart[0], apart[1]), far = std::max(apart[0], apart[1]);
+  MVS_MUST(near <= farthest_papillary_tip, MVS_E_OP, "papillary_tips",
+           "the papillary tips lie %.0f mm from the middle of the nearer boundary in the mean, at "
+           "most %.0f mm are accepted: are both in one frame (LPS or RAS)?",
+           near * 1e3, farthest_papillary_tip * 1e3);
+  // the free edge of a normal valve is two thirds as far from the tips
+  finding.confidence = std::clamp(3 * (far - near) / far, 0.0, 1.0);
+  finding.sentence = format(
+      "the boundary whose middle is %.0f mm from the papillary tips; the other one is %.0f mm away",
+      far * 1e3, near * 1e3);
+  const size_t annulus = apart[0] >= apart[1] ? 0 : 1;
+  const double odds = doubt_shape(
+      rims, annulus, "give points of the annulus, and check the frame of the tips", finding);
+  MVS_MUST(
+      odds <= most_odds, MVS_E_OP, "papillary_tips",
+      "the papillary tips are nearer to the boundary that is the annulus by its shape, %.0f mm "
+      "from it and %.0f mm from the free edge: tips lie below the free edge; are both in one "
+      "frame (LPS or RAS)? If so, give points of the annulus",
+      near * 1e3, far * 1e3);
+  return annulus == 0;
+}
+
+bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
+  const double a = annulus_likeness(rims[0].shape), b = annulus_likeness(rims[1].shape);
+  const double odds = std::max(a, b) / std::max(std::min(a, b), 1e-300);
+  const LoopShape &annulus = rims[a >= b ? 0 : 1].shape, &edge = rims[a >= b ? 1 : 0].shape;
+  finding.source = FindingSource::guessed;
+  finding.confidence = std::min((odds - 1) / (odds + 1), 0.95);
+  finding.sentence = format(
+      "the boundary that is larger, rounder and smoother: it is %.0f mm long, spans %.0f mm2 and "
+      "has a total curvature of %.1f turns; the other one is %.0f mm long, spans %.0f mm2 and has "
+      "%.1f turns; give points of the annulus if this is wrong",
+      annulus.length * 1e3, annulus.area.norm() * 1e6, annulus.turning, edge.length * 1e3,
+      edge.area.norm() * 1e6, edge.turning);
+  return a >= b;
+}
+
+}  // namespace
+
+void order_rims(const LeafletSheet &sheet, const RimLandmarks &landmarks,
+                std::vector<RimLoop> &rims, Findings &findings) {
+  Finding finding;
+  finding.name = "annulus";
+  const bool first = !landmarks.annulus.empty()
+                         ? first_by_points(sheet, rims, landmarks.annulus, finding)
+                         : (!landmarks.tips.empty() ? first_by_tips(rims, landmarks.tips, finding)
+                                                    : first_by_shape(rims, finding));
+  if (!first) std::swap(rims[0], rims[1]);
+  std::vector<Vec3> points;
+  for (const uint32_t node : rims[0].loop) points.push_back(sheet.x[node]);
+  set_points(points, finding);
+  findings.push_back(finding);
+}
+
+}  // namespace mvs::core
