@@ -22,6 +22,7 @@ struct LeafletSheet {
 // The two boundary loops of a sheet, in the order in which the triangles pass along them.
 struct SheetRims {
   std::vector<uint32_t> annulus, free_edge;
+  bool turned = false;  // whether the triangles were turned when the rims were found
 };
 
 // Surface coordinates of each vertex.

@@ -77,6 +77,12 @@ void spread_and_smooth(const std::vector<Tri> &triangles, std::vector<double> &v
   }
 }
 
+// Whether both are parallel within 37 degrees. Rays from a bent rim pass the tissue at a slant.
+bool faces(const LeafletSheet &skin, uint32_t t, uint32_t u) {
+  const Vec3 a = area_normal(skin.x, skin.triangles[t]), b = area_normal(skin.x, skin.triangles[u]);
+  return a.dot(b) < -0.8 * a.norm() * b.norm();
+}
+
 // The median thickness behind the triangles of a side around each vertex; 0 where none has any.
 std::vector<double> thickness_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
                                  const std::vector<uint32_t> &side_of, uint32_t side) {
@@ -87,7 +93,7 @@ std::vector<double> thickness_of(const LeafletSheet &skin, const std::vector<Tis
     around.clear();
     for (const uint32_t t : stars[i]) {
       const uint32_t u = behind[t].triangle;
-      if (side_of[t] == side && u != none && side_of[u] == 1 - side) {
+      if (side_of[t] == side && u != none && side_of[u] == 1 - side && faces(skin, t, u)) {
         around.push_back(behind[t].thickness);
       }
     }
@@ -150,10 +156,10 @@ LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks
   std::vector<LeafletSheet> atrial;
   for (const uint32_t side : {0u, 1u}) {
     LeafletSheet sheet = side_sheet(closed, behind, side_of, side);
-    const Tri first = sheet.triangles[0];
     Findings unused;
-    find_rims(sheet, landmarks, unused);  // normals into the atrium
-    if (sheet.triangles[0] == first) atrial.push_back(std::move(sheet));
+    // normals out of the tissue become normals into the atrium
+    const bool turned = find_rims(sheet, landmarks, unused).turned;
+    if (!turned) atrial.push_back(std::move(sheet));
   }
   MVS_MUST(atrial.size() == 1, MVS_E_OP, "triangles",
            "the sides of the skin do not show which is the atrial one: give the papillary tips and "

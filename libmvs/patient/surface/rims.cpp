@@ -77,9 +77,9 @@ void check_handles(LeafletSheet &sheet, Findings &findings) {
            handles, longest_handle * 1e3);
 }
 
-// The direction from the ventricle into the atrium: from the free edge to the annulus, or from the
-// tips if they are given.
-void orient(LeafletSheet &sheet, std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
+// Normals into the atrium: the direction from the free edge to the annulus, or from the tips if they
+// are given. Returns whether the triangles were turned.
+bool orient(LeafletSheet &sheet, std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
             Findings &findings) {
   const LoopShape &annulus = rims[0].shape, &edge = rims[1].shape;
   const Vec3 axis = annulus.area.normalized();
@@ -118,6 +118,7 @@ void orient(LeafletSheet &sheet, std::vector<RimLoop> &rims, const std::vector<V
   const Vec3 into_atrium = up < 0 ? Vec3(-axis) : axis;
   finding.value = {into_atrium.x(), into_atrium.y(), into_atrium.z()};
   findings.push_back(finding);
+  return up < 0;
 }
 
 // A closed valve has no orifice seen from the atrium. Leaflets that are closed but whose edges lie
@@ -161,9 +162,9 @@ SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings
   if (is_cut) rims = rims_without_holes(sheet, filled);  // a cut may have passed a rim
   report_holes(filled, findings);
   order_rims(sheet, landmarks, rims, findings);
-  orient(sheet, rims, landmarks.tips, findings);
+  const bool turned = orient(sheet, rims, landmarks.tips, findings);
   check_open(rims, findings);
-  return {std::move(rims[0].loop), std::move(rims[1].loop)};
+  return {std::move(rims[0].loop), std::move(rims[1].loop), turned};
 }
 
 }  // namespace mvs::core

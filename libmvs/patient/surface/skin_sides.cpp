@@ -162,6 +162,41 @@ void fill_notches(const std::vector<uint32_t> &across, const std::vector<Vec3> &
   }
 }
 
+// Cosine of the angle between a triangle beside a side and the side: leaflets bend by up to 50
+// degrees within their thickness beside the annulus; walls of rims stand at 90.
+constexpr double bent = 0.64;
+
+// Adds triangles beside a side that go on in its plane up to a rim. Tissue behind them is not
+// parallel: their rays end at the wall of the rim, most of all where triangles are large.
+void grow_flat(const LeafletSheet &skin, const std::vector<uint32_t> &across,
+               const std::vector<Vec3> &normal, double reach, std::vector<uint32_t> &side_of) {
+  const auto centre = [&](uint32_t t) {
+    const Tri &tri = skin.triangles[t];
+    return Vec3((skin.x[tri[0]] + skin.x[tri[1]] + skin.x[tri[2]]) / 3);
+  };
+  std::vector<uint32_t> seed(side_of.size());
+  std::iota(seed.begin(), seed.end(), 0u);
+  for (bool grown = true; grown;) {
+    grown = false;
+    const std::vector<uint32_t> before = side_of;
+    for (uint32_t t = 0; t < side_of.size(); ++t) {
+      if (before[t] != none) continue;
+      for (uint32_t side = 3 * t; side < 3 * t + 3 && side_of[t] == none; ++side) {
+        const uint32_t u = across[side] == none ? none : across[side] / 3;
+        if (u == none || before[u] == none) continue;
+        // the direction is compared with the side itself, so that it does not creep around a rim
+        const uint32_t from = seed[u];
+        if (normal[t].dot(normal[u]) < parallel || normal[t].dot(normal[from]) < bent) continue;
+        const double size = std::sqrt(triangle_area(skin.x, skin.triangles[t]));
+        if ((centre(t) - centre(from)).norm() > reach + 2 * size) continue;
+        side_of[t] = before[u];
+        seed[t] = from;
+        grown = true;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin) {
@@ -223,6 +258,7 @@ std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<Tissu
   }
   std::vector<uint32_t> side_of = split_sides(skin, smooth, marks);
   fill_notches(across, normal, side_of);
+  grow_flat(skin, across, normal, median, side_of);
   check_facing(skin, behind, side_of);
   return side_of;
 }
