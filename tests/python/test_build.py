@@ -141,6 +141,19 @@ def test_a_valve_that_flutters_ends_at_the_unstable_equilibrium():
     assert stability.growth_rate == pytest.approx(stats.growth_rate, rel=0.01)
 
 
+@pytest.mark.skipif(not os.environ.get("MVS_TEST_LONG"), reason="MVS_TEST_LONG is not set")
+def test_the_flutter_of_a_valve_is_that_of_its_forces():
+    flutter = pytest.importorskip("flutter")  # needs SciPy
+    folder = Path(os.environ.get("MVS_TEST_DATA", "none"))
+    if not (folder / "kaiser_mitral_normal_1" / "N32.json").is_file():
+        pytest.skip("no kaiser_mitral_normal_1 in MVS_TEST_DATA")
+    valve, stats = flutter.settled(folder)
+    found = flutter.rates(valve)
+    assert found[0].real == pytest.approx(stats.growth_rate, rel=0.02)
+    assert found[1] == found[0].conjugate() and abs(found[0].imag) > found[0].real
+    assert found[2].real < 0  # one mode alone grows
+
+
 def test_bad_arguments_are_refused_and_change_nothing(surface):
     with mvs.Simulator() as sim:
         sim.generate()
