@@ -24,7 +24,7 @@ constexpr double spur_share = 0.01;
 // dilated annulus is 60 mm wide, with papillary muscles and a margin 150 mm.
 constexpr double least_extent = 10e-3, most_extent = 150e-3;
 // m: tissue of leaflets has 0.5 to 5 mm.
-constexpr double least_thickness = 0.05e-3, most_thickness = 10e-3;
+constexpr double least_tissue = 0.05e-3, most_tissue = 10e-3;
 
 void check_arrays(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
                   const std::vector<LeafletLabel> &label, const std::vector<double> &thickness) {
@@ -47,13 +47,12 @@ void check_arrays(const std::vector<Vec3> &points, const std::vector<Tri> &trian
     }
   }
   for (size_t i = 0; i < thickness.size(); ++i) {
-    MVS_MUST(thickness[i] >= least_thickness && thickness[i] <= most_thickness, MVS_E_OP,
-             "point_thickness",
-             "the thickness at point %zu is %g m: tissue has 0.0005 to 0.005 m; %s", i,
-             thickness[i],
-             thickness[i] > 0 && thickness[i] < least_thickness
-                 ? "multiply by 1000 if it is in m and taken for mm"
-                 : "divide by 1000 if it is in mm");
+    MVS_MUST(
+        thickness[i] >= least_tissue && thickness[i] <= most_tissue, MVS_E_OP, "point_thickness",
+        "the thickness at point %zu is %g m: tissue has 0.0005 to 0.005 m; %s", i, thickness[i],
+        thickness[i] > 0 && thickness[i] < least_tissue
+            ? "multiply by 1000 if it is in m and taken for mm"
+            : "divide by 1000 if it is in mm");
   }
 }
 

@@ -78,7 +78,7 @@ void spread_and_smooth(const std::vector<Tri> &triangles, std::vector<double> &v
 }
 
 // Whether both are parallel within 37 degrees. Rays from a bent rim pass the tissue at a slant.
-bool faces(const LeafletSheet &skin, uint32_t t, uint32_t u) {
+bool faces_parallel(const LeafletSheet &skin, uint32_t t, uint32_t u) {
   const Vec3 a = area_normal(skin.x, skin.triangles[t]), b = area_normal(skin.x, skin.triangles[u]);
   return a.dot(b) < -0.8 * a.norm() * b.norm();
 }
@@ -93,7 +93,7 @@ std::vector<double> thickness_of(const LeafletSheet &skin, const std::vector<Tis
     around.clear();
     for (const uint32_t t : stars[i]) {
       const uint32_t u = behind[t].triangle;
-      if (side_of[t] == side && u != none && side_of[u] == 1 - side && faces(skin, t, u)) {
+      if (side_of[t] == side && u != none && side_of[u] == 1 - side && faces_parallel(skin, t, u)) {
         around.push_back(behind[t].thickness);
       }
     }
