@@ -77,8 +77,8 @@ void check_handles(LeafletSheet &sheet, Findings &findings) {
            handles, longest_handle * 1e3);
 }
 
-// Normals into the atrium: the direction from the free edge to the annulus, or from the tips if they
-// are given. Returns whether the triangles were turned.
+// Normals into the atrium: the direction from the free edge to the annulus, or from the tips if
+// they are given. Returns whether the triangles were turned.
 bool orient(LeafletSheet &sheet, std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
             Findings &findings) {
   const LoopShape &annulus = rims[0].shape, &edge = rims[1].shape;
