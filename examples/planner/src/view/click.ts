@@ -37,8 +37,8 @@ function tipAt(view: Viewport, p: Place): number[] {
 }
 
 function choiceOf(hit: Hit, topology: Topology): state.Choice | null {
-  if (hit.head >= 0) return { kind: 'head', id: topology.heads[hit.head].id };
-  if (hit.chord >= 0) return { kind: 'chord', id: topology.chords[hit.chord].id };
+  if (hit.part === 'head') return { kind: 'head', id: topology.heads[hit.head].id };
+  if (hit.part === 'chord') return { kind: 'chord', id: topology.chords[hit.chord].id };
   if (!hit.surface) return null;
   return { kind: 'scallop', id: topology.scallops[topology.triangleScallop[hit.surface.triangle]].id };
 }

@@ -55,18 +55,10 @@ export class Gestures {
     if (!picture || !topology) return null;
     const { camera, width, height } = this.view;
     camera.update();
-    return pick(
-      camera,
-      topology,
-      picture,
-      p.x,
-      p.y,
-      width,
-      height,
-      reach,
-      state.chordsOn.value,
-      this.view.plane(),
-    );
+    const frame = this.view.frameOf();
+    const { value: chordsOn } = state.chordsOn;
+    const plane = this.view.plane();
+    return pick({ camera, topology, picture, frame, width, height, chordsOn, plane }, p.x, p.y, reach);
   }
 
   private down(event: PointerEvent): void {
@@ -117,16 +109,17 @@ export class Gestures {
     const picture = state.picture.value;
     const figures = (state.preview.value ?? state.main.value)?.figures;
     canvas.style.cursor =
-      hit && (hit.chord >= 0 || hit.head >= 0)
+      hit?.part === 'chord' || hit?.part === 'head'
         ? 'pointer'
         : state.tool.value === 'look'
           ? 'grab'
           : 'crosshair';
     if (!hit || !picture || !figures) return;
-    const chord = hit.chord >= 0 ? figures.chords[hit.chord] : null;
+    const chord = hit.part === 'chord' ? figures.chords[hit.chord] : null;
     const limited = chord && Number.isFinite(chord.tensionLimit);
     const percent = limited ? percentOfLimit(shareOfLimit(chord)) : null;
-    canvas.title = chord ? gestureTexts.chord({ ...chord, percent }) : '';
+    const head = hit.part === 'head' ? (state.topologyOf(picture)?.heads[hit.head].name ?? '') : '';
+    canvas.title = chord ? gestureTexts.chord({ ...chord, percent }) : head;
   }
 
   private pinch(id: number, p: Place): void {
