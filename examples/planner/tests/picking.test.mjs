@@ -7,7 +7,7 @@ import { cameraRests } from './person.mjs';
 /**
  * Places in the window whose pixels, with all their neighbours within 2, show a papillary head or a chord, by their
  * colours in src/view/colours.ts, which the light scales: heads are brown (0.62, 0.3, 0.25), chordae cream
- * (0.95, 0.91, 0.8). `free`: places in the background with no other colour within 30 pixels but a head, which begins
+ * (0.95, 0.91, 0.8), the atrial sides of the leaflets (0.93, 0.74, 0.66) and (0.89, 0.66, 0.6). `free`: places in the background with no other colour within 30 pixels but a head, which begins
  * 6 to 10 pixels away.
  */
 function drawnParts(page) {
@@ -17,12 +17,13 @@ function drawnParts(page) {
     // the picture has more pixels than the window
     const scale = width / viewport.width;
     const kinds = new Uint8Array(width * height);
-    const [other, background, head, chord] = [0, 1, 2, 3];
+    const [other, background, head, chord, atrial] = [0, 1, 2, 3, 4];
     for (let k = 0; k < kinds.length; ++k) {
       const [r, g, b] = [data[4 * k], data[4 * k + 1], data[4 * k + 2]];
       if (r < g && g < b && b - r < 12) kinds[k] = background;
       else if (r > 1.9 * g && r < 2.3 * g && g > 1.1 * b && g < 1.4 * b) kinds[k] = head;
       else if (r >= g && r < 1.1 * g && g > b && r > 1.12 * b && r < 1.4 * b) kinds[k] = chord;
+      else if (r > 1.2 * g && r < 1.45 * g && r > 1.35 * b && r < 1.6 * b) kinds[k] = atrial;
       else kinds[k] = other;
     }
     const around = (x, y, beside, allowed) => {
@@ -41,7 +42,7 @@ function drawnParts(page) {
       return false;
     };
     const box = viewport.renderer.canvas.getBoundingClientRect();
-    const out = { heads: [], chordae: [], free: [] };
+    const out = { heads: [], chordae: [], free: [], atrial: [] };
     const add = (list, x, y) => {
       const at = { x: box.left + (x + 0.5) / scale, y: box.top + (y + 0.5) / scale };
       // apart from each other, so that they are not all on one part
@@ -50,7 +51,8 @@ function drawnParts(page) {
     for (let y = 0; y < height; ++y)
       for (let x = 0; x < width; ++x) {
         const kind = kinds[y * width + x];
-        if (kind === head && around(x, y, 2, [head])) add(out.heads, x, y);
+        if (kind === atrial && around(x, y, 2, [atrial])) add(out.atrial, x, y);
+        else if (kind === head && around(x, y, 2, [head])) add(out.heads, x, y);
         else if (kind === chord && around(x, y, 1, [chord]) && near(x, y, 40)) add(out.chordae, x, y);
         else if (kind === background && x % 4 === 0 && near(x, y, 10) && !near(x, y, 6))
           if (around(x, y, 30, [background, head])) add(out.free, x, y);
@@ -104,6 +106,19 @@ describe('planner, picking', () => {
         }
         assert.ok(seen >= 10, `${seen} places on chordae`);
         assert.ok(name !== 'finger' || beside >= 3, `${beside} places beside heads`);
+      });
+    });
+
+  for (const { name, options, press } of [fine, finger])
+    it(`chooses_no_chord_through_the_leaflets_with_a_${name}`, async () => {
+      await withPlanner(options, async ({ page }) => {
+        await page.keyboard.press('r');
+        await page.keyboard.press('1');
+        await cameraRests(page);
+        const { atrial } = await drawnParts(page);
+        const places = some(atrial, 60);
+        assert.ok(places.length > 40, `${places.length} places on the leaflets`);
+        assert.deepEqual(await wrongAt(page, places, 'scallop', press(page)), []);
       });
     });
 });

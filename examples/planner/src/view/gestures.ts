@@ -16,7 +16,9 @@ import {
   type Place,
 } from './drags';
 import { KeyPointer } from './keypointer';
+import { atrialSide } from './leaflets';
 import { pick, type Hit } from './pick';
+import { shownFields } from './shown';
 import type { Viewport } from './viewport';
 
 /** Pixels from a chord that still pick it: a mouse is more exact than a finger. */
@@ -58,7 +60,8 @@ export class Gestures {
     const frame = this.view.frameOf();
     const { value: chordsOn } = state.chordsOn;
     const plane = this.view.plane();
-    return pick({ camera, topology, picture, frame, width, height, chordsOn, plane }, p.x, p.y, reach);
+    const drawn = atrialSide(topology, picture, shownFields()).positions;
+    return pick({ camera, topology, picture, drawn, frame, width, height, chordsOn, plane }, p.x, p.y, reach);
   }
 
   private down(event: PointerEvent): void {

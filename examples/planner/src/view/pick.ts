@@ -13,6 +13,8 @@ export interface SurfaceHit {
   node: number;
   at: [number, number, number];
   distance: number;
+  /** The side of the leaflet that is seen. */
+  atrial: boolean;
 }
 
 export interface Hit {
@@ -29,6 +31,8 @@ export interface Pickable {
   camera: Camera;
   topology: Topology;
   picture: Picture;
+  /** The surface that is drawn of the leaflets, mm: where they touch it has no gap. */
+  drawn: Float32Array;
   /** Rows are origin, AP, CC and the axis into the atrium (Figures.frame). */
   frame: number[];
   width: number;
@@ -85,28 +89,42 @@ export function pickSurface(
       continue;
     const weights: [number, number, number] = [1 - u - v, u, v];
     const corner = weights.indexOf(Math.max(...weights));
-    best = { triangle: t / 3, u: weights, node: triangles[t + corner], at, distance };
+    // corners run anticlockwise as seen from the atrium
+    best = {
+      triangle: t / 3,
+      u: weights,
+      node: triangles[t + corner],
+      at,
+      distance,
+      atrial: determinant > 0,
+    };
   }
   return best;
 }
 
-/** Distance of a pixel from a segment on the screen, and the place along it. */
-function segmentDistance(p: number[], a: number[], b: number[]): [number, number] {
+/** Distance of a pixel from a segment on the screen, the place along it, and its pixel. */
+function nearestOf(p: Pixel, a: Pixel, b: Pixel): [number, number, Pixel] {
   const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
   const length = dx * dx + dy * dy;
   const s = length > 0 ? Math.min(1, Math.max(0, ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / length)) : 0;
-  return [Math.hypot(p[0] - a[0] - s * dx, p[1] - a[1] - s * dy), s];
+  const q: Pixel = [a[0] + s * dx, a[1] + s * dy];
+  return [Math.hypot(p[0] - q[0], p[1] - q[1]), s, q];
 }
 
+type Pixel = [number, number];
+
+/** A part within reach of the pointer. */
 interface Candidate {
   index: number;
-  /** Pixels between the pointer and what is drawn, 0 on it. */
+  /** Pixels between the pointer and the outline of the part, 0 within it. */
   beside: number;
-  /** mm from the eye to what is drawn there. */
+  /** mm from the eye to the part there. */
   depth: number;
+  /** The pixel of the part that is nearest to the pointer. */
+  place: Pixel;
 }
 
-const none: Candidate = { index: -1, beside: Infinity, depth: Infinity };
+const none: Candidate = { index: -1, beside: Infinity, depth: Infinity, place: [0, 0] };
 
 /** Measures parts on the screen. */
 class Screen {
@@ -116,7 +134,7 @@ class Screen {
     this.eye = from.camera.position();
   }
 
-  place(at: ArrayLike<number>): [number, number] {
+  place(at: ArrayLike<number>): Pixel {
     const { camera, width, height } = this.from;
     const [x, y] = camera.project(at[0], at[1], at[2], width, height);
     return [x, y];
@@ -132,56 +150,71 @@ class Screen {
   }
 }
 
-/** The head whose outline is nearest, the one in front of several under the pointer; what lies behind `far` mm is hidden. */
-function pickHead(
-  from: Pickable,
+/** A tube on the screen as a candidate: `a` and `b` are its ends, `wide` its radius at the share s of its length, mm. */
+function candidateOf(
   screen: Screen,
-  p: [number, number],
-  reach: number,
-  far: number,
-): Candidate {
-  const { topology, picture, frame } = from;
-  const radius = headRadius(topology);
-  let best = none;
-  topology.headNodes.forEach((node, index) => {
-    const top = picture.positions.subarray(3 * node, 3 * node + 3);
-    const end = [0, 1, 2].map((c) => top[c] - headLength * frame[9 + c]);
-    const [distance, s] = segmentDistance(p, screen.place(top), screen.place(end));
-    const range = (1 - s) * screen.range(top) + s * screen.range(end);
-    const wide = radius * (1 + s * (headFlare - 1));
-    const beside = Math.max(0, distance - screen.pixels(wide, range));
-    // of the round surface under the pointer
+  p: Pixel,
+  index: number,
+  [a, b]: ArrayLike<number>[],
+  wide: (s: number) => number,
+): Candidate & { s: number } {
+  const [distance, s, q] = nearestOf(p, screen.place(a), screen.place(b));
+  const range = (1 - s) * screen.range(a) + s * screen.range(b);
+  const radius = wide(s);
+  const outline = screen.pixels(radius, range);
+  if (distance <= outline) {
+    // the round surface under the pointer
     const off = distance / screen.pixels(1, range);
-    const depth = range - Math.sqrt(Math.max(0, wide * wide - off * off));
-    const nearer = beside < best.beside || (beside === best.beside && depth < best.depth);
-    if (beside <= reach && depth < far && nearer) best = { index, beside, depth };
-  });
-  return best;
+    return {
+      index,
+      s,
+      beside: 0,
+      depth: range - Math.sqrt(Math.max(0, radius * radius - off * off)),
+      place: p,
+    };
+  }
+  const place: Pixel = [0, 1].map((c) => q[c] + ((p[c] - q[c]) * outline) / distance) as Pixel;
+  return { index, s, beside: distance - outline, depth: range, place };
 }
 
-/** The chord whose outline is nearest, the one in front of several under the pointer. */
-function pickChord(
-  from: Pickable,
-  screen: Screen,
-  p: [number, number],
-  reach: number,
-  far: number,
-): Candidate {
+function heads(from: Pickable, screen: Screen, p: Pixel): Candidate[] {
+  const { topology, picture, frame } = from;
+  const radius = headRadius(topology);
+  return Array.from(topology.headNodes, (node, index) => {
+    const top = picture.positions.subarray(3 * node, 3 * node + 3);
+    const end = [0, 1, 2].map((c) => top[c] - headLength * frame[9 + c]);
+    return candidateOf(screen, p, index, [top, end], (s) => radius * (1 + s * (headFlare - 1)));
+  });
+}
+
+function chordae(from: Pickable, screen: Screen, p: Pixel): Candidate[] {
   const { topology, picture, plane } = from;
   const x = picture.positions;
-  const at = (node: number) => x.subarray(3 * node, 3 * node + 3);
-  let best = none;
-  for (let index = 0; index < topology.chordKind.length; ++index) {
+  const all = Array.from(topology.chordKind, (_, index) => {
     const [a, b] = [topology.chordNodes[2 * index], topology.chordNodes[2 * index + 1]];
-    const [distance, s] = segmentDistance(p, screen.place(at(a)), screen.place(at(b)));
-    if (distance > reach) continue;
-    const depth = (1 - s) * screen.range(at(a)) + s * screen.range(at(b));
-    const beside = Math.max(0, distance - screen.pixels(drawnRadius(topology, index), depth));
-    const nearer = beside < best.beside || (beside === best.beside && depth < best.depth);
-    if (!nearer || depth > far || (plane && hidden(x, a, s, b, plane))) continue;
-    best = { index, beside, depth };
-  }
-  return best;
+    const ends = [a, b].map((node) => x.subarray(3 * node, 3 * node + 3));
+    const candidate = candidateOf(screen, p, index, ends, () => drawnRadius(topology, index));
+    return { ...candidate, cut: !!plane && isCut(x, a, candidate.s, b, plane) };
+  });
+  return all.filter((candidate) => !candidate.cut);
+}
+
+/**
+ * mm behind the leaflet at which a part still shows. Chordae end in the middle of the tissue and are drawn to its
+ * ventricular side, which is slanted under a thick chord; behind the atrial side nothing shows.
+ */
+const through = { atrial: -0.3, ventricular: 1.5 };
+
+/** The candidate within reach whose outline is nearest and no leaflet hides; of several under the pointer that in front. */
+function nearest(all: Candidate[], reach: number, surfaceAt: (p: Pixel) => SurfaceHit | null): Candidate {
+  const shows = ({ depth, place }: Candidate): boolean => {
+    const leaflet = surfaceAt(place);
+    return !leaflet || depth < leaflet.distance + (leaflet.atrial ? through.atrial : through.ventricular);
+  };
+  const order = all
+    .filter(({ beside }) => beside <= reach)
+    .sort((a, b) => a.beside - b.beside || a.depth - b.depth);
+  return order.find(shows) ?? none;
 }
 
 /**
@@ -196,21 +229,32 @@ function meant(head: Candidate, chord: Candidate, surface: SurfaceHit | null): H
   return surface && 'surface';
 }
 
-/** mm behind a leaflet within which a part still shows: chordae end on the other side of it. */
-const through = 1.5;
+/** The place of a hit in the middle of the tissue. */
+function placeIn(topology: Topology, x: Float32Array, { triangle, u }: SurfaceHit): SurfaceHit['at'] {
+  const nodes = topology.triangles.subarray(3 * triangle, 3 * triangle + 3);
+  const sum = (c: number) =>
+    u[0] * x[3 * nodes[0] + c] + u[1] * x[3 * nodes[1] + c] + u[2] * x[3 * nodes[2] + c];
+  return [sum(0), sum(1), sum(2)];
+}
 
 /** The parts at a pixel; `reach`: pixels beside a part that still pick it. */
 export function pick(from: Pickable, px: number, py: number, reach: number): Hit {
-  const { camera, topology, picture, width, height, plane } = from;
-  const surface = pickSurface(camera, topology, picture.positions, px, py, width, height, plane);
-  const far = surface ? surface.distance + through : Infinity;
+  const { camera, topology, picture, drawn, width, height, plane } = from;
+  const surfaceAt = ([x, y]: Pixel) => pickSurface(camera, topology, drawn, x, y, width, height, plane);
+  const p: Pixel = [px, py];
+  const surface = surfaceAt(p);
   const screen = new Screen(from);
-  const head = pickHead(from, screen, [px, py], reach, far);
-  const chord = from.chordsOn ? pickChord(from, screen, [px, py], reach, far) : none;
-  return { surface, chord: chord.index, head: head.index, part: meant(head, chord, surface) };
+  const head = nearest(heads(from, screen, p), reach, surfaceAt);
+  const chord = from.chordsOn ? nearest(chordae(from, screen, p), reach, surfaceAt) : none;
+  return {
+    surface: surface && { ...surface, at: placeIn(topology, picture.positions, surface) },
+    chord: chord.index,
+    head: head.index,
+    part: meant(head, chord, surface),
+  };
 }
 
-function hidden(x: Float32Array, a: number, s: number, b: number, plane: CutPlane): boolean {
+function isCut(x: Float32Array, a: number, s: number, b: number, plane: CutPlane): boolean {
   let value = -plane.offset;
   for (let c = 0; c < 3; ++c) value += plane.normal[c] * ((1 - s) * x[3 * a + c] + s * x[3 * b + c]);
   return value > 0;
