@@ -97,7 +97,7 @@ export function edgePlace(page, scallop, along) {
           nodes.reduce((sum, node) => sum + picture.positions[3 * node + c] / 3, 0),
         );
         const [x, y] = viewport.camera.project(...at, viewport.width, viewport.height);
-        places.push({ x: box.left + x, y: box.top + y, triangle: t });
+        places.push({ x: box.left + x, y: box.top + y });
       });
       places.sort((a, b) => a.x - b.x);
       return places[Math.round(share * (places.length - 1))];

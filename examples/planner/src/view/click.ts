@@ -5,6 +5,7 @@ import type { FieldInfo, Topology } from '../protocol';
 import { setField } from '../store/edit';
 import { fillField } from './answer';
 import type { Place } from './drags';
+import { beforePreview } from './before';
 import { addOutlinePoint } from './outline';
 import { pickSurface, type Hit } from './pick';
 import type { Viewport } from './viewport';
@@ -92,9 +93,8 @@ function answer(hit: Hit, topology: Topology): boolean {
     return true;
   }
   const site = asks.find((candidate) => candidate.type === 'site');
-  // a preview that has new tissue has other triangles than the valve that the place belongs to
-  const same = topology.triangles.length === before.triangles.length;
-  if (!site || !same || !hit.surface || hit.part === 'head') return false;
-  fillField(hit, site.name);
+  const there = hit.surface && hit.part !== 'head' && beforePreview(hit.surface);
+  if (!site || !there) return false;
+  fillField({ ...hit, surface: there }, site.name);
   return true;
 }
