@@ -6,7 +6,7 @@ import { cameraRests } from './person.mjs';
 
 /**
  * Places in the window whose pixels, with all their neighbours within 2, show a papillary head or a chord, by their
- * colours in src/view/colours.ts, which the light scales: heads are brown (0.62, 0.3, 0.25), chordae cream
+ * colours in src/view/colours.ts, which the light scales: heads are brown (0.4, 0.19, 0.16), chordae cream
  * (0.95, 0.91, 0.8), the atrial sides of the leaflets (0.93, 0.74, 0.66) and (0.89, 0.66, 0.6). `free`: places in the background with no other colour within 30 pixels but a head, which begins
  * 6 to 10 pixels away.
  */
