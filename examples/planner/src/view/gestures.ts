@@ -2,7 +2,7 @@
 // clicks of their own (drags.ts, click.ts).
 import { percentOfLimit, shareOfLimit } from '../notable';
 import * as state from '../store/state';
-import { gestureTexts } from '../text/texts';
+import { gestureTexts, repairTexts } from '../text/texts';
 import { click } from './click';
 import {
   dragAt,
@@ -121,8 +121,8 @@ export class Gestures {
     const chord = hit.part === 'chord' ? figures.chords[hit.chord] : null;
     const limited = chord && Number.isFinite(chord.tensionLimit);
     const percent = limited ? percentOfLimit(shareOfLimit(chord)) : null;
-    const head = hit.part === 'head' ? (state.topologyOf(picture)?.heads[hit.head].name ?? '') : '';
-    canvas.title = chord ? gestureTexts.chord({ ...chord, percent }) : head;
+    const head = hit.part === 'head' ? state.topologyOf(picture)?.heads[hit.head].name : '';
+    canvas.title = chord ? gestureTexts.chord({ ...chord, percent }) : head ? repairTexts.head(head) : '';
   }
 
   private pinch(id: number, p: Place): void {
