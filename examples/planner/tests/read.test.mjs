@@ -91,7 +91,8 @@ describe('planner read and touched', () => {
     // the middle of a chord may lie behind a papillary head
     const ofChordae = [...said].filter((text) => !/^Papillary head \w+$/.test(text));
     assert.ok(ofChordae.length > 2, [...said].join());
-    for (const text of ofChordae) assert.match(text, /mm without pull, (pull \d+\smN, stretch [\d.]+\s%|slack)/);
+    for (const text of ofChordae)
+      assert.match(text, /mm without pull, (pull \d+\smN, stretch [\d.]+\s%|slack)/);
   });
 
   it('turns_pans_and_zooms_with_the_mouse_at_a_lower_resolution', async () => {
