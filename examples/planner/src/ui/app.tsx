@@ -1,6 +1,6 @@
 // The page: bar, picture, panels, dialogs.
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
-import { apply, discard } from '../store/edit';
+import { apply, discard, edit } from '../store/edit';
 import { openFile } from '../store/files';
 import * as state from '../store/state';
 import { appTexts, barTexts, help, planTexts, t, tips, tipTexts } from '../text/texts';
@@ -139,7 +139,7 @@ function Picture() {
   useLayoutEffect(() => {
     const wanted = /#(webgl|software)/.exec(location.hash)?.[1] ?? '';
     viewport = new Viewport(host.current!, wanted as 'webgl' | 'software' | '');
-    Object.assign(window, { planner: { state, viewport } });
+    Object.assign(window, { planner: { state, viewport, edit } });
   }, []);
   return (
     <main class="picture">
