@@ -77,6 +77,50 @@ export function chordPlace(page, name) {
   }, name);
 }
 
+/**
+ * The pixel of a triangle of a scallop that has a side on the free edge, a share of the way from left to right.
+ */
+export function edgePlace(page, scallop, along) {
+  return page.evaluate(
+    ([name, share]) => {
+      const { state, viewport } = window.planner;
+      const picture = state.picture.value;
+      const topology = state.topologyOf(picture);
+      const wanted = topology.scallops.findIndex((part) => part.name === name);
+      const free = new Set(topology.freeEdge);
+      const box = viewport.renderer.canvas.getBoundingClientRect();
+      const places = [];
+      topology.triangleScallop.forEach((which, t) => {
+        const nodes = [...topology.triangles.slice(3 * t, 3 * t + 3)];
+        if (which !== wanted || nodes.filter((node) => free.has(node)).length < 2) return;
+        const at = [0, 1, 2].map((c) =>
+          nodes.reduce((sum, node) => sum + picture.positions[3 * node + c] / 3, 0),
+        );
+        const [x, y] = viewport.camera.project(...at, viewport.width, viewport.height);
+        places.push({ x: box.left + x, y: box.top + y });
+      });
+      places.sort((a, b) => a.x - b.x);
+      return places[Math.round(share * (places.length - 1))];
+    },
+    [scallop, along],
+  );
+}
+
+/** The pixel of a papillary head's drawn middle in the window. */
+export function headPlace(page, name) {
+  return page.evaluate((wanted) => {
+    const { state, viewport } = window.planner;
+    const picture = state.picture.value;
+    const topology = state.topologyOf(picture);
+    const node = topology.headNodes[topology.heads.findIndex((part) => part.name === wanted)];
+    const up = viewport.frameOf().slice(9, 12);
+    const at = [0, 1, 2].map((c) => picture.positions[3 * node + c] - 4.5 * up[c]);
+    const box = viewport.renderer.canvas.getBoundingClientRect();
+    const [x, y] = viewport.camera.project(...at, viewport.width, viewport.height);
+    return { x: box.left + x, y: box.top + y };
+  }, name);
+}
+
 /** Names of all chordae of the valve. */
 export function chordNames(page) {
   return page.evaluate(() => window.planner.state.main.value.figures.chords.map((chord) => chord.name));

@@ -88,8 +88,11 @@ describe('planner read and touched', () => {
     }
     said.delete('');
     said.delete(null);
-    assert.ok(said.size > 2, [...said].join());
-    for (const text of said) assert.match(text, /mm without pull, (pull \d+\smN, stretch [\d.]+\s%|slack)/);
+    // the middle of a chord may lie behind a papillary head
+    const ofChordae = [...said].filter((text) => !/^Papillary head \w+$/.test(text));
+    assert.ok(ofChordae.length > 2, [...said].join());
+    for (const text of ofChordae)
+      assert.match(text, /mm without pull, (pull \d+\smN, stretch [\d.]+\s%|slack)/);
   });
 
   it('turns_pans_and_zooms_with_the_mouse_at_a_lower_resolution', async () => {

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { figures, withPlanner } from './browser.mjs';
-import { answered, apply, begin, cameraRests, chordPlace, openPanel, undo } from './person.mjs';
+import { answered, apply, begin, cameraRests, chordPlace, edgePlace, openPanel, undo } from './person.mjs';
 
 /** Chooses a chord by a click and drags it away from its papillary head by millimetres of the picture. */
 async function lengthen(page, name, millimetres) {
@@ -50,31 +50,7 @@ async function tie(page, head, along) {
   await begin(page, 'neochord');
   await page.keyboard.press('1');
   await cameraRests(page);
-  const [x, y] = await page.evaluate((share) => {
-    const { state, viewport } = window.planner;
-    const picture = state.picture.value;
-    const topology = state.topologyOf(picture);
-    const wanted = topology.scallops.findIndex(({ name }) => name === 'P2');
-    const free = new Set(topology.freeEdge);
-    const box = viewport.renderer.canvas.getBoundingClientRect();
-    const at = (node) =>
-      viewport.camera.project(
-        ...picture.positions.slice(3 * node, 3 * node + 3),
-        viewport.width,
-        viewport.height,
-      );
-    // middles of the triangles of P2 with a side on the free edge, from left to right
-    const places = [];
-    topology.triangleScallop.forEach((scallop, t) => {
-      const nodes = [...topology.triangles.slice(3 * t, 3 * t + 3)];
-      if (scallop !== wanted || nodes.filter((node) => free.has(node)).length < 2) return;
-      const corners = nodes.map(at);
-      places.push([0, 1].map((c) => corners.reduce((sum, corner) => sum + corner[c] / 3, 0)));
-    });
-    places.sort((a, b) => a[0] - b[0]);
-    const [px, py] = places[Math.round(share * (places.length - 1))];
-    return [box.left + px, box.top + py];
-  }, along);
+  const { x, y } = await edgePlace(page, 'P2', along);
   await page.mouse.click(x, y);
   await page.locator('#f-head').selectOption({ label: head });
   await answered(page, 200);

@@ -3,7 +3,7 @@
 import { refusals } from '../text/texts';
 import PlannerWorker from '../worker/main?worker&inline';
 import type { CallName, Calls } from '../calls';
-import type { Failure, Motion, Shown } from '../protocol';
+import type { Failure, Motion, Picture, Shown } from '../protocol';
 
 /** A request that failed. */
 export class CallError extends Error {
@@ -13,6 +13,13 @@ export class CallError extends Error {
   get cancelled(): boolean {
     return this.failure.code === 'MVS_E_CANCELLED';
   }
+}
+
+/** The pictures of a message: of a motion, of a stage, and of results. */
+function picturesIn(data: { motion?: Motion; stage?: Shown; result?: unknown }): Picture[] {
+  const result = data.result as Partial<Shown & { shown: Shown; first: Shown }> | null | undefined;
+  const holders = [data.motion, data.stage, result, result?.shown, result?.first];
+  return holders.flatMap((holder) => holder?.picture ?? []);
 }
 
 interface Open {
@@ -35,7 +42,11 @@ export class Client {
   private open = new Map<number, Open>();
   private listeners = new Map<number, (motion: Motion) => void>();
 
-  constructor(private readonly broken: (sentence: string) => void) {
+  /** `pictured` takes every picture that comes, also one that nobody waits for any more: its connectivity comes once. */
+  constructor(
+    private readonly broken: (sentence: string) => void,
+    private readonly pictured: (picture: Picture) => void,
+  ) {
     this.worker = new PlannerWorker();
     this.worker.onmessage = ({ data }) => this.receive(data);
     this.worker.onerror = (event) => this.broken(event.message || refusals.noWorker);
@@ -49,7 +60,11 @@ export class Client {
     const id = this.next++;
     const promise = new Promise<Calls[Name]['result']>((resolve, reject) => {
       this.open.set(id, { resolve: resolve as never, reject, ...options });
-      if (options.motion && name === 'hand_begin') this.listeners.set(id, options.motion);
+      if (options.motion && name === 'hand_begin') {
+        // one hand at a time
+        this.listeners.clear();
+        this.listeners.set(id, options.motion);
+      }
       this.worker.postMessage({ id, call: name, argument });
     });
     return Object.assign(promise, { id });
@@ -73,6 +88,7 @@ export class Client {
     share?: number;
   }): void {
     const request = this.open.get(data.id);
+    for (const picture of picturesIn(data)) this.pictured(picture);
     if (data.motion) {
       (request?.motion ?? this.listeners.get(data.id))?.(data.motion);
       return;

@@ -147,7 +147,6 @@ function ended(): void {
 }
 
 function reveal(draft: state.Draft, shown: Shown): void {
-  state.receive(shown.picture);
   const before = state.preview.value;
   // the last figures come with the picture of the orifice again: it need not be drawn twice
   const same = before?.figures.hash === shown.figures.hash && before.figures.known === 'orifice';

@@ -106,7 +106,6 @@ export async function openShipped(
     { name, vertices: shippedVertices },
     {
       motion: (motion) => {
-        state.receive(motion.picture);
         batch(() => {
           state.motion.value = motion;
           state.coming.value = true;
@@ -212,7 +211,6 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
     return false;
   }
   leaveSurface();
-  state.receive(opened.first.picture);
   batch(() => {
     show(opened.shown, true);
     state.tour.value = null;

@@ -43,7 +43,6 @@ export async function openTo(share: number): Promise<void> {
     }
     try {
       const motion = await request('open_to', { share: next });
-      state.receive(motion.picture);
       if (state.openness.value < 1) state.motion.value = motion;
     } catch (error) {
       fail(error);

@@ -66,7 +66,6 @@ export async function compareCheckpoint(name: string | null): Promise<void> {
   if (!name) return;
   const shown = await run(t.measuring, 'read_checkpoint', { name });
   if (!shown) return;
-  state.receive(shown.picture);
   state.compared.value = shown;
 }
 

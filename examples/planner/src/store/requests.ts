@@ -9,7 +9,7 @@ import * as state from './state';
 let client: Client;
 
 export function connect(): Client {
-  client = new Client((sentence) => (state.broken.value = sentence));
+  client = new Client((sentence) => (state.broken.value = sentence), state.receive);
   return client;
 }
 
@@ -62,7 +62,6 @@ export function fail(error: unknown): void {
  * the last figures come with it again.
  */
 export function complete(shown: Shown): void {
-  state.receive(shown.picture);
   const { value } = state.main;
   if (value?.figures.hash !== shown.figures.hash) return;
   const same = value.figures.known !== 'shape';
@@ -91,7 +90,6 @@ export async function change<Name extends 'undo' | 'redo' | 'restore'>(
 
 /** Shows a valve as that of the plan; `fresh` where it begins another plan. */
 export function show(shown: Shown, fresh: boolean): void {
-  state.receive(shown.picture);
   batch(() => {
     state.main.value = shown;
     state.preview.value = null;

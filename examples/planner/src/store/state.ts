@@ -17,6 +17,7 @@ import type {
   Topology,
 } from '../protocol';
 import { suture } from '../notable';
+import { mostKept, Recent } from '../recent';
 import type { MapName } from '../view/colours';
 
 export interface Draft {
@@ -134,11 +135,19 @@ export const dialog = signal<'keys' | 'report' | 'about' | 'recover' | 'notes' |
 /** The valve of the plan whose picture moves. */
 export const resting = computed<Shown | null>(() => (coming.value ? null : main.value));
 
-const topologies = new Map<string, Topology>();
+const topologies = new Recent<Topology>(mostKept);
+/** Number of topologies that are kept, for the tests. */
+export const keptTopologies = (): number => topologies.size;
 
-/** Keeps the connectivity that comes with a picture. */
+/**
+ * Keeps the connectivity that comes with a picture, and gives it to those that come without: a picture that is kept has its own.
+ * Equal connectivities are one object.
+ */
 export function receive(picture: Picture): void {
-  if (picture.connectivity) topologies.set(picture.topology, picture.connectivity);
+  const known = topologies.get(picture.topology) ?? picture.connectivity;
+  if (!known) return;
+  topologies.set(picture.topology, known);
+  picture.connectivity = known;
 }
 
 export function receiveCheckpoints(list: CheckpointList): void {
@@ -150,7 +159,7 @@ export function receiveCheckpoints(list: CheckpointList): void {
 }
 
 export function topologyOf(picture: Picture): Topology | undefined {
-  return topologies.get(picture.topology);
+  return picture.connectivity;
 }
 
 /** The valve before the preview, or before the whole plan. */

@@ -618,6 +618,8 @@ export const formTexts = {
   picked: (scallop: string) => `picked on ${scallop}`,
   along: (percent: number) => `Along the scallop: ${percent} %`,
   height: (percent: number) => `From annulus to free edge: ${percent} %`,
+  alongTip: 'Along the scallop',
+  heightTip: 'From annulus to free edge',
   axes: ['Towards the front', 'To the side', 'Towards the atrium'],
   axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
 };
@@ -803,4 +805,243 @@ export const sectionTexts = {
 export const gestureTexts = {
   chord: (chord: { name: string; rest: number; tension: number; strain: number; percent: number | null }) =>
     `${chord.name}: ${number(chord.rest)} mm without pull, ${chord.strain > 0 ? `pull ${millinewton(chord.tension)}, stretch ${number(100 * chord.strain)} %` : 'slack'}${chord.percent === null ? '' : `, ${chord.percent} % of its limit`}`,
+};
+
+/** Words for the values of a choice, where those of the library are not a surgeon's. */
+export const choiceWords: Record<string, string> = {
+  scene: 'the axes of the file',
+  valve: 'the valve: front, side, atrium',
+  rough_zone: 'rough zone',
+  head: 'at the papillary muscle',
+  leaflet: 'at the leaflet',
+};
+
+/** What an operation is for, on its card. */
+export const operationTips: Record<string, string> = {
+  ring: 'A rigid ring brings the annulus to a chosen width and form, so that the leaflets meet over a greater height.',
+  band: 'A flexible band shortens the posterior annulus; the anterior annulus and its movement stay free.',
+  annulus_scale: 'Tries out how large the annulus should be, before a ring or a band is chosen.',
+  neochord: 'Holds a prolapsing edge: click its place on the leaflet, then a papillary muscle.',
+  chord_length: 'Shortens a chord that lets its leaflet prolapse, or lengthens one that holds it too deep.',
+  chord_remove: 'Cuts a chord, as before a transfer, or to see what a rupture does.',
+  chord_transfer: 'Moves one end of a chord to another place of a leaflet, or to another papillary muscle.',
+  head_move: 'Moves the tip of a papillary muscle, as a displaced ventricle does or as its relocation does.',
+  clip: 'Holds both edges together where they prolapse or leak; the valve then opens through two smaller orifices.',
+  resect: 'Takes a prolapsing piece out of a leaflet and sutures the gap.',
+  patch: 'Enlarges a leaflet that is too small to reach the other one.',
+  chord_add: 'Ties a chord with the stiffness of natural tissue, as in a transplantation of chordae.',
+};
+
+const newLength = 'Length without pull. Left empty, the chord becomes as taut as its neighbours.';
+const nameTip = 'Its name in lists, in the history and in the report';
+const fromMuscle = 'The papillary muscle from which it comes; or click it in the picture';
+const onLeaflet = 'Where it is tied to the leaflet; or click the place in the picture';
+
+/** What a field of an operation decides, in a surgeon's words. */
+export const fieldTips: Record<string, Record<string, string>> = {
+  ring: {
+    size: 'Width of the ring from commissure to commissure. A smaller ring brings the leaflets nearer, and the valve opens less.',
+    ap_ratio: 'Depth of the ring from front to back, as a share of its width',
+    saddle: 'How far the ring rises in front and behind over its sides',
+    curve: 'A measured ring: a file with one point in each line',
+    name: nameTip,
+  },
+  band: {
+    factor: 'How far the posterior annulus is gathered: the share of its present length that remains',
+    length: 'Length of the band from trigone to trigone',
+    name: nameTip,
+  },
+  annulus_scale: {
+    factor: 'The share of its present size that the annulus gets in all directions',
+    ap: 'A further change from the anterior to the posterior leaflet only',
+    cc: 'A further change from commissure to commissure only',
+  },
+  neochord: {
+    head: fromMuscle,
+    site: onLeaflet,
+    length: newLength,
+    strands: 'How many threads run side by side; they share the pull',
+    diameter: 'How thick each thread is',
+    young: 'How stiff the thread is; the stiffness of ePTFE is usual',
+    name: nameTip,
+  },
+  chord_add: {
+    head: fromMuscle,
+    site: onLeaflet,
+    length: newLength,
+    type: 'The kind of chord, on which its working limit depends',
+    area: 'How much tissue carries the pull',
+    young: 'How stiff the tissue of the chord is',
+    name: nameTip,
+  },
+  chord_length: {
+    chord: 'The chord that is changed; or click it in the picture',
+    length: 'The new length without pull. Shorter holds the leaflet deeper in the ventricle.',
+    factor: 'The new length as a share of the present one; less than all of it shortens',
+  },
+  chord_remove: { chord: 'The chord that is cut; or click it in the picture' },
+  chord_transfer: {
+    chord: 'The chord whose end is moved; or click it in the picture',
+    end: 'Which end is moved: at the leaflet or at the papillary muscle',
+    site: 'The new place on a leaflet; or click it in the picture',
+    head: 'The new papillary muscle; or click it in the picture',
+    length:
+      'Length without pull. Left empty, it stays for another leaflet, and is made as taut as its neighbours for another muscle.',
+  },
+  head_move: {
+    head: 'The papillary muscle whose tip is moved; or click it in the picture',
+    by: 'How far the tip is moved in each direction',
+    frame: 'Whether the directions are those of the valve or those of the file',
+  },
+  clip: {
+    anterior: 'The scallop of the anterior leaflet that is grasped',
+    posterior: 'The scallop of the posterior leaflet that is grasped',
+    position:
+      'Where the clip stands along the edge, from the posteromedial to the anterolateral end of the scallop',
+    angle:
+      'The turn of the arms, against the clock as seen from the atrium; without it they stand across the edge',
+    width: 'How much of the edge the clip joins',
+    reach: 'How much tissue of each leaflet the arms grasp, from the edge',
+    name: nameTip,
+  },
+  resect: {
+    scallop: 'The scallop from which the piece is taken; or click it in the picture',
+    position:
+      'Where the middle of the piece is, from the posteromedial to the anterolateral end of the scallop',
+    width: 'How much of the free edge is taken out',
+    base_width: 'How wide the piece is at the annulus. Left empty, it is a triangle.',
+    depth: 'How far the piece reaches from the free edge towards the annulus',
+    outline: 'A cut of any form, drawn on the leaflet',
+  },
+  patch: {
+    site: 'Where the middle of the patch is; or click the place in the picture',
+    width: 'Size of the patch along the leaflet, side to side',
+    height: 'Size of the patch from the annulus towards the free edge',
+    area_factor: 'How much larger the patch is than the hole that it closes',
+    thickness: 'How thick the pericardium is',
+  },
+};
+
+/** The tooltip of a field; of an operation that the page does not know, the library's words without its numbers. */
+export function fieldTip(kind: string, name: string, help: string, usual: string): string {
+  const words = fieldTips[kind]?.[name] ?? help.replace(/\s*\[.*\]/, '');
+  return usual ? `${words.replace(/\.$/, '')}. Left empty: ${usual}.` : words;
+}
+
+/** Tooltips of controls by their visible words: what happens when they are used. */
+export const tips: Record<string, string> = {
+  [barTexts.open]: 'Opens a saved session, a valve, or the surface of a patient’s valve (STL, PLY, OBJ)',
+  [barTexts.save]: 'Saves the valve with its plan, checkpoints and notes as one file on this computer',
+  [barTexts.undo]: 'Takes the last operation back',
+  [barTexts.redo]: 'Does the operation again that was taken back last',
+  [barTexts.startHealthy]: 'Leaves this plan for a healthy valve; you can return to a changed plan',
+  [barTexts.help]: 'All keys and gestures, and the licences',
+  [barTexts.presets.surgeon]: 'View from the atrium with P2 below, as in the operation',
+  [barTexts.presets.ventricle]: 'View from the ventricle on chordae and papillary muscles',
+  [barTexts.presets.commissure]: 'View from the side, with the atrium above',
+  [barTexts.presets.section]:
+    'View of a cut from front to back through both leaflets; drag the blue ball to move it',
+  [barTexts.opening]: 'Lets the pressure on the valve fall and rise again, so that it opens and closes',
+  [barTexts.cut]: 'Takes away what lies in front of the section plane',
+  [barTexts.chordae]: 'Shows or hides the chordae',
+  [barTexts.names]: 'Shows or hides the names of scallops and papillary muscles',
+  [barTexts.look]: 'Drag to turn the valve, click to choose a chord, a muscle or a scallop',
+  [barTexts.grasp]: barTexts.tools.grasp,
+  [barTexts.push]: barTexts.tools.push,
+  [barTexts.colours]: 'What the colours of leaflets and chordae show',
+  [appTexts.valve]: 'Figures of the valve: leak, coaptation, annulus, chordae',
+  [appTexts.repair]: 'Operations, and what can be done with a chosen part',
+  [appTexts.plan]: 'What was done, checkpoints, notes, saving and the report',
+  [appTexts.tour]: 'Four leaking valves to learn on, with goals',
+  [importTexts.tab]: 'Makes a valve of the surface that was opened',
+  [appTexts.apply]: 'Does the operation; it can be undone',
+  [appTexts.discard]: 'Leaves the form; the valve stays as it is',
+  [appTexts.close]: 'Closes this',
+  [appTexts.again]: 'Begins anew; what was saved can be opened again',
+  [appTexts.before]: 'Picture and figures of the valve before',
+  [appTexts.preview]: 'Picture and figures of the valve after the operation of the form',
+  [appTexts.now]: 'Picture and figures of the present valve',
+  [t.cancel]: 'Stops this calculation; the valve stays as it is',
+  [tableTexts.scallops]: 'Coaptation, leak and prolapse of each scallop',
+  [valveTexts.annulus]: 'Size of the annulus',
+  [valveTexts.section]: 'The leaflets in a plane from front to back, before and now',
+  [valveTexts.physics]: 'Further figures for those who know the mechanics of the valve',
+  [valveTexts.opens]: 'Open area in diastole, and the gradient of a flow',
+  [valveTexts.flow]: valveTexts.flowHint,
+  [valveTexts.measureOpen]: 'Opens a copy of the valve as in diastole and measures its smallest opening',
+  [valveTexts.howCertain]:
+    'Closes the valve from several folds of the leaflets, and writes the range beside each figure',
+  [sectionTexts.middle]: 'Moves the plane back to the middle of A2 and P2',
+  [sectionTexts.cut]: 'Shows the same cut in the picture',
+  [repairTexts.more]: 'Operations that are done less often',
+  [repairTexts.letGo]: 'Nothing is chosen any more',
+  [repairTexts.changeLength]: operationTips.chord_length,
+  [repairTexts.cut]: operationTips.chord_remove,
+  [repairTexts.transfer]: operationTips.chord_transfer,
+  [repairTexts.neochordFrom]: 'Then click its place on the leaflet',
+  [repairTexts.move]: operationTips.head_move,
+  [repairTexts.neochord]: operationTips.neochord,
+  [repairTexts.resect]: operationTips.resect,
+  [formTexts.leave]: 'Leaves the form; the valve stays as it is',
+  [formTexts.more]: 'Fields that are rarely changed',
+  [formTexts.alongTip]: 'Moves the place along the scallop',
+  [formTexts.heightTip]: 'Moves the place between annulus and free edge',
+  [pointTexts.draw]: 'Then click along the cut on the leaflet',
+  [pointTexts.drawAgain]: 'Forgets the drawn cut and begins a new one',
+  [pointTexts.use]: 'Ends the drawing and shows the valve after this cut',
+  [pointTexts.back]: 'Takes the last point of the cut away',
+  [pointTexts.remove]: 'Forgets the measured ring',
+  [planTexts.checkpoints]: 'Stages of the plan that were kept under a name',
+  [planTexts.checkpointName]: 'The name under which the present plan is kept',
+  [planTexts.keep]: 'Keeps the present plan, to return to it or to compare with it',
+  [planTexts.returnTo]: 'Makes this plan the present one',
+  [planTexts.compare]: 'Shows figures and pictures of both plans side by side',
+  [planTexts.putBack]: 'Brings the checkpoint back',
+  [planTexts.notes]: 'What you write here stands in the session and in the report',
+  [planTexts.files]: 'Files on this computer; nothing is sent anywhere',
+  [planTexts.save]: 'Saves the valve with its plan, checkpoints and notes as one file on this computer',
+  [planTexts.obj]: 'Saves the present valve alone, for other programs',
+  [planTexts.report]: 'One page with pictures, plan and figures, to print or to save',
+  [planTexts.keepFile]: 'Choose a file; from then on every change is written to it',
+  [planTexts.stopFile]: 'Changes are no longer written to the file',
+  [planTexts.autosave]: planTexts.autosaveHint,
+  [tourTexts.hint]: 'What may help with this valve',
+  [tourTexts.repair]: 'Opens the panel with the operations',
+  [tourTexts.study.title]: 'The repair of the study, step by step',
+  [tourTexts.example.title]: 'One repair that reaches the goals, step by step',
+  [leaveTexts.back]: 'Opens that plan again; the present one can be returned to as well',
+  [importTexts.unit]: 'The length that the number one stands for in the file',
+  [importTexts.kind]: 'Which side of the leaflets the surface is, from which their middle follows',
+  [importTexts.points.commissures]: 'Then click both ends of the line of closure on the surface',
+  [importTexts.points.anterior]: 'Then click the leaflet that lies towards the aorta',
+  [importTexts.points.annulus]: 'Then click along the rim where the leaflets are attached',
+  [importTexts.points.tips]: 'Then click where the papillary muscles end',
+  [importTexts.clear]: 'Forgets these points; they are guessed again',
+  [importTexts.build]: 'Makes a valve of the surface, adds chordae by normal anatomy and closes it',
+  [importTexts.leave]: 'Leaves the surface; the valve before is shown again',
+  [importTexts.again]: 'Back to the surface with its marked points',
+  [reportTexts.save]: 'Saves the page with its pictures on this computer',
+  [reportTexts.print]: 'Prints the page, or makes a PDF of it',
+  [dialogTexts.recover]: 'Opens what was left here',
+  [dialogTexts.forget]: 'Removes the copy from this browser',
+  [dialogTexts.licences]: 'Licences of the parts of this page',
+};
+
+/** Tooltips of controls whose words hold a name. */
+export const tipTexts = {
+  chordInTable: (name: string) =>
+    `Shows chord ${name} in the picture; it can then be shortened, lengthened or cut`,
+  beyond: (name: string) => `Shows chord ${name} in the picture. ${verdictTexts.limitHelp}`,
+  chordae: 'All chordae with their share of the working limit, pull and length',
+  devices: 'Everything that was implanted',
+  valve: 'Opens this leaking valve with its goals; a changed plan can be returned to',
+  next: 'Opens the next valve of the tour',
+  plane: 'Moves the section plane from one commissure towards the other',
+  checkpoint: 'Picture and figures of the plan that is compared',
+  rename: 'Gives the checkpoint another name',
+  remove: 'Deletes the checkpoint; it can be put back',
+  newName: 'Enter takes the name, Escape leaves the old one',
+  pick: 'The next click in the picture chooses it',
+  picture: help.picture,
+  chordHint: 'Turns the picture so that the chord is seen, and marks it',
 };

@@ -1,9 +1,9 @@
 // The page: bar, picture, panels, dialogs.
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
-import { apply, discard } from '../store/edit';
+import { apply, discard, edit } from '../store/edit';
 import { openFile } from '../store/files';
 import * as state from '../store/state';
-import { appTexts, barTexts, help, planTexts, t } from '../text/texts';
+import { appTexts, barTexts, help, planTexts, t, tips, tipTexts } from '../text/texts';
 import type { Preset } from '../view/camera';
 import { Viewport } from '../view/viewport';
 import { Dialogs } from './dialogs';
@@ -14,6 +14,7 @@ import { onKey, showPanel, tabs } from './keys';
 import { PlanPanel } from './plan';
 import { RepairPanel } from './repair';
 import { Scale } from './scale';
+import { Tip } from './tip';
 import { TopBar, ViewBar } from './toolbar';
 import { TourPanel } from './tour';
 import { ValvePanel } from './valve';
@@ -65,7 +66,7 @@ function Panels() {
             aria-selected={panel === name}
             aria-controls="panel"
             tabIndex={panel === name ? 0 : -1}
-            title={`(${key})`}
+            title={`${tips[text]} (${key})`}
             onClick={() => (state.panel.value = name)}
           >
             {text}
@@ -91,7 +92,7 @@ function Busy() {
       <span>{busy.text}</span>
       <progress max="1" value={busy.share || undefined} />
       {busy.cancel && (
-        <button type="button" class="link" onClick={busy.cancel}>
+        <button type="button" class="link" title={tips[t.cancel]} onClick={busy.cancel}>
           {t.cancel}
         </button>
       )}
@@ -106,10 +107,20 @@ function Compare() {
   const compared = !state.preview.value && state.compared.value ? state.compareWith.value : null;
   return (
     <div class="compare group" role="group" aria-label={appTexts.compare}>
-      <Button keys="W" pressed={past} onClick={() => (state.past.value = true)}>
+      <Button
+        keys="W"
+        title={compared ? tipTexts.checkpoint : undefined}
+        pressed={past}
+        onClick={() => (state.past.value = true)}
+      >
         {compared ?? appTexts.before}
       </Button>
-      <Button keys="W" pressed={!past} onClick={() => (state.past.value = false)}>
+      <Button
+        keys="W"
+        title={tips[state.preview.value ? appTexts.preview : appTexts.now]}
+        pressed={!past}
+        onClick={() => (state.past.value = false)}
+      >
         {state.preview.value ? appTexts.preview : compared ? planTexts.present : appTexts.now}
       </Button>
     </div>
@@ -128,7 +139,7 @@ function Picture() {
   useLayoutEffect(() => {
     const wanted = /#(webgl|software)/.exec(location.hash)?.[1] ?? '';
     viewport = new Viewport(host.current!, wanted as 'webgl' | 'software' | '');
-    Object.assign(window, { planner: { state, viewport } });
+    Object.assign(window, { planner: { state, viewport, edit } });
   }, []);
   return (
     <main class="picture">
@@ -213,7 +224,12 @@ export function App() {
       <div class="broken" role="alert">
         <h1>{appTexts.stopped}</h1>
         <p>{state.broken.value}</p>
-        <button type="button" class="button main" onClick={() => location.reload()}>
+        <button
+          type="button"
+          class="button main"
+          title={tips[appTexts.again]}
+          onClick={() => location.reload()}
+        >
           {appTexts.again}
         </button>
       </div>
@@ -227,6 +243,7 @@ export function App() {
       <div class="hidden" role="status" aria-live="polite" data-testid="status">
         {state.status.value}
       </div>
+      <Tip />
       <Notice />
       <Recovery />
       <Dialogs />

@@ -12,7 +12,7 @@ import {
   saveCheckpoint,
 } from '../store/measure';
 import * as state from '../store/state';
-import { planTexts } from '../text/texts';
+import { planTexts, tips, tipTexts } from '../text/texts';
 import { Button, Section } from './parts';
 
 /** Characters of a name: what one line of the panel holds. */
@@ -37,11 +37,12 @@ export function Checkpoints() {
           class="checkpoint-name"
           maxLength={longest}
           aria-label={planTexts.checkpointName}
+          title={tips[planTexts.checkpointName]}
           placeholder={nextName()}
           value={name.value}
           onInput={(event) => (name.value = event.currentTarget.value)}
         />
-        <button type="submit" class="button plain">
+        <button type="submit" class="button plain" title={tips[planTexts.keep]}>
           <Bookmark size={16} />
           <span>{planTexts.keep}</span>
         </button>
@@ -63,11 +64,13 @@ export function Checkpoints() {
           <Button
             icon={<Pencil size={16} />}
             label={planTexts.rename(checkpoint)}
+            title={tipTexts.rename}
             onClick={() => (renamed.value = checkpoint)}
           />
           <Button
             icon={<Trash2 size={16} />}
             label={planTexts.remove(checkpoint)}
+            title={tipTexts.remove}
             onClick={() => void removeCheckpoint(checkpoint)}
           />
         </div>
@@ -118,6 +121,7 @@ function NewName({ name, renamed }: { name: string; renamed: Signal<string | nul
       class="checkpoint-name renamed"
       maxLength={longest}
       aria-label={planTexts.newName(name)}
+      title={tipTexts.newName}
       value={name}
       onBlur={take}
       onKeyDown={(event) => {

@@ -1,7 +1,7 @@
 // Rings, bands, clips and artificial chordae as a table: the twin of what the picture shows of them.
 import { clipOf, suture } from '../notable';
 import * as state from '../store/state';
-import { deviceTexts } from '../text/texts';
+import { deviceTexts, tipTexts } from '../text/texts';
 import type { Figures, Picture, Topology } from '../protocol';
 import { isClosed } from '../view/heart';
 import { Section } from './parts';
@@ -60,7 +60,7 @@ export function Devices({ figures }: { figures: Figures }) {
   const devices = picture && topology ? devicesOf(topology, picture, figures) : [];
   if (!devices.length) return null;
   return (
-    <Section title={deviceTexts.title(devices.length)} open>
+    <Section title={deviceTexts.title(devices.length)} tip={tipTexts.devices} open>
       <table class="table" data-testid="devices">
         <thead>
           <tr>

@@ -2,7 +2,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import type { ComponentChildren } from 'preact';
 import * as state from '../store/state';
-import { appTexts, barTexts, dialogTexts, help } from '../text/texts';
+import { appTexts, barTexts, dialogTexts, help, tips } from '../text/texts';
 import { Button } from './parts';
 import { ReportDialog } from './report';
 
@@ -47,7 +47,7 @@ export function Dialogs() {
         </table>
         <p>{dialogTexts.pointer}</p>
         <details class="section">
-          <summary>{dialogTexts.licences}</summary>
+          <summary title={tips[dialogTexts.licences]}>{dialogTexts.licences}</summary>
           <pre class="licences">{document.getElementById('licences')?.textContent}</pre>
         </details>
         <p class="hint">{dialogTexts.about(state.version.value)}</p>

@@ -2,10 +2,10 @@
 import { Crosshair } from 'lucide-preact';
 import { pickField, setField } from '../store/edit';
 import * as state from '../store/state';
-import { formTexts } from '../text/texts';
-import type { FieldInfo, FieldValue, Site } from '../protocol';
+import { choiceWords, formTexts, tips, tipTexts } from '../text/texts';
+import type { FieldValue, Site } from '../protocol';
 import { Button } from './parts';
-import { labelOf, NumberField, type FieldProps } from './number';
+import { labelOf, NumberField, tipOf, type FieldProps } from './number';
 import { PointsField } from './points';
 
 export function Field(props: FieldProps) {
@@ -20,14 +20,16 @@ export function Field(props: FieldProps) {
   return <TextField {...props} />;
 }
 
-function PickButton({ field }: { field: FieldInfo }) {
+function PickButton(props: FieldProps) {
+  const { field } = props;
   const on = state.picking.value === field.name;
   return (
     <Button
       kind="quiet"
       pressed={on}
       icon={<Crosshair size={16} />}
-      label={formTexts.pick(field.label || field.name)}
+      label={formTexts.pick(labelOf(props))}
+      title={tipTexts.pick}
       onClick={() => pickField(on ? null : field.name)}
     />
   );
@@ -40,7 +42,7 @@ function PartField(props: FieldProps) {
     field.type === 'chord' ? topology?.chords : field.type === 'head' ? topology?.heads : topology?.scallops;
   const value = state.draft.value?.fields[field.name] as string | undefined;
   return (
-    <div class="field" title={field.help}>
+    <div class="field" title={tipOf(props)}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <div class="number">
         <select
@@ -53,7 +55,7 @@ function PartField(props: FieldProps) {
             <option value={part.id}>{part.name}</option>
           ))}
         </select>
-        <PickButton field={field} />
+        <PickButton {...props} />
       </div>
     </div>
   );
@@ -77,7 +79,7 @@ function SiteField(props: FieldProps) {
   };
   const name = topology?.scallops.find((part) => part.id === scallopOf())?.name;
   return (
-    <div class="field" title={field.help}>
+    <div class="field" title={tipOf(props)}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <div class="number">
         <select
@@ -90,7 +92,7 @@ function SiteField(props: FieldProps) {
             <option value={part.id}>{part.name}</option>
           ))}
         </select>
-        <PickButton field={field} />
+        <PickButton {...props} />
       </div>
       {value && 'triangle' in value && <small>{formTexts.picked(name ?? '')}</small>}
       {value && !('triangle' in value) && (
@@ -99,6 +101,7 @@ function SiteField(props: FieldProps) {
             <span>{formTexts.along(Math.round(100 * value.along))}</span>
             <input
               type="range"
+              title={tips[formTexts.alongTip]}
               min="0"
               max="1"
               step="0.05"
@@ -110,6 +113,7 @@ function SiteField(props: FieldProps) {
             <span>{formTexts.height(Math.round(100 * value.height))}</span>
             <input
               type="range"
+              title={tips[formTexts.heightTip]}
               min="0.1"
               max="1"
               step="0.05"
@@ -127,7 +131,7 @@ function ChoiceField(props: FieldProps) {
   const { field } = props;
   const value = state.draft.value?.fields[field.name] as number | undefined;
   return (
-    <div class="field" title={field.help}>
+    <div class="field" title={tipOf(props)}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <select
         id={`f-${field.name}`}
@@ -138,7 +142,7 @@ function ChoiceField(props: FieldProps) {
       >
         <option value="">{field.fallback || formTexts.default}</option>
         {field.choices.map((choice) => (
-          <option value={choice.value}>{choice.name.replace(/_/g, ' ')}</option>
+          <option value={choice.value}>{choiceWords[choice.name] ?? choice.name.replace(/_/g, ' ')}</option>
         ))}
       </select>
     </div>
@@ -149,7 +153,7 @@ function VectorField(props: FieldProps) {
   const { field } = props;
   const value = (state.draft.value?.fields[field.name] as [number, number, number] | undefined) ?? [0, 0, 0];
   return (
-    <fieldset class="field" title={field.help}>
+    <fieldset class="field" title={tipOf(props)}>
       <legend>{labelOf(props)}</legend>
       {formTexts.axes.map((axis, c) => (
         <label class="slider">
@@ -175,7 +179,7 @@ function VectorField(props: FieldProps) {
 function TextField(props: FieldProps) {
   const { field } = props;
   return (
-    <div class="field" title={field.help}>
+    <div class="field" title={tipOf(props)}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <input
         id={`f-${field.name}`}

@@ -3,7 +3,7 @@
 import { Check, Crosshair, X } from 'lucide-preact';
 import { apply, complete, discard, replacements } from '../store/edit';
 import * as state from '../store/state';
-import { appTexts, formTexts, t, wordsOf } from '../text/texts';
+import { appTexts, formTexts, t, tips, wordsOf } from '../text/texts';
 import type { FieldInfo } from '../protocol';
 import { ChordFacts } from './chord';
 import { Field } from './fields';
@@ -91,7 +91,7 @@ export function OperationForm() {
           type="submit"
           class="button main"
           disabled={!ready || !!state.draftMessage.value || picking === points?.points}
-          title={formTexts.enter}
+          title={`${tips[appTexts.apply]} ${formTexts.enter}`}
         >
           <Check size={16} />
           <span>{appTexts.apply}</span>

@@ -2,7 +2,7 @@
 import { Check, CircleHelp, X } from 'lucide-preact';
 import { allowedLoad, flailHeight, flailOf, reached, startValve } from '../store/tour';
 import * as state from '../store/state';
-import { tourTexts } from '../text/texts';
+import { tipTexts, tourTexts } from '../text/texts';
 import { Button } from './parts';
 
 interface Check {
@@ -57,7 +57,7 @@ export function Goals({ number, short }: { number: number; short?: boolean }) {
             {tourTexts.won} {count > 0 && tourTexts.finishedOf(count)}
           </p>
           {next && (
-            <Button kind="main" onClick={() => void startValve(next)}>
+            <Button kind="main" title={tipTexts.next} onClick={() => void startValve(next)}>
               {tourTexts.next(next)}
             </Button>
           )}

@@ -4,7 +4,7 @@ import { buildValve, chooseUnit } from '../store/files';
 import * as state from '../store/state';
 import type { FileUnit, SurfaceKind } from '../protocol';
 import { fileUnits, millimetres } from '../units';
-import { importTexts, say } from '../text/texts';
+import { importTexts, say, tips } from '../text/texts';
 import { Button } from './parts';
 
 const kinds = ['commissures', 'anterior', 'annulus', 'tips'] as const;
@@ -24,6 +24,7 @@ export function ImportPanel() {
         <label for="unit">{importTexts.unit}</label>
         <select
           id="unit"
+          title={tips[importTexts.unit]}
           value={surface.unit}
           disabled={surface.unitFrom === 'file'}
           onChange={(event) => void chooseUnit(event.currentTarget.value as FileUnit)}
@@ -42,6 +43,7 @@ export function ImportPanel() {
         <label for="surface-kind">{importTexts.kind}</label>
         <select
           id="surface-kind"
+          title={tips[importTexts.kind]}
           value={imported.kind}
           onChange={(event) =>
             (state.imported.value = { ...imported, kind: event.currentTarget.value as SurfaceKind })
@@ -75,7 +77,12 @@ export function ImportPanel() {
       ))}
       <p class="hint">{importTexts.tips}</p>
       <div class="form-foot">
-        <button type="button" class="button main" onClick={() => void buildValve()}>
+        <button
+          type="button"
+          class="button main"
+          title={tips[importTexts.build]}
+          onClick={() => void buildValve()}
+        >
           <Hammer size={16} />
           <span>{importTexts.build}</span>
         </button>

@@ -1,7 +1,7 @@
 // A number of an operation, with a slider where it has a usual range.
 import { setField } from '../store/edit';
 import * as state from '../store/state';
-import { figure, formTexts } from '../text/texts';
+import { fieldTip, figure, formTexts } from '../text/texts';
 import type { FieldInfo } from '../protocol';
 
 /** Ranges and steps of sliders: usual values, where the library accepts more. */
@@ -28,6 +28,16 @@ export interface FieldProps {
 
 export function labelOf({ field, label }: FieldProps): string {
   return label ?? (field.label || field.name);
+}
+
+/** The tooltip of a field, with the value that an empty one stands for where that has a unit. */
+export function tipOf({ kind, field }: FieldProps): string {
+  const percent = shares.has(field.name) && field.unit === '';
+  const unit = percent ? '%' : field.unit;
+  const value = fallbackOf(field);
+  const plain = value === undefined || !unit || (!Number.isFinite(field.fallbackValue) && !percent);
+  const usual = plain ? '' : `${+(value * (percent ? 100 : 1)).toPrecision(3)} ${unit}`;
+  return fieldTip(kind, field.name, field.help, usual);
 }
 
 /** Present length of the chord in the form, for "18.2 mm, was 20.4". */
@@ -76,7 +86,7 @@ export function NumberField(props: FieldProps) {
   const low = rest ? +(0.4 * rest).toFixed(1) : range?.[0];
   const high = rest ? +(1.6 * rest).toFixed(1) : range?.[1];
   return (
-    <div class="field" title={field.help}>
+    <div class="field" title={tipOf(props)}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
       <div class="number">
         {range && (

@@ -1,7 +1,7 @@
 // Small parts that all panels use.
 import type { ComponentChildren, JSX } from 'preact';
 import * as state from '../store/state';
-import { figure, partTexts } from '../text/texts';
+import { figure, partTexts, tips } from '../text/texts';
 import type { Range } from '../protocol';
 
 export function Figure(props: {
@@ -64,7 +64,8 @@ export function Button(
     },
 ) {
   const { icon, children, kind = 'plain', keys, pressed, label, title, disabled, onClick } = props;
-  const hint = [title ?? label, keys ? `(${keys})` : ''].filter(Boolean).join(' ');
+  const words = label ?? (typeof children === 'string' ? children : '');
+  const hint = [title ?? tips[words] ?? label, keys ? `(${keys})` : ''].filter(Boolean).join(' ');
   return (
     <button
       type="button"
@@ -82,10 +83,16 @@ export function Button(
   );
 }
 
-export function Section(props: { title: string; open?: boolean; children: ComponentChildren; id?: string }) {
+export function Section(props: {
+  title: string;
+  open?: boolean;
+  children: ComponentChildren;
+  id?: string;
+  tip?: string;
+}) {
   return (
     <details class="section" open={props.open} id={props.id}>
-      <summary>{props.title}</summary>
+      <summary title={props.tip ?? tips[props.title]}>{props.title}</summary>
       <div class="section-body">{props.children}</div>
     </details>
   );

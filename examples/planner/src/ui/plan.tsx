@@ -5,7 +5,7 @@ import { canKeepFile, chooseKeptFile, keptFile, leaveKeptFile, saveObj, saveSess
 import { allowAutosave, autosave, storageWorks } from '../store/recovery';
 import { openingOf } from '../store/opening';
 import * as state from '../store/state';
-import { appTexts, barTexts, planTexts, say, valveTexts } from '../text/texts';
+import { appTexts, barTexts, planTexts, say, tips, valveTexts } from '../text/texts';
 import { Checkpoints } from './checkpoints';
 import { areaText, comparedRows, stepsOf } from './compared';
 import { Button, Section } from './parts';
@@ -46,6 +46,7 @@ export function PlanPanel() {
         <textarea
           rows={4}
           aria-label={planTexts.notes}
+          title={tips[planTexts.notes]}
           value={state.notes.value}
           onInput={(event) => {
             state.notes.value = event.currentTarget.value;
@@ -80,7 +81,7 @@ export function PlanPanel() {
           )}
         </div>
         {!canKeepFile && <p class="hint">{planTexts.noFile}</p>}
-        <label class="check">
+        <label class="check" title={tips[planTexts.autosave]}>
           <input
             type="checkbox"
             checked={autosave.value}

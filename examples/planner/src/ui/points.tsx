@@ -3,7 +3,7 @@
 import { PenLine } from 'lucide-preact';
 import { setField } from '../store/edit';
 import * as state from '../store/state';
-import { fewestPoints, pointTexts } from '../text/texts';
+import { fewestPoints, fieldTips, pointTexts } from '../text/texts';
 import type { FieldInfo } from '../protocol';
 import { beginOutline, removeOutlinePoint, useOutline } from '../view/outline';
 import { Button } from './parts';
@@ -35,7 +35,7 @@ function Outline() {
   const given = state.draft.value?.fields.outline as number[][] | undefined;
   if (!drawing)
     return (
-      <div class="field">
+      <div class="field" title={fieldTips.resect.outline}>
         <Button icon={<PenLine size={16} />} onClick={beginOutline}>
           {given ? pointTexts.drawAgain : pointTexts.draw}
         </Button>
@@ -68,7 +68,7 @@ function Curve({ field }: { field: FieldInfo }) {
     else setField(field.name, points);
   };
   return (
-    <div class="field">
+    <div class="field" title={fieldTips.ring.curve}>
       <label for={`f-${field.name}`}>{pointTexts.curve}</label>
       <input
         id={`f-${field.name}`}

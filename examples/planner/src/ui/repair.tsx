@@ -18,7 +18,7 @@ import {
 } from 'lucide-preact';
 import { edit, presentLength } from '../store/edit';
 import * as state from '../store/state';
-import { appTexts, figure, repairTexts, wordsOf } from '../text/texts';
+import { appTexts, figure, operationTips, repairTexts, wordsOf } from '../text/texts';
 import type { FieldValue } from '../protocol';
 import { ChordFacts } from './chord';
 import { OperationForm } from './form';
@@ -109,6 +109,7 @@ export function RepairPanel() {
         <button
           type="button"
           class="card"
+          title={operationTips[operation.name] ?? words.short}
           onClick={() => begin(operation.name)}
           data-operation={operation.name}
         >

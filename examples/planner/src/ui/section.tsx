@@ -2,7 +2,7 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import { fail, request } from '../store/requests';
 import * as state from '../store/state';
-import { sectionTexts } from '../text/texts';
+import { sectionTexts, tips, tipTexts } from '../text/texts';
 import type { Section, SectionRequest } from '../protocol';
 import { cutScallops, planeOf } from '../view/cut';
 import { Button } from './parts';
@@ -142,7 +142,7 @@ export function SectionPlot() {
           </span>
         ))}
       </div>
-      <label class="slider">
+      <label class="slider" title={tipTexts.plane}>
         <span>{sectionTexts.plane(state.sectionAt.value, through())}</span>
         <input
           type="range"
@@ -156,7 +156,7 @@ export function SectionPlot() {
       {state.sectionAt.value !== 0 && (
         <Button onClick={() => (state.sectionAt.value = 0)}>{sectionTexts.middle}</Button>
       )}
-      <label class="check">
+      <label class="check" title={tips[sectionTexts.cut]}>
         <input
           type="checkbox"
           checked={state.sectionOn.value}

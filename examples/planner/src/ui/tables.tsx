@@ -1,6 +1,6 @@
 // Scallops and chordae as tables: the twin of the picture for keyboard and screen reader.
 import * as state from '../store/state';
-import { figure, kinds, tableTexts } from '../text/texts';
+import { figure, kinds, tableTexts, tipTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import { chordValue, percentOfLimit, shareOfLimit, suture } from '../notable';
 import { Section, Spread, times } from './parts';
@@ -63,7 +63,7 @@ export function Chordae({ figures }: { figures: Figures }) {
     .map((chord) => ({ chord, share: shareOfLimit(chord) }))
     .sort((a, b) => b.share - a.share);
   return (
-    <Section title={tableTexts.chordae(chordae.length)}>
+    <Section title={tableTexts.chordae(chordae.length)} tip={tipTexts.chordae}>
       <p class="hint">{tableTexts.chordaeHint}</p>
       <div class="scroll">
         <table class="table" data-testid="chords">
@@ -83,6 +83,7 @@ export function Chordae({ figures }: { figures: Figures }) {
                     <button
                       type="button"
                       class="link"
+                      title={tipTexts.chordInTable(chord.name)}
                       onClick={() => (
                         (state.choice.value = { kind: 'chord', id: chord.id }),
                         (state.panel.value = 'repair')

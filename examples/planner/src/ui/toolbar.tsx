@@ -4,7 +4,7 @@ import { openFile, openShipped } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
 import * as state from '../store/state';
-import { barTexts, mapWords, t, tourTexts } from '../text/texts';
+import { barTexts, mapWords, t, tips, tourTexts } from '../text/texts';
 import type { MapName } from '../view/colours';
 import type { Preset } from '../view/camera';
 import { Button } from './parts';
@@ -100,7 +100,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         {presets.map(([preset, name], k) => (
           <Button
             keys={String(k + 1)}
-            title={barTexts.viewOf(name)}
+            title={tips[name]}
             disabled={surface && preset === 'section'}
             onClick={() => {
               if (preset === 'section') state.sectionOn.value = true;
@@ -120,6 +120,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
           step="0.02"
           value={state.openness.value}
           aria-label={barTexts.opening}
+          title={tips[barTexts.opening]}
           disabled={!state.main.value || !!state.draft.value || surface}
           onInput={(event) => void openTo(+event.currentTarget.value)}
         />
@@ -197,6 +198,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
         <select
           value={state.map.value}
           aria-label={barTexts.colours}
+          title={tips[barTexts.colours]}
           disabled={surface}
           onChange={(event) => (state.map.value = event.currentTarget.value as MapName)}
         >

@@ -5,7 +5,7 @@ import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
 import { openingOf } from '../store/opening';
 import { showChord, startValve } from '../store/tour';
-import { figure, say, tourTexts } from '../text/texts';
+import { figure, say, tips, tipTexts, tourTexts } from '../text/texts';
 import { Goals } from './goals';
 import { Button } from './parts';
 
@@ -27,7 +27,9 @@ export function TourPanel() {
             kind={tour?.number === k + 1 ? 'main' : 'plain'}
             pressed={tour?.number === k + 1}
             icon={state.finished.value.includes(k + 1) ? <Check size={16} /> : undefined}
-            title={state.finished.value.includes(k + 1) ? tourTexts.finished : undefined}
+            title={[tipTexts.valve, state.finished.value.includes(k + 1) ? tourTexts.finished : '']
+              .filter(Boolean)
+              .join('. ')}
             onClick={() => void startValve(k + 1)}
           >
             {tourTexts.valveOf(k + 1)}
@@ -48,11 +50,15 @@ function Goal() {
       <h2>{texts.title}</h2>
       <p>{texts.story}</p>
       <details class="section" key={tour.number}>
-        <summary>{tourTexts.hint}</summary>
+        <summary title={tips[tourTexts.hint]}>{tourTexts.hint}</summary>
         <div class="section-body">
           <p>{texts.hint}</p>
           {texts.chord && (
-            <Button icon={<Eye size={16} />} onClick={() => showChord(texts.chord!)}>
+            <Button
+              icon={<Eye size={16} />}
+              title={tipTexts.chordHint}
+              onClick={() => showChord(texts.chord!)}
+            >
               {tourTexts.show(texts.chord)}
             </Button>
           )}
@@ -112,7 +118,7 @@ function Score() {
       {founding?.repaired && <p class="hint">{tourTexts.columnsHelp(other.help)}</p>}
       {founding?.repaired && (
         <details class="section">
-          <summary>{other.title}</summary>
+          <summary title={tips[other.title]}>{other.title}</summary>
           <div class="section-body">
             <ol>
               {founding.repaired.operations.map((line) => (

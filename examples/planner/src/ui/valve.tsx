@@ -2,7 +2,7 @@
 import { Activity, Layers } from 'lucide-preact';
 import { measureCost, measureSpread } from '../store/measure';
 import * as state from '../store/state';
-import { appTexts, valveTexts } from '../text/texts';
+import { appTexts, tips, valveTexts } from '../text/texts';
 import type { Figures, Measures } from '../protocol';
 import { Devices } from './devices';
 import { Button, Figure, Section, times } from './parts';
@@ -202,6 +202,7 @@ function OpenArea({ figures }: { figures: Figures }) {
         <div class="number">
           <input
             id="flow"
+            title={tips[valveTexts.flow]}
             type="number"
             inputMode="decimal"
             min="0"

@@ -3,7 +3,7 @@
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import * as state from '../store/state';
 import { allowedLoad, showChord } from '../store/tour';
-import { figure, grade, valveTexts, verdictTexts, where } from '../text/texts';
+import { figure, grade, tipTexts, valveTexts, verdictTexts, where } from '../text/texts';
 import type { Figures } from '../protocol';
 import { Spread } from './parts';
 
@@ -63,7 +63,12 @@ function Beyond({ figures }: { figures: Figures }) {
       <div>{words.chordsOver(beyond.length)}</div>
       <div class="beyond-names">
         {beyond.slice(0, named).map((chord) => (
-          <button type="button" class="link" onClick={() => open(chord.name)}>
+          <button
+            type="button"
+            class="link"
+            title={tipTexts.beyond(chord.name)}
+            onClick={() => open(chord.name)}
+          >
             {words.chordOver(chord.name, percentOfLimit(shareOfLimit(chord)))}
           </button>
         ))}

@@ -30,6 +30,14 @@ function chordEnds(topology: Topology, picture: Picture, k: number, radius: numb
   return [a, b];
 }
 
+/** So many chordae are drawn as thin tubes of few sides. */
+const isMany = (topology: Topology): boolean => topology.chordKind.length > 1500;
+
+/** Radius of a chord in the picture, mm; within limits, so that thin ones are seen and thick ones hide little. */
+export function drawnRadius(topology: Topology, k: number): number {
+  return isMany(topology) ? 0.15 : Math.min(0.75, Math.max(0.22, 0.62 * topology.chordRadius[k]));
+}
+
 export function chordae(
   topology: Topology,
   picture: Picture,
@@ -37,13 +45,12 @@ export function chordae(
   normals: Float32Array,
 ): Mesh {
   const shapes = new Shapes();
-  const many = topology.chordKind.length > 1500;
+  const many = isMany(topology);
   const onLeaflet = new Uint8Array(topology.nodes);
   for (const node of topology.triangles) onLeaflet[node] = 1;
   for (let k = 0; k < topology.chordKind.length; ++k) {
     const chosen = k === options.chosenChord;
-    const thin = Math.min(0.75, Math.max(0.22, 0.62 * topology.chordRadius[k]));
-    const radius = (many ? 0.15 : thin) * (chosen ? 1.8 : 1);
+    const radius = drawnRadius(topology, k) * (chosen ? 1.8 : 1);
     const [a, b] = chordEnds(topology, picture, k, radius, normals);
     shapes.tube(a, b, radius, chordColour(topology, picture, options, k), many ? 4 : 7);
     // a joint where chordae branch; on the leaflet it would show on the other side

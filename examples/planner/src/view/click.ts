@@ -1,10 +1,11 @@
 // A click in the picture: chooses a part, answers the question of the form, adds a point to an outline, or marks a
 // point of an imported surface.
 import * as state from '../store/state';
-import type { Topology } from '../protocol';
+import type { FieldInfo, Topology } from '../protocol';
 import { setField } from '../store/edit';
 import { fillField } from './answer';
 import type { Place } from './drags';
+import { beforePreview } from './before';
 import { addOutlinePoint } from './outline';
 import { pickSurface, type Hit } from './pick';
 import type { Viewport } from './viewport';
@@ -37,8 +38,8 @@ function tipAt(view: Viewport, p: Place): number[] {
 }
 
 function choiceOf(hit: Hit, topology: Topology): state.Choice | null {
-  if (hit.head >= 0) return { kind: 'head', id: topology.heads[hit.head].id };
-  if (hit.chord >= 0) return { kind: 'chord', id: topology.chords[hit.chord].id };
+  if (hit.part === 'head') return { kind: 'head', id: topology.heads[hit.head].id };
+  if (hit.part === 'chord') return { kind: 'chord', id: topology.chords[hit.chord].id };
   if (!hit.surface) return null;
   return { kind: 'scallop', id: topology.scallops[topology.triangleScallop[hit.surface.triangle]].id };
 }
@@ -58,20 +59,42 @@ export function click(view: Viewport, p: Place, hit: Hit | null): void {
   const { picking } = state;
   if (picking.value === 'outline') return addOutlinePoint(hit);
   if (picking.value) return fillField(hit, picking.value);
-  const choice = choiceOf(hit, topology);
-  if (!choice || !answer(choice)) choose(choice);
+  if (answer(hit, topology)) return;
+  choose(choiceOf(hit, topology));
 }
 
-/** A chord or a head that is clicked while a form asks for one is the one of the form, even if it has another already. */
-function answer({ kind, id }: state.Choice): boolean {
+/** What of the hit belongs to a field of one of these types that the form of the moment requires. */
+function answerOf(hit: Hit, topology: Topology, asks: FieldInfo[]): { field: FieldInfo; id: string } | null {
+  const take = (type: string, parts: { id: string }[], index: number) => {
+    const field = asks.find((candidate) => candidate.type === type);
+    return field && index >= 0 ? { field, id: parts[index].id } : null;
+  };
+  const head = take('head', topology.heads, hit.head);
+  // a form without a chord takes a head from beside it, even where a chord is nearer
+  return (hit.part === 'head' ? head : null) ?? take('chord', topology.chords, hit.chord) ?? head;
+}
+
+/**
+ * A chord, a head or a place on a leaflet that is clicked while a form requires one is the one of the form, even if it
+ * has another already.
+ */
+function answer(hit: Hit, topology: Topology): boolean {
   const draft = state.draft.value;
+  const before = state.topologyOf(state.main.value!.picture);
   const info = state.operations.value.find((operation) => operation.name === draft?.kind);
-  const field = info?.fields.find((candidate) => candidate.required && candidate.type === kind);
-  if (!field || !(kind === 'chord' || kind === 'head')) return false;
-  // a chord that the preview has added is no part of the valve
-  const known = state.topologyOf(state.main.value!.picture);
-  const parts = kind === 'chord' ? known?.chords : known?.heads;
-  if (!parts?.some((part) => part.id === id)) return false;
-  if (draft!.fields[field.name] !== id) setField(field.name, id);
+  const asks = info?.fields.filter((candidate) => candidate.required) ?? [];
+  if (!draft || !before) return false;
+  const part = answerOf(hit, topology, asks);
+  if (part) {
+    // a chord that the preview has added is no part of the valve
+    const known = part.field.type === 'chord' ? before.chords : before.heads;
+    if (!known.some(({ id }) => id === part.id)) return false;
+    if (draft.fields[part.field.name] !== part.id) setField(part.field.name, part.id);
+    return true;
+  }
+  const site = asks.find((candidate) => candidate.type === 'site');
+  const there = hit.surface && hit.part !== 'head' && beforePreview(hit.surface);
+  if (!site || !there) return false;
+  fillField({ ...hit, surface: there }, site.name);
   return true;
 }

@@ -1,6 +1,7 @@
 // Colours of tissue and devices, and colour maps that remain ordered for colour-blind people: viridis (van der Walt and
 // Smith 2015) for amounts, whose colours stay apart in the light of the scene, unlike the greys of cividis; blue to
-// orange through grey for heights above and below a plane.
+// orange through grey for heights above and below a plane. tests/colours.test.mjs holds how far colours that meet stay
+// apart for colour-blind people.
 import type { Colour } from './mesh';
 
 export const tissue = {
@@ -9,13 +10,13 @@ export const tissue = {
   ventricularAnterior: [0.62, 0.66, 0.8] as Colour,
   ventricularPosterior: [0.54, 0.6, 0.76] as Colour,
   chord: [0.95, 0.91, 0.8] as Colour,
-  slack: [0.6, 0.64, 0.68] as Colour,
+  slack: [0.42, 0.42, 0.42] as Colour,
   strut: [0.98, 0.95, 0.86] as Colour,
   over: [0.9, 0.38, 0.0] as Colour,
   suture: [0.16, 0.45, 0.75] as Colour,
-  chosen: [0.1, 0.62, 0.95] as Colour,
-  head: [0.62, 0.3, 0.25] as Colour,
-  annulus: [0.83, 0.71, 0.5] as Colour,
+  chosen: [0.0, 0.62, 1.0] as Colour,
+  head: [0.4, 0.19, 0.16] as Colour,
+  annulus: [0.66, 0.56, 0.38] as Colour,
   edge: [0.52, 0.3, 0.28] as Colour,
   seam: [0.72, 0.5, 0.45] as Colour,
   ring: [0.93, 0.95, 0.97] as Colour,
@@ -88,9 +89,12 @@ export function placeOf(map: ColourMap, value: number): number {
   return map.root ? Math.sqrt(share) : share;
 }
 
-/** Colour of a value; values out of the range take the end's colour, values without number grey. */
+/** The colour of values without a number. */
+export const unknown: Colour = [0.7, 0.7, 0.7];
+
+/** Colour of a value; values out of the range take the end's colour, values without a number are grey. */
 export function colourOf(map: ColourMap, value: number): Colour {
-  if (!Number.isFinite(value)) return [0.72, 0.72, 0.72];
+  if (!Number.isFinite(value)) return unknown;
   const t = placeOf(map, value) * (map.colours.length - 1);
   const k = Math.min(map.colours.length - 2, Math.floor(t));
   const s = t - k;

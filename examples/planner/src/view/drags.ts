@@ -85,7 +85,6 @@ function grasp(view: Viewport, hit: Hit): Drag {
     { tool: ball ? 'ball' : 'grasp', node: surface.node, position, to: [...surface.at] },
     {
       motion: (motion) => {
-        state.receive(motion.picture);
         if (state.handing.value) state.motion.value = motion;
       },
     },

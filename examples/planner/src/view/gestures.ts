@@ -2,7 +2,7 @@
 // clicks of their own (drags.ts, click.ts).
 import { percentOfLimit, shareOfLimit } from '../notable';
 import * as state from '../store/state';
-import { gestureTexts } from '../text/texts';
+import { gestureTexts, repairTexts } from '../text/texts';
 import { click } from './click';
 import {
   dragAt,
@@ -16,7 +16,9 @@ import {
   type Place,
 } from './drags';
 import { KeyPointer } from './keypointer';
+import { atrialSide } from './leaflets';
 import { pick, type Hit } from './pick';
+import { shownFields } from './shown';
 import type { Viewport } from './viewport';
 
 /** Pixels from a chord that still pick it: a mouse is more exact than a finger. */
@@ -55,18 +57,11 @@ export class Gestures {
     if (!picture || !topology) return null;
     const { camera, width, height } = this.view;
     camera.update();
-    return pick(
-      camera,
-      topology,
-      picture,
-      p.x,
-      p.y,
-      width,
-      height,
-      reach,
-      state.chordsOn.value,
-      this.view.plane(),
-    );
+    const frame = this.view.frameOf();
+    const { value: chordsOn } = state.chordsOn;
+    const plane = this.view.plane();
+    const drawn = atrialSide(topology, picture, shownFields()).positions;
+    return pick({ camera, topology, picture, drawn, frame, width, height, chordsOn, plane }, p.x, p.y, reach);
   }
 
   private down(event: PointerEvent): void {
@@ -117,16 +112,17 @@ export class Gestures {
     const picture = state.picture.value;
     const figures = (state.preview.value ?? state.main.value)?.figures;
     canvas.style.cursor =
-      hit && (hit.chord >= 0 || hit.head >= 0)
+      hit?.part === 'chord' || hit?.part === 'head'
         ? 'pointer'
         : state.tool.value === 'look'
           ? 'grab'
           : 'crosshair';
     if (!hit || !picture || !figures) return;
-    const chord = hit.chord >= 0 ? figures.chords[hit.chord] : null;
+    const chord = hit.part === 'chord' ? figures.chords[hit.chord] : null;
     const limited = chord && Number.isFinite(chord.tensionLimit);
     const percent = limited ? percentOfLimit(shareOfLimit(chord)) : null;
-    canvas.title = chord ? gestureTexts.chord({ ...chord, percent }) : '';
+    const head = hit.part === 'head' ? state.topologyOf(picture)?.heads[hit.head].name : '';
+    canvas.title = chord ? gestureTexts.chord({ ...chord, percent }) : head ? repairTexts.head(head) : '';
   }
 
   private pinch(id: number, p: Place): void {

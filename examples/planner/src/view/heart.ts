@@ -25,6 +25,17 @@ export function isClosed(points: number[][]): boolean {
   return range(points[0], points[points.length - 1]) < 3 * Math.max(...steps);
 }
 
+/** mm from the place that holds the chordae to the middle of the papillary muscle's drawn end, away from the atrium. */
+export const headLength = 4.5;
+/** The drawn radius of a papillary head grows by this factor along it. */
+export const headFlare = 1.25;
+
+/** Radius of a papillary head in the picture, mm: many heads are thin. */
+export function headRadius(topology: Topology): number {
+  const count = topology.headNodes.length;
+  return count > 8 ? 0.9 : count > 2 ? 1.5 : 2;
+}
+
 export function boundary(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
   const shapes = new Shapes();
   const x = picture.positions;
@@ -34,18 +45,14 @@ export function boundary(topology: Topology, picture: Picture, options: SceneOpt
     tissue.annulus,
     true,
   );
-  const radius = topology.headNodes.length > 8 ? 0.9 : topology.headNodes.length > 2 ? 1.5 : 2;
+  const radius = headRadius(topology);
   topology.headNodes.forEach((node, h) => {
     const at = point(x, node);
     const colour = h === options.chosenHead ? tissue.chosen : tissue.head;
     shapes.sphere(at, radius, colour, 10, 16);
-    const below = [
-      at[0] - 4.5 * options.frame[9],
-      at[1] - 4.5 * options.frame[10],
-      at[2] - 4.5 * options.frame[11],
-    ];
-    shapes.tube(at, below, radius, colour, 16, radius * 1.25);
-    shapes.sphere(below, radius * 1.25, colour, 10, 16);
+    const below = at.map((v, c) => v - headLength * options.frame[9 + c]);
+    shapes.tube(at, below, radius, colour, 16, radius * headFlare);
+    shapes.sphere(below, radius * headFlare, colour, 10, 16);
   });
   const rings = carriedRings(topology, picture, options.closed);
   for (let r = 0; r + 1 < picture.ringStart.length; ++r) {

@@ -1,6 +1,7 @@
 // A cross that the arrow keys move over the picture while a place in it is asked for: by the form, by the outline of a
 // resection, or by an import. Space clicks there.
 import * as state from '../store/state';
+import type { Topology } from '../protocol';
 import { pointTexts } from '../text/texts';
 import { click } from './click';
 import type { Place } from './drags';
@@ -22,6 +23,22 @@ const arrows: Record<string, [number, number]> = {
 /** Whether a click in the picture answers a question. */
 function asked(): boolean {
   return !!state.picking.value || !!state.surface.value;
+}
+
+/** The type of the field that a click fills; an outline is made of places on the leaflet. */
+function askedType(): string {
+  if (state.picking.value === 'outline') return 'site';
+  const info = state.operations.value.find((operation) => operation.name === state.draft.value?.kind);
+  return info?.fields.find((field) => field.name === state.picking.value)?.type ?? '';
+}
+
+/** The name of what a click would take, or of what else is there. */
+function nameUnder(hit: Hit, topology: Topology, type: string): string {
+  const chord = hit.chord >= 0 ? topology.chords[hit.chord].name : '';
+  const head = hit.head >= 0 ? topology.heads[hit.head].name : '';
+  const scallop = hit.surface ? topology.scallops[topology.triangleScallop[hit.surface.triangle]].name : '';
+  const wanted = type === 'head' ? head : type === 'chord' ? chord : scallop;
+  return wanted || (hit.part === 'head' ? head : chord) || scallop;
 }
 
 export class KeyPointer {
@@ -112,10 +129,8 @@ export class KeyPointer {
     const topology = picture && state.topologyOf(picture);
     if (!this.at || !topology || !state.picking.value) return;
     const hit = this.hit(this.at);
-    const scallop = hit?.surface && topology.scallops[topology.triangleScallop[hit.surface.triangle]].name;
-    const chord = hit && hit.chord >= 0 ? topology.chords[hit.chord].name : '';
-    const head = hit && hit.head >= 0 ? topology.heads[hit.head].name : '';
+    const what = hit ? nameUnder(hit, topology, askedType()) : '';
     const count = state.picking.value === 'outline' ? state.outline.value.length : null;
-    state.status.value = pointTexts.under(head || chord || scallop || '', count);
+    state.status.value = pointTexts.under(what, count);
   }
 }

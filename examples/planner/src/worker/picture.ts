@@ -14,10 +14,11 @@ import type {
   Topology,
 } from '../protocol';
 import { beyondLimit, shareOfLimit } from '../notable';
+import { mostSent, Recent } from '../recent';
 import { ml, mm, mm2, scaled } from './units';
 
-/** Topologies that the page has; the oldest are forgotten on both sides in the same order. */
-const sent = new Set<string>();
+/** Topologies that the page has. */
+const sent = new Recent<true>(mostSent);
 
 /** FNV-1a hash of words. */
 function hashWords(hash: number, words: Uint32Array): number {
@@ -105,8 +106,8 @@ export function pictureOf(snapshot: Snapshot, withOrifice: boolean): Picture {
       : new Float32Array(0),
     orificeTriangles: withOrifice ? snapshot.copy<Uint32Array>('orifice_triangles') : new Uint32Array(0),
   };
-  if (!sent.has(topology)) {
-    sent.add(topology);
+  if (!sent.get(topology)) {
+    sent.set(topology, true);
     picture.connectivity = connectivity(snapshot, topology);
   }
   return picture;
