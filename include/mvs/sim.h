@@ -91,7 +91,8 @@ MVS_API void mvs_destroy(mvs_sim *sim);
  * mvs_load_file, mvs_set_leaflet and operations share in the same way. It changes no bit.
  *
  * Suspicious input is logged as MVS_LOG_WARNING, also by mvs_load_file and mvs_set_leaflet:
- * needle-shaped triangles, and numbers that look like those of another unit. */
+ * needle-shaped triangles, tissue that crosses or touches itself at rest, and numbers that look
+ * like those of another unit. */
 MVS_API mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve);
 
 /* Replaces the valve by a parametric mitral valve. `desc` is nullable: the default valve.

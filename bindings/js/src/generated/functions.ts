@@ -1054,7 +1054,8 @@ export class Functions extends Calls {
    * (mvs_restore) to a snapshot of one of them first, one after the other or in several threads.
    * mvs_load_file, mvs_set_leaflet and operations share in the same way. It changes no bit.
    * Suspicious input is logged as MVS_LOG_WARNING, also by mvs_load_file and mvs_set_leaflet:
-   * needle-shaped triangles, and numbers that look like those of another unit.
+   * needle-shaped triangles, tissue that crosses or touches itself at rest, and numbers that look
+   * like those of another unit.
    */
   mvs_set_valve(sim: SimHandle, valve: ValveDesc): void {
     return this.invoke(signatures.mvs_set_valve!, [sim, valve]) as never;
