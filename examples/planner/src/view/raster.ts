@@ -136,7 +136,7 @@ function transform(
   }
 }
 
-/** Scan conversion with barycentric increments along each row. */
+/** Scan conversion with barycentric increments along each row, between the sides of the triangle: chordae are slender. */
 function fill(
   mesh: Mesh,
   v: Float32Array,
@@ -167,9 +167,21 @@ function fill(
     const cx = -(v[b + 1] - v[a + 1]) * s,
       cy = (v[b] - v[a]) * s;
     for (let y = y0; y <= y1; ++y) {
-      let u = (x0 + 0.5 - v[a]) * bx + (y + 0.5 - v[a + 1]) * by;
-      let w = (x0 + 0.5 - v[a]) * cx + (y + 0.5 - v[a + 1]) * cy;
-      for (let x = x0, at = y * width + x0; x <= x1; ++x, ++at, u += bx, w += cx) {
+      // inside are u, w and 1 - u - w not negative: linear in x, each bounds the row from one side
+      const u0 = (x0 + 0.5 - v[a]) * bx + (y + 0.5 - v[a + 1]) * by;
+      const w0 = (x0 + 0.5 - v[a]) * cx + (y + 0.5 - v[a + 1]) * cy;
+      let [first, last] = [0, x1 - x0];
+      for (let edge = 0; edge < 3; ++edge) {
+        const value = edge === 0 ? u0 : edge === 1 ? w0 : 1 - u0 - w0;
+        const slope = edge === 0 ? bx : edge === 1 ? cx : -bx - cx;
+        // a pixel to spare on either side, as roundings may differ from those of the test below
+        if (slope > 0) first = Math.max(first, Math.floor(-value / slope) - 1);
+        else if (slope < 0) last = Math.min(last, Math.ceil(-value / slope) + 1);
+      }
+      let u = u0 + first * bx;
+      let w = w0 + first * cx;
+      const end = x0 + last;
+      for (let x = x0 + first, at = y * width + x; x <= end; ++x, ++at, u += bx, w += cx) {
         const q = 1 - u - w;
         if (u < -1e-6 || w < -1e-6 || q < -1e-6) continue;
         const z = q * v[a + 2] + u * v[b + 2] + w * v[c + 2];
