@@ -50,7 +50,7 @@ bool far_from_rest(const Model &model, const State &state) {
 
 bool Newton::has_many_disturbed() const {
   namespace set = settings::local_subproblem;
-  const double force = set::disturbed_residual * forces_.rest;
+  const double force = set::disturbed_residual * rest_force();
   return are_many(disturbed_nodes(*model_, at_.gradient, force), at_.x.size(),
                   set::max_disturbed_share);
 }
@@ -58,11 +58,11 @@ bool Newton::has_many_disturbed() const {
 void Newton::presolve_locally(const Load &load) {
   namespace set = settings::local_subproblem;
   const std::vector<uint32_t> disturbed =
-      disturbed_nodes(*model_, at_.gradient, set::disturbed_residual * forces_.rest);
+      disturbed_nodes(*model_, at_.gradient, set::disturbed_residual * rest_force());
   if (disturbed.empty() || are_many(disturbed, at_.x.size(), set::max_disturbed_share)) return;
   settle_around(
       disturbed, load,
-      {set::radius, {set::max_displacement}, set::residual * forces_.rest, set::max_iterations});
+      {set::radius, {set::max_displacement}, set::residual * rest_force(), set::max_iterations});
 }
 
 // A local rest that leaves larger forces at its rim than it removed is given up. Where it lowers
@@ -70,12 +70,9 @@ void Newton::presolve_locally(const Load &load) {
 void Newton::eliminate(const Load &load, double tolerance) {
   namespace set = settings::elimination;
   // this near to the equilibrium iterations converge quadratically and end more exactly
-  const double near_rest = settings::stability::early_residual * forces_.rest;
+  const double near_rest = settings::stability::early_residual * rest_force();
   if (at_.residual <= std::max(tolerance, near_rest)) return;
-  if (elimination_.wait > 0) {
-    --elimination_.wait;
-    return;
-  }
+  if (elimination_.waits()) return;
   const double force = std::max(set::force_share * at_.residual, tolerance);
   const std::vector<uint32_t> disturbed = disturbed_nodes(*model_, at_.gradient, force);
   if (are_many(disturbed, at_.x.size(), set::max_disturbed_share)) return;
@@ -88,10 +85,9 @@ void Newton::eliminate(const Load &load, double tolerance) {
                  set::max_iterations});
   const double after = free_norm();
   if (after < set::worth_share * before) {
-    elimination_ = {};
+    elimination_.succeeded();
   } else {
-    elimination_.wait = elimination_.length;
-    elimination_.length = std::min(2 * elimination_.length, set::max_pause);
+    elimination_.failed(set::max_pause);
   }
   if (after <= before) return;
   at_.x = kept;
