@@ -71,10 +71,10 @@ void ObjReader::scallop(Line &line) {
 }
 
 // Reads x y z of the last vertex, once per kind of vector.
-const Vec3 &ObjReader::vector_of_vertex(bool &given, const char *what, CowVector<Vec3> &vectors,
-                                        Line &line) {
+const Vec3 &ObjReader::vector_of_vertex(ObjAttribute attribute, const char *what,
+                                        CowVector<Vec3> &vectors, Line &line) {
   follows("v", counts_.vertices > 0, line);
-  once(given, what, line);
+  given_.add(attribute, what, line);
   const Vec3 vector = read_place(line);
   line.end();
   return vectors.back() = vector;
@@ -83,23 +83,24 @@ const Vec3 &ObjReader::vector_of_vertex(bool &given, const char *what, CowVector
 void ObjReader::rest(Line &line) {
   Valve &valve = out_.valve;
   const Vec3 rest =
-      vector_of_vertex(given_.rest, "the rest position of this vertex", valve.rest, line);
-  if (!given_.open) valve.open.back() = rest;
-  if (!given_.loaded) valve.loaded.back() = rest;
+      vector_of_vertex(ObjAttribute::rest, "the rest position of this vertex", valve.rest, line);
+  if (!given_.has(ObjAttribute::open)) valve.open.back() = rest;
+  if (!given_.has(ObjAttribute::loaded)) valve.loaded.back() = rest;
 }
 
 void ObjReader::loaded(Line &line) {
-  vector_of_vertex(given_.loaded, "the loaded position of this vertex", out_.valve.loaded, line);
+  vector_of_vertex(ObjAttribute::loaded, "the loaded position of this vertex", out_.valve.loaded,
+                   line);
 }
 
 void ObjReader::open(Line &line) {
-  vector_of_vertex(given_.open, "the open position of this vertex", out_.valve.open, line);
+  vector_of_vertex(ObjAttribute::open, "the open position of this vertex", out_.valve.open, line);
 }
 
 // `#mvs origin 17`, or `#mvs origin new` for a node that an operation made.
 void ObjReader::origin(Line &line) {
   follows("v", counts_.vertices > 0, line);
-  once(given_.origin, "the origin of this vertex", line);
+  given_.add(ObjAttribute::origin, "the origin of this vertex", line);
   const std::string_view word = line.word();
   uint64_t number = 0;
   if (word == "new") {
@@ -114,7 +115,7 @@ void ObjReader::origin(Line &line) {
 }
 
 void ObjReader::velocity(Line &line) {
-  vector_of_vertex(given_.velocity, "the velocity of this vertex", out_.state.v, line);
+  vector_of_vertex(ObjAttribute::velocity, "the velocity of this vertex", out_.state.v, line);
 }
 
 void ObjReader::annulus(Line &line) {
@@ -182,7 +183,7 @@ void ObjReader::curve_point(Line &line) {
 
 void ObjReader::thickness(Line &line) {
   follows("f", counts_.faces > 0, line);
-  once(given_.thickness, "the thickness of this triangle", line);
+  given_.add(ObjAttribute::thickness, "the thickness of this triangle", line);
   out_.valve.triangle_thickness.back() = line.number(obj::mm);
   line.end();
 }
@@ -214,7 +215,7 @@ uint32_t ObjReader::curve_of(Fields &fields, const Line &line) const {
 
 void ObjReader::chord(Line &line) {
   follows("l", counts_.lines > 0, line);
-  once(given_.chord, "this chord", line);
+  given_.add(ObjAttribute::chord, "this chord", line);
   if (segments_in_line_ != 1) {
     line.fail("the l line above has %zu segments: write an l line for each", segments_in_line_);
   }

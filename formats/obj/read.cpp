@@ -107,7 +107,7 @@ void ObjReader::face(Line &line) {
   if (!line.at_end()) line.fail("the face has more than 3 corners: triangulate the mesh");
   ++counts_.faces;
   valve.triangles.push_back(triangle);
-  given_.thickness = false;
+  given_.drop(ObjAttribute::thickness);
   // a plain OBJ is read to its end, so that one message can list all missing lines
   if (!has_version_) return;
   if (group_.leaflet == none) enter_group(line);
@@ -129,7 +129,7 @@ void ObjReader::segments(Line &line) {
     ++segments_in_line_;
   } while (!line.at_end());
   ++counts_.lines;
-  given_.chord = false;
+  given_.drop(ObjAttribute::chord);
 }
 
 void ObjReader::check_complete(const Line &last) const {

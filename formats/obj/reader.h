@@ -4,6 +4,7 @@
 // counts that the file claims.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 
@@ -27,6 +28,30 @@ struct ObjGroup {
   uint32_t leaflet = none, scallop = none;
 };
 
+// A line, or an attribute of one, that may be given once.
+inline void once(bool &given, const char *word, const Line &line) {
+  if (given) line.fail("%s is given twice", word);
+  given = true;
+}
+
+enum class ObjAttribute { rest, open, loaded, origin, velocity, thickness, chord };
+
+// Attributes given so far for the last v, f and l line.
+class GivenAttributes {
+ public:
+  bool has(ObjAttribute attribute) const { return given_[place(attribute)]; }
+  // Fails if it is given already; `word` names it.
+  void add(ObjAttribute attribute, const char *word, const Line &line) {
+    once(given_[place(attribute)], word, line);
+  }
+  void drop(ObjAttribute attribute) { given_[place(attribute)] = false; }
+
+ private:
+  static size_t place(ObjAttribute attribute) { return static_cast<size_t>(attribute); }
+
+  std::array<bool, 7> given_ = {};
+};
+
 class ObjReader {
  public:
   Loaded read(std::string_view text);
@@ -47,7 +72,8 @@ class ObjReader {
   void solver_cache_data(Line &line);
   void leaflet(Line &line);
   void scallop(Line &line);
-  const Vec3 &vector_of_vertex(bool &given, const char *what, CowVector<Vec3> &vectors, Line &line);
+  const Vec3 &vector_of_vertex(ObjAttribute attribute, const char *what, CowVector<Vec3> &vectors,
+                               Line &line);
   void rest(Line &line);
   void open(Line &line);
   void loaded(Line &line);
@@ -70,17 +96,11 @@ class ObjReader {
   static void check_room(const CowVector<Item> &items, const Line &line);
   void check_complete(const Line &last) const;
 
-  // Attributes given so far for the last v, f and l line.
-  struct Given {
-    bool rest = false, open = false, loaded = false, origin = false, velocity = false;
-    bool thickness = false, chord = false;
-  };
-
   Loaded out_;
   std::map<std::string, uint32_t, std::less<>> leaflets_, scallops_;
   ObjGroup group_;
   size_t segments_in_line_ = 0;
-  Given given_;
+  GivenAttributes given_;
   ObjCounts counts_;
   bool has_version_ = false, has_valve_ = false, has_state_ = false, has_end_ = false;
   uint64_t cache_size_ = 0;  // numbers that the solver cache says it has; 0: no cache
@@ -91,12 +111,6 @@ void ObjReader::check_room(const CowVector<Item> &items, const Line &line) {
   constexpr size_t most = size_t{1} << 22;
   if (items.size() < most) return;
   line.fail("the limit is %zu vertices, triangles, segments or parts of one kind", most);
-}
-
-// A line, or an attribute of one, that may be given once.
-inline void once(bool &given, const char *word, const Line &line) {
-  if (given) line.fail("%s is given twice", word);
-  given = true;
 }
 
 // x y z in mm.

@@ -88,11 +88,10 @@ class BlockFactor final : public RowSolver {
   std::vector<T> local_;              // right-hand side in the rows of one panel
   std::vector<uint32_t> rows_, way_;  // chosen rows, and the supernodes from them to the root
   std::vector<double> work_;          // products up to the end of each supernode
-  Places places_;
+  std::vector<Places> places_;        // of the calling thread, then of each worker thread
   // for several threads
   Subtrees subtrees_, solved_;  // of a factorisation, of a solution
   bool is_divided_ = false, is_solution_divided_ = false;
-  std::vector<Places> of_thread_;
   std::vector<std::vector<T>> local_of_thread_;
   std::vector<uint32_t> part_of_row_;  // threads share the rows of the top
 };

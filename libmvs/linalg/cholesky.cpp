@@ -18,11 +18,12 @@ void BlockFactor<T>::analyse(const BlockMatrix &matrix) {
   for (const Supernode &s : pattern_.node) tallest = std::max(tallest, s.height());
   make_room(value_, 2 * pattern_.numbers + panel_slack);  // unused pages cost no memory
   make_room(work_, pattern_.node.size());
-  make_room(places_.target, matrix.size());
+  if (places_.empty()) places_.resize(1);
+  make_room(places_[0].target, matrix.size());
   for (auto *rows : {&x_, &local_}) make_room(*rows, 3 * matrix.size() + panel_slack);
   value_.resize(pattern_.numbers + panel_slack);
-  places_.of_row.resize(matrix.size());
-  places_.target.resize(matrix.size());
+  places_[0].of_row.resize(matrix.size());
+  places_[0].target.resize(matrix.size());
   x_.resize(3 * matrix.size());
   local_.resize(tallest + panel_slack);
   weigh();
@@ -113,7 +114,7 @@ template <typename T>
 bool BlockFactor<T>::factorise_part(const BlockMatrix &matrix, uint32_t part, uint32_t parts) {
   const Rounding<T> rounding;
   for (size_t k = begin_of(part, parts); k < begin_of(part + 1, parts); ++k) {
-    if (!factorise_supernode(matrix, k, places_)) return false;
+    if (!factorise_supernode(matrix, k, places_[0])) return false;
   }
   if (is_compact_ && part + 1 == parts) compress();
   return true;

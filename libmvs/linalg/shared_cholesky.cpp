@@ -24,10 +24,10 @@ void BlockFactor<T>::divide() {
     subtrees_.divide(pattern_, work, factor_share);
     is_divided_ = true;
   }
-  of_thread_.resize(workers()->width());
-  for (Places &places : of_thread_) {
-    places.of_row.resize(places_.of_row.size());
-    places.target.resize(places_.of_row.size());
+  places_.resize(1 + workers()->width());
+  for (Places &places : places_) {
+    places.of_row.resize(x_.size() / 3);
+    places.target.resize(x_.size() / 3);
   }
 }
 
@@ -40,7 +40,7 @@ bool BlockFactor<T>::factorise_together(const BlockMatrix &matrix) {
     const Supernode &s = pattern_.node[k];
     const double products = work_[k] - (k > 0 ? work_[k - 1] : 0);
     if (!pay_for(workers(), products * block_product_us)) {
-      if (!factorise_supernode(matrix, k, places_)) return false;
+      if (!factorise_supernode(matrix, k, places_[0])) return false;
       continue;
     }
     assemble_together(matrix, k);
@@ -54,11 +54,11 @@ template <typename T>
 bool BlockFactor<T>::factorise_subtrees(const BlockMatrix &matrix) {
   std::atomic<uint32_t> next{0};
   std::atomic<bool> is_positive{true};
-  workers()->parallel_for(static_cast<uint32_t>(of_thread_.size()), [&](uint32_t thread) {
+  workers()->parallel_for(workers()->width(), [&](uint32_t thread) {
     for (uint32_t group; (group = next++) < subtrees_.count();) {
       for (const uint32_t *k = subtrees_.begin(group); k != subtrees_.end(group); ++k) {
         if (!is_positive) return;
-        if (!factorise_supernode(matrix, *k, of_thread_[thread])) is_positive = false;
+        if (!factorise_supernode(matrix, *k, places_[1 + thread])) is_positive = false;
       }
     }
   });
@@ -69,15 +69,15 @@ bool BlockFactor<T>::factorise_subtrees(const BlockMatrix &matrix) {
 template <typename T>
 void BlockFactor<T>::assemble_together(const BlockMatrix &matrix, size_t k) {
   const Supernode &s = pattern_.node[k];
-  locate(s, places_);
+  locate(s, places_[0]);
   // an even number of blocks fills the tiles of a kernel
   const uint32_t pairs = (s.width() + 1) / 2;
-  const uint32_t parts = std::min(pairs, 4 * static_cast<uint32_t>(of_thread_.size()));
+  const uint32_t parts = std::min(pairs, 4 * workers()->width());
   std::atomic<uint32_t> next{0};
   const auto add_part = [&](uint32_t part, Places &places) {
     const uint32_t first = s.first + 2 * begin_of_part(part, parts, pairs);
     const uint32_t last = std::min(s.first + 2 * begin_of_part(part + 1, parts, pairs), s.last);
-    gather(matrix, s, places_, first, last);
+    gather(matrix, s, places_[0], first, last);
     const auto row = pattern_.row.begin();
     for (size_t c = pattern_.contribution_start[k]; c < pattern_.contribution_start[k + 1]; ++c) {
       Contribution of_part = pattern_.contribution[c];
@@ -85,11 +85,11 @@ void BlockFactor<T>::assemble_together(const BlockMatrix &matrix, size_t k) {
       const auto end = row + static_cast<std::ptrdiff_t>(of_part.in_columns);
       of_part.first = static_cast<size_t>(std::lower_bound(begin, end, first) - row);
       of_part.in_columns = static_cast<size_t>(std::lower_bound(begin, end, last) - row);
-      if (of_part.first < of_part.in_columns) subtract(of_part, s, places_, places);
+      if (of_part.first < of_part.in_columns) subtract(of_part, s, places_[0], places);
     }
   };
-  workers()->parallel_for(static_cast<uint32_t>(of_thread_.size()), [&](uint32_t thread) {
-    for (uint32_t part; (part = next++) < parts;) add_part(part, of_thread_[thread]);
+  workers()->parallel_for(workers()->width(), [&](uint32_t thread) {
+    for (uint32_t part; (part = next++) < parts;) add_part(part, places_[1 + thread]);
   });
 }
 
@@ -100,7 +100,7 @@ bool BlockFactor<T>::factorise_panel_together(const Supernode &s) {
   for (size_t block = 0; block < width; block += panel_columns) {
     if (!factorise_square(values, width, height, block)) return false;
     const size_t below = rows_below(block, width, height), slices = (height - below) / panel_rows;
-    const auto parts = static_cast<uint32_t>(std::min(slices, 2 * of_thread_.size()));
+    const auto parts = static_cast<uint32_t>(std::min<size_t>(slices, 2 * workers()->width()));
     const auto row = [&](uint32_t part) {
       return below + panel_rows * begin_of_part(part, parts, slices);
     };

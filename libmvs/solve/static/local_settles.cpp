@@ -9,7 +9,8 @@
 // iteration takes 0.8 s, and the next linear model is true for a longer step (Lanzkron, Rose &
 // Wilkes, SIAM J. Sci. Comput. 17, 1996; Cai & Li, SIAM J. Sci. Comput. 33, 2011).
 //
-// Passes and times of a local settle are counted, its iterations and factorisations are not.
+// Passes and times of a local settle are counted. Its iterations, factorisations and linear
+// iterations are not: they are of a small matrix.
 #include <algorithm>
 #include <cmath>
 
@@ -50,7 +51,7 @@ bool far_from_rest(const Model &model, const State &state) {
 
 bool Newton::has_many_disturbed() const {
   namespace set = settings::local_subproblem;
-  const double force = set::disturbed_residual * forces_.rest;
+  const double force = set::disturbed_residual * rest_force();
   return are_many(disturbed_nodes(*model_, at_.gradient, force), at_.x.size(),
                   set::max_disturbed_share);
 }
@@ -58,11 +59,11 @@ bool Newton::has_many_disturbed() const {
 void Newton::presolve_locally(const Load &load) {
   namespace set = settings::local_subproblem;
   const std::vector<uint32_t> disturbed =
-      disturbed_nodes(*model_, at_.gradient, set::disturbed_residual * forces_.rest);
+      disturbed_nodes(*model_, at_.gradient, set::disturbed_residual * rest_force());
   if (disturbed.empty() || are_many(disturbed, at_.x.size(), set::max_disturbed_share)) return;
   settle_around(
       disturbed, load,
-      {set::radius, {set::max_displacement}, set::residual * forces_.rest, set::max_iterations});
+      {set::radius, {set::max_displacement}, set::residual * rest_force(), set::max_iterations});
 }
 
 // A local rest that leaves larger forces at its rim than it removed is given up. Where it lowers
@@ -70,12 +71,9 @@ void Newton::presolve_locally(const Load &load) {
 void Newton::eliminate(const Load &load, double tolerance) {
   namespace set = settings::elimination;
   // this near to the equilibrium iterations converge quadratically and end more exactly
-  const double near_rest = settings::stability::early_residual * forces_.rest;
+  const double near_rest = settings::stability::early_residual * rest_force();
   if (at_.residual <= std::max(tolerance, near_rest)) return;
-  if (elimination_.wait > 0) {
-    --elimination_.wait;
-    return;
-  }
+  if (elimination_.waits()) return;
   const double force = std::max(set::force_share * at_.residual, tolerance);
   const std::vector<uint32_t> disturbed = disturbed_nodes(*model_, at_.gradient, force);
   if (are_many(disturbed, at_.x.size(), set::max_disturbed_share)) return;
@@ -88,10 +86,9 @@ void Newton::eliminate(const Load &load, double tolerance) {
                  set::max_iterations});
   const double after = free_norm();
   if (after < set::worth_share * before) {
-    elimination_ = {};
+    elimination_.succeeded();
   } else {
-    elimination_.wait = elimination_.length;
-    elimination_.length = std::min(2 * elimination_.length, set::max_pause);
+    elimination_.failed(set::max_pause);
   }
   if (after <= before) return;
   at_.x = kept;
@@ -119,7 +116,9 @@ void Newton::settle_around(const std::vector<uint32_t> &disturbed, const Load &l
   const SolveStats done = run(settling, state);
   const auto &x = state.x.get();
   for (size_t k = 0; k < x.size(); ++k) at_.x[region.node[k]] = x[k];
-  stats_.work.add(done.work);
+  Profile counted = done.work;
+  counted.linear_iterations = 0;
+  stats_.work.add(counted);
   evaluate();
 }
 

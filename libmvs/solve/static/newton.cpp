@@ -34,20 +34,28 @@ Newton::Newton(const Model &model, DirectSolver &factor)
 
 void Newton::begin(const State &state, const LocalStart &local) {
   at_.x = state.x;
-  if (local.max_displacement > 0) limit_ = {local.max_displacement, state.x};
+  if (local.max_displacement > 0) limit_ = DisplacementLimit(local.max_displacement, state.x);
   lambda_ = local.lambda;
-  trial_.resize(at_.x.size());
   total_energy_.set_pressure(state.load.pressure);
   total_energy_.set_tools(state.tools);
-  const double pressure = scale_of(state.load), area = mean_area(*model_);
-  system_.set_scale(pressure, area);
-  namespace set = settings::newton;
-  forces_.rest = pressure * area;
-  forces_.exact_below =
-      pressure * std::min(set::exact_hessian_area, set::exact_hessian_residual * area);
-  forces_.polish_below = pressure * std::min(set::polish_area, set::polish_residual * area);
-  slack_ = settings::newton::broad_phase_slack * model_->valve.contact_thickness;
+  pressure_ = scale_of(state.load);
+  mean_area_ = mean_area(*model_);
+  system_.set_scale(pressure_, mean_area_);
   evaluate();
+}
+
+double Newton::exact_below() const {
+  namespace set = settings::newton;
+  return pressure_ * std::min(set::exact_hessian_area, set::exact_hessian_residual * mean_area_);
+}
+
+double Newton::polish_below() const {
+  namespace set = settings::newton;
+  return pressure_ * std::min(set::polish_area, set::polish_residual * mean_area_);
+}
+
+double Newton::slack() const {
+  return settings::newton::broad_phase_slack * model_->valve.contact_thickness;
 }
 
 SolveStats Newton::finish(State &state) {
@@ -62,7 +70,7 @@ SolveStats Newton::finish(State &state) {
 
 void Newton::evaluate() {
   if (!total_energy_.prepared_for(at_.x)) {
-    total_energy_.prepare(at_.x, at_.x, slack_, stats_.work);
+    total_energy_.prepare(at_.x, at_.x, slack(), stats_.work);
   }
   at_.energy = total_energy_.gradient(at_.x, at_.gradient, stats_.work);
   at_.residual = largest_free(*model_, at_.gradient);
@@ -73,7 +81,7 @@ void Newton::evaluate() {
 
 void Newton::iterate(PolishSchedule &polish) {
   bool has_exact = false;
-  if (at_.residual < forces_.polish_below && polish.wait == 0) {
+  if (at_.residual < polish_below() && polish.wait == 0) {
     if (newton_polish_step(polish)) {
       // polish steps and trust-region steps may undo each other: only a smaller force than ever
       // before shows that rest is near
@@ -99,8 +107,8 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
   if (!system_.try_factorise(0, stats_)) {
     ++stats_.shifted;
     // a local subproblem has no masses, and its stability is not that of the valve
-    const bool is_local = limit_.distance > 0;
-    if (is_local || at_.residual > settings::stability::early_residual * forces_.rest) return false;
+    const bool is_local = limit_.is_set();
+    if (is_local || at_.residual > settings::stability::early_residual * rest_force()) return false;
     if (at_.residual > polish.stable_residual) {
       const Stability found = check_stability(false);
       if (!found.is_stable) {
@@ -114,29 +122,30 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
     polish.lambda = settings::newton::polish_lambda_share * lambda;
   }
   const bool remove_lambda = system_.applied_lambda() < settings::newton::max_removed_lambda;
-  system_.solve(at_.gradient, !remove_lambda, step_.newton, stats_);
-  limit_step();
+  NewtonStep step;
+  system_.solve(at_.gradient, !remove_lambda, step.newton, stats_);
+  limit_step(step);
   // in the cycle around an equilibrium that it returned to, most steps are too long for few trials
   namespace set = settings::newton;
-  if (!search_on_force(unstable_.returns == 0 ? set::polish_trials : set::patient_trials))
-    return false;
+  const int trials = unstable_.count() == 0 ? set::polish_trials : set::patient_trials;
+  if (!search_on_force(step.limited, trials)) return false;
   evaluate();
   return true;
 }
 
 // Backtracking line search on the norm of the force.
-bool Newton::search_on_force(int trials) {
+bool Newton::search_on_force(const std::vector<Vec3> &step, int trials) {
   const PhaseTimer timer(stats_.work, MVS_PHASE_LINE_SEARCH);
   Profile inside{};
   const double before = free_norm();
-  std::vector<Vec3> kept = at_.gradient;
+  std::vector<Vec3> kept = at_.gradient, tried(at_.x.size());
   double share = 1;
   for (int trial = 0; trial < trials; ++trial) {
-    for (size_t i = 0; i < at_.x.size(); ++i) trial_[i] = at_.x[i] + share * step_.limited[i];
-    total_energy_.gradient(trial_, at_.gradient, inside);
+    for (size_t i = 0; i < at_.x.size(); ++i) tried[i] = at_.x[i] + share * step[i];
+    total_energy_.gradient(tried, at_.gradient, inside);
     ++stats_.work.passes;
     if (free_norm() <= (1 - settings::newton::polish_decrease * share) * before) {
-      at_.x.swap(trial_);
+      at_.x.swap(tried);
       return true;
     }
     share *= settings::newton::polish_backtracking;
@@ -162,36 +171,32 @@ void Newton::move_boundary(BoundaryRamp &ramp) {
   const std::vector<Vec3> &boundary = ramp.step().displacement;
   system_.assemble(far_, boundary, stats_.work);
   system_.factorise(lambda_, stats_);
-  step_.newton = boundary;
-  system_.carry(step_.newton, stats_);
-  limit_step();
+  NewtonStep step;
+  step.newton = boundary;
+  system_.carry(step.newton, stats_);
+  limit_step(step);
   for (uint32_t i = 0; i < at_.x.size(); ++i) {
-    at_.x[i] = ramp.moved(i, at_.x[i], step_.limited[i]);
+    at_.x[i] = ramp.moved(i, at_.x[i], step.limited[i]);
   }
   evaluate();
 }
 
 // Shortens the Newton step of each node to the longest displacement of an iteration and to the
 // largest step that is safe from collision.
-void Newton::limit_step() {
+void Newton::limit_step(NewtonStep &step) {
   constexpr double most = settings::newton::max_displacement;
-  step_.far_share = 0;
-  step_.limited = step_.newton;
-  total_energy_.instrument().bodies().shorten(step_.limited, most);
-  for (Vec3 &d : step_.limited) {
+  step.far_share = 0;
+  step.limited = step.newton;
+  total_energy_.instrument().bodies().shorten(step.limited, most);
+  for (Vec3 &d : step.limited) {
     const double length = d.norm();
     if (length > settings::newton::far_factor * most) {
-      step_.far_share += 1 / static_cast<double>(step_.limited.size());
+      step.far_share += 1 / static_cast<double>(step.limited.size());
     }
     if (length > most) d *= most / length;
   }
-  for (size_t i = 0; i < limit_.origin.size(); ++i) {
-    const Vec3 from_origin = at_.x[i] + step_.limited[i] - limit_.origin[i];
-    if (from_origin.squaredNorm() <= limit_.distance * limit_.distance) continue;
-    step_.limited[i].setZero();
-    limit_.reached = true;
-  }
-  total_energy_.limit_step(at_.x, slack_, step_.limited, stats_.work);
+  limit_.stop(at_.x, step.limited);
+  total_energy_.limit_step(at_.x, slack(), step.limited, stats_.work);
 }
 
 }  // namespace mvs::core

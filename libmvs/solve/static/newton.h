@@ -21,15 +21,14 @@
 #include "linalg/direct_solver.h"
 #include "solve/solver.h"
 #include "solve/stability.h"
+#include "solve/static/backoff.h"
 #include "solve/static/boundary_ramp.h"
+#include "solve/static/displacement_limit.h"
 #include "solve/static/newton_system.h"
+#include "solve/static/unstable_returns.h"
 
 namespace mvs::core {
 
-// Iterations until an attempt that may fail is made again; after the next failure.
-struct Pause {
-  int wait = 0, length = 1;
-};
 // When a polish step is tried, and with which lambda.
 struct PolishSchedule {
   double best_residual;  // N, the smallest that a polish step reached
@@ -38,18 +37,17 @@ struct PolishSchedule {
   // N, of the last iterate with an indefinite Hessian whose equilibrium was found to be stable.
   double stable_residual = 0;
 };
+// A step of all nodes, m.
+struct NewtonStep {
+  std::vector<Vec3> newton, limited;  // solution of the linear system; after all limits
+  double far_share = 0;               // of the nodes: those whose Newton step is much too long
+};
+
 // A node that the step limiter stopped.
 struct StoppedNode {
   size_t row;
   Vec3 direction;
   double share;  // its Newton step over the limited one
-};
-
-// Forces that an iteration compares its residual with, N.
-struct ForceLevels {
-  double rest = 0;          // of the pressure on a node of mean area
-  double exact_below = 0;   // for the exact Hessian of the trust region
-  double polish_below = 0;  // for polish steps
 };
 
 // How the settle of a local subproblem begins; as it is: that of a whole valve.
@@ -64,19 +62,6 @@ struct LocalSettle {
   LocalStart start;
   double residual;  // N, at which it ends
   uint32_t max_iterations;
-};
-
-// A local subproblem ends when a node would leave the region that it was cut out for.
-struct DisplacementLimit {
-  double distance = 0;       // m; 0: unlimited
-  std::vector<Vec3> origin;  // of the nodes
-  bool reached = false;
-};
-
-// The last unstable equilibrium that a settle found.
-struct UnstableEquilibrium {
-  std::vector<Vec3> x;   // m, of the nodes; empty: none yet
-  uint32_t returns = 0;  // to it, in a row
 };
 
 // Whether the leaflets are of springs or of the bilinear membrane alone, whose stiffness does not
@@ -108,14 +93,15 @@ class Newton {
   bool is_stable(bool margins);
   // Whether the valve left one unstable equilibrium again and again, and is there: it flutters
   // around it.
-  bool always_returns() const;
+  bool always_returns() const { return unstable_.are_endless(); }
   // Moves the nodes to `state`, with zero velocities; returns the statistics.
   SolveStats finish(State &state);
 
   const std::vector<Vec3> &x() const { return at_.x; }
-  double residual() const { return at_.residual; }    // N
-  double rest_force() const { return forces_.rest; }  // N
-  bool reached_limit() const { return limit_.reached; }
+  double residual() const { return at_.residual; }  // N
+  // N, of the pressure on a node of mean area.
+  double rest_force() const { return pressure_ * mean_area_; }
+  bool reached_limit() const { return limit_.reached(); }
   SolveStats &stats() { return stats_; }
 
  private:
@@ -123,27 +109,27 @@ class Newton {
     std::vector<Vec3> x, gradient;    // m; N, dE/dx
     double energy = 0, residual = 0;  // J; N, the largest force on a free node
   };
-  struct Step {
-    std::vector<Vec3> newton, limited;  // m: solution of the linear system; after all limits
-    double far_share = 0;               // of the nodes: those whose Newton step is much too long
-  };
   void evaluate();
+  // N: larger residuals have no exact Hessian in the trust region; no polish steps.
+  double exact_below() const;
+  double polish_below() const;
+  double slack() const;  // m, of the broad phase
   void settle_around(const std::vector<uint32_t> &disturbed, const Load &load,
                      const LocalSettle &how);
   bool newton_polish_step(PolishSchedule &polish);
   Stability check_stability(bool margins);
-  bool has_returned() const;
   void leave(const Stability &unstable);
-  bool search_on_force(int trials);
+  bool search_on_force(const std::vector<Vec3> &step, int trials);
   // `has_exact`: the system holds the exact Hessian of the present positions.
   void trust_region_step(bool has_exact);
-  double try_step(double &predicted_reduction);
-  double gain_ratio(double reduction, double predicted_reduction) const;
-  void adapt_lambda(double gain);
-  void shorten();
-  std::vector<StoppedNode> stopped_nodes() const;
+  double try_step(const std::vector<Vec3> &step, std::vector<Vec3> &trial,
+                  double &predicted_reduction);
+  double gain_ratio(const std::vector<Vec3> &step, double reduction,
+                    double predicted_reduction) const;
+  void adapt_lambda(double gain, double far_share);
+  std::vector<StoppedNode> stopped_nodes(const NewtonStep &step) const;
   bool hold(const std::vector<StoppedNode> &stopped);
-  void limit_step();
+  void limit_step(NewtonStep &step);
   double free_norm() const;
 
   const Model *model_;
@@ -152,15 +138,12 @@ class Newton {
   NewtonSystem system_;
   StabilityCheck check_;
   SolveStats stats_;
-  ForceLevels forces_;
-  Curvature far_;      // of the Hessian far from rest
-  double slack_ = 0;   // m, of the broad phase
-  double lambda_ = 1;  // that the next factorisation asks for
-  Step step_;
-  std::vector<Vec3> trial_;  // m, positions
+  double pressure_ = 0, mean_area_ = 0;  // Pa, of the load; m^2, of a node
+  Curvature far_;                        // of the Hessian far from rest
+  double lambda_ = 1;                    // that the next factorisation asks for
   DisplacementLimit limit_;
-  UnstableEquilibrium unstable_;
-  Pause elimination_;
+  UnstableReturns unstable_;
+  Backoff elimination_;
 };
 
 }  // namespace mvs::core
