@@ -27,9 +27,9 @@ constexpr uint64_t seed = 22;
 const double half_range = std::sqrt(3.0);  // of a uniform deviate, in standard deviations
 
 struct Closed {
-  double leak;
-  bool at_rest;
-  uint32_t iterations;
+  double leak = NAN;  // of a closure that diverged, which has no shape
+  bool at_rest = false;
+  uint32_t iterations = 0;
 };
 // The change of the valve in a closure of the interval.
 struct ClosureChange {
@@ -54,7 +54,7 @@ Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRan
   } catch (const Error &error) {
     // the valve is built all the same: its closure is the caller's
     if (error.code != MVS_E_DIVERGED) throw;
-    return {0, false, 0};
+    return {};
   }
 }
 
@@ -69,53 +69,79 @@ std::vector<double> drawn_factors(const std::vector<ChordGroup> &groups, const L
   return factor;
 }
 
+// One decimal, in mm2.
+std::string area_words(double leak) {
+  return std::isnan(leak) ? "(diverged)" : format("%.1f mm2", leak * 1e6);
+}
+
 std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, double thickness_error) {
   std::string ranges = "lengths of chordae within that range";
   if (edge.geometry) {
     ranges += format(
-        ", a free edge up to %.1f mm farther out (%.1f mm2 with the lengths as they are) or "
-        "%.1f mm farther in (%.1f mm2)",
-        edge.out * 1e3, interval.edge_leak[0] * 1e6, edge.in * 1e3, interval.edge_leak[1] * 1e6);
+        ", a free edge up to %.1f mm farther out (%s with the lengths as they are) or %.1f mm "
+        "farther in (%s)",
+        edge.out * 1e3, area_words(interval.edge_leak[0]).c_str(), edge.in * 1e3,
+        area_words(interval.edge_leak[1]).c_str());
   }
   if (thickness_error > 0) {
-    ranges +=
-        format(", tissue up to %.2f mm thicker (%.1f mm2) or thinner (%.1f mm2)",
-               thickness_error * 1e3, interval.tissue_leak[0] * 1e6, interval.tissue_leak[1] * 1e6);
+    ranges += format(", tissue up to %.2f mm thicker (%s) or thinner (%s)", thickness_error * 1e3,
+                     area_words(interval.tissue_leak[0]).c_str(),
+                     area_words(interval.tissue_leak[1]).c_str());
   }
   return ranges;
 }
 
-void report(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
-            bool at_rest, Findings &findings) {
-  const double unsure = std::min(1.0, (interval.most - interval.least) / unknown_leak);
-  const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
+Finding leaks_by_length(const LeakInterval &interval, double confidence, bool at_rest) {
   const auto &[f0, f1, f2] = interval.factor;
-  findings.push_back(
-      {"leak",
-       FindingSource::measured,
-       confidence,
-       format("regurgitant orifice at 120 mmHg with chordae of %.0f, %.0f and %.0f %% of their "
-              "lengths: %.1f, %.1f and %.1f mm2%s; lengths are known to that range only, so one of "
-              "these numbers alone says little",
-              100 * f0, 100 * f1, 100 * f2, interval.leak[0] * 1e6, interval.leak[1] * 1e6,
-              interval.leak[2] * 1e6, at_rest ? "" : ", not all of them at rest"),
-       {interval.leak.begin(), interval.leak.end()},
-       "m2"});
-  findings.push_back(
-      {"leak_interval",
-       FindingSource::measured,
-       confidence,
-       format(
-           "%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6,
-           ranges_of(interval, edge, thickness_error).c_str(),
-           interval.draws == 0
-               ? ": sealed with all of them"
-               : format("; %u closures with random ones are among them", interval.draws).c_str()),
-       {interval.least, interval.most},
-       "m2"});
+  Finding finding{
+      "leak",
+      FindingSource::measured,
+      confidence,
+      format("regurgitant orifice at 120 mmHg with chordae of %.0f, %.0f and %.0f %% of their "
+             "lengths: %s, %s and %s%s; lengths are known to that range only, so one of these "
+             "numbers alone says little",
+             100 * f0, 100 * f1, 100 * f2, area_words(interval.leak[0]).c_str(),
+             area_words(interval.leak[1]).c_str(), area_words(interval.leak[2]).c_str(),
+             at_rest ? "" : ", not all of them at rest"),
+      {},
+      "m2"};
+  for (const double leak : interval.leak) {
+    if (!std::isnan(leak)) finding.value.push_back(leak);
+  }
+  return finding;
 }
 
 }  // namespace
+
+void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
+                  Findings &findings) {
+  const bool known = !std::isnan(interval.most);
+  const bool at_rest = interval.closed == interval.closures;
+  const double unsure =
+      known ? std::min(1.0, (interval.most - interval.least) / unknown_leak) : 1.0;
+  const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
+  findings.push_back(leaks_by_length(interval, confidence, at_rest));
+  const std::string ranges = ranges_of(interval, edge, thickness_error);
+  Finding finding{"leak_interval", FindingSource::measured, confidence, {}, {}, "m2"};
+  if (known) {
+    finding.sentence = format(
+        "%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6, ranges.c_str(),
+        interval.draws == 0
+            ? ": sealed with all of them"
+            : format("; %u closures with random ones are among them", interval.draws).c_str());
+    if (!at_rest) {
+      finding.sentence += format("; %u of %u closures did not come to rest and are left out",
+                                 interval.closures - interval.closed, interval.closures);
+    }
+    finding.value = {interval.least, interval.most};
+  } else {
+    finding.sentence = format(
+        "not determined: none of %u closures came to rest, for %s; check the surface, the "
+        "thickness and the papillary tips",
+        interval.closures, ranges.c_str());
+  }
+  findings.push_back(finding);
+}
 
 LengthRange range_after(const ChordFit &fit) {
   LengthRange range;
@@ -135,21 +161,21 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
   const size_t chords = model->valve.chords.size();
   LeakInterval interval;
   interval.factor = {1 - range.all, 1, 1 + range.all};
-  bool at_rest = true;
   std::vector<double> leaks = known;
-  uint32_t number = 0;
-  const uint32_t closures =
+  const uint32_t most_closures =
       3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_draws;
   const auto close = [&](const ClosureChange &change) {
     const auto share_done = [&](double share, double) {
-      if (tell) tell((number + share) / closures);
+      if (tell) tell((interval.closures + share) / most_closures);
       return true;
     };
     share_done(0, 0);
     const Closed closed = close_with(model->valve, change, edge, share_done);
-    ++number;
-    if (closed.at_rest) leaks.push_back(closed.leak);
-    at_rest = at_rest && closed.at_rest;
+    ++interval.closures;
+    if (closed.at_rest) {
+      ++interval.closed;
+      leaks.push_back(closed.leak);
+    }
     return closed;
   };
   for (size_t k = 0; k < 3; ++k) {
@@ -166,7 +192,8 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
   for (size_t k = 0; thickness_error > 0 && k < 2; ++k) {
     interval.tissue_leak[k] = close({{}, 0, thickness(k == 0 ? 1 : -1)}).leak;
   }
-  const bool is_sealed = at_rest && *std::max_element(leaks.begin(), leaks.end()) < sealed;
+  const bool is_sealed = interval.closed == interval.closures &&
+                         *std::max_element(leaks.begin(), leaks.end()) < sealed;
   NormalNumbers random(seed);
   const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
   for (; !is_sealed && interval.draws < most_draws; ++interval.draws) {
@@ -175,12 +202,13 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
     if (thickness_error > 0) change.thickness = thickness(2 * random.uniform() - 1);
     close(change);
   }
-  if (leaks.empty()) leaks.assign(interval.leak.begin(), interval.leak.end());
-  const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
-  const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
-  interval.least = std::max(0.0, *least - more);
-  interval.most = *most + more;
-  report(interval, edge, thickness_error, at_rest, findings);
+  if (!leaks.empty()) {
+    const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
+    const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
+    interval.least = std::max(0.0, *least - more);
+    interval.most = *most + more;
+  }
+  report_leaks(interval, edge, thickness_error, findings);
   return interval;
 }
 

@@ -9,10 +9,11 @@
 // a quarter wider on both sides: of nine closures alone, one valve in five would lie outside
 // (exchangeable samples). Both ends move out by what meshes of one valve differ by, too, but not
 // below 0. Every closure starts from the open shape, so that none depends on another; one that does
-// not come to rest is left out, and the findings say so.
+// not come to rest is left out, and the findings say so; if none does, the interval is not known.
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "model/model.h"
@@ -32,14 +33,19 @@ LengthRange range_after(const ChordFit &fit);
 
 struct LeakInterval {
   std::array<double, 3> factor = {};        // on all rest lengths
-  std::array<double, 3> leak = {};          // m2, regurgitant orifice at 120 mmHg
+  std::array<double, 3> leak = {};          // m2, regurgitant orifice at 120 mmHg; NaN: diverged
   std::array<bool, 3> at_rest = {};         // whether the closure came to rest
   std::array<uint32_t, 3> iterations = {};  // of each closure
   std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; 0: edge exact
   std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; 0: thickness exact
-  double least = 0, most = 0;               // m2, the interval
+  double least = NAN, most = NAN;           // m2, the interval; NaN: no closure came to rest
+  uint32_t closures = 0, closed = 0;        // of these, those that came to rest
   uint32_t draws = 0;                       // closures with random lengths
 };
+
+// Adds the findings "leak" and "leak_interval". Without a closure at rest the second has no values.
+void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
+                  Findings &findings);
 
 // `thickness_error`: m, of all leaflets together. `known`: leaks of other closures of the same
 // valve, m2, which the interval contains. `tell` is called before and during closures with the

@@ -1,0 +1,52 @@
+// The findings of a leak: what closures at rest give, and what the others must not give.
+#include "patient/fit/leak_interval.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "patient/findings.h"
+
+using namespace mvs::core;
+
+namespace {
+
+// Three closures, of which `closed` came to rest and the last diverged if `diverged`.
+LeakInterval three_closures(uint32_t closed, bool diverged) {
+  LeakInterval interval;
+  interval.factor = {0.9, 1, 1.1};
+  interval.leak = {0, 4e-6, diverged ? NAN : 9e-6};
+  interval.closures = 3;
+  interval.closed = closed;
+  if (closed > 0) interval.least = 0, interval.most = 5e-6;
+  return interval;
+}
+
+}  // namespace
+
+TEST_CASE("a_closure_that_diverged_has_no_leak") {
+  Findings findings;
+  report_leaks(three_closures(2, true), {}, 0, findings);
+  const Finding *leak = find_finding(findings, "leak");
+  REQUIRE(leak != nullptr);
+  CHECK(leak->value == std::vector<double>{0, 4e-6});
+  CHECK(leak->sentence.find("(diverged)") != std::string::npos);
+  const Finding *range = find_finding(findings, "leak_interval");
+  REQUIRE(range != nullptr);
+  CHECK(range->value == std::vector<double>{0, 5e-6});
+  CHECK(range->sentence.find("1 of 3 closures did not come to rest") != std::string::npos);
+  // a leak is less sure where not all closures are at rest
+  Findings sure;
+  report_leaks(three_closures(3, false), {}, 0, sure);
+  CHECK(range->confidence < find_finding(sure, "leak_interval")->confidence);
+}
+
+TEST_CASE("without_a_closure_at_rest_the_leak_is_not_determined") {
+  Findings findings;
+  report_leaks(three_closures(0, true), {}, 0, findings);
+  const Finding *range = find_finding(findings, "leak_interval");
+  REQUIRE(range != nullptr);
+  CHECK(range->value.empty());
+  CHECK(range->confidence == 0);
+  CHECK(range->sentence.find("not determined: none of 3 closures") != std::string::npos);
+}
