@@ -229,6 +229,8 @@ export interface Hand {
 }
 
 export interface Cost {
+  /** Of the closed valve that was opened: it may have changed while the question was on its way. */
+  hash: string;
   openArea: number;
   anteriorLength: number;
   posteriorLength: number;
@@ -260,6 +262,8 @@ export type Range = [number, number];
 
 /** Ranges of figures over closures that came to rest; those of measures without a number are left out. */
 export interface Spread {
+  /** Of the closed valve that was closed again. */
+  hash: string;
   members: number;
   converged: number;
   equilibria: number;

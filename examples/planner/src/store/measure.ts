@@ -70,20 +70,18 @@ export async function compareCheckpoint(name: string | null): Promise<void> {
 }
 
 export async function measureCost(): Promise<void> {
-  const figures = (state.preview.value ?? state.main.value)?.figures;
-  if (!figures) return;
+  if (!state.main.value) return;
   const value = await run(t.measuring, 'cost', {
     which: state.preview.value ? 'preview' : 'main',
     flow: state.flow.value ?? 0,
   });
   if (!value) return;
-  state.cost.value = { hash: figures.hash, value };
-  keepOpening(figures.hash, value);
+  state.cost.value = { hash: value.hash, value };
+  keepOpening(value);
 }
 
 export async function measureSpread(): Promise<void> {
-  const figures = state.main.value?.figures;
-  if (!figures) return;
+  if (!state.main.value) return;
   const value = await run(t.spreading, 'spread', { members: 8 });
-  if (value) state.spread.value = { hash: figures.hash, value };
+  if (value) state.spread.value = { hash: value.hash, value };
 }

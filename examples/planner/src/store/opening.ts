@@ -20,14 +20,14 @@ export function openingOf(hash: string | undefined): Cost | null {
   return state.openings.value.get(hash) ?? null;
 }
 
-/** Remembers the opening of a closed valve, among the last ones. */
-export function keepOpening(hash: string, found: Cost): void {
-  state.openings.value = new Map([...[...state.openings.value].slice(-20), [hash, found]]);
+/** Remembers the opening of the closed valve that was measured, among the last ones. */
+export function keepOpening(found: Cost): void {
+  state.openings.value = new Map([...[...state.openings.value].slice(-20), [found.hash, found]]);
 }
 
-async function measure(which: CostRequest['which'], hash: string): Promise<void> {
+async function measure(which: CostRequest['which']): Promise<void> {
   const { value: flow } = state.flow;
-  keepOpening(hash, await request('cost', { which, flow: flow ?? 0 }));
+  keepOpening(await request('cost', { which, flow: flow ?? 0 }));
 }
 
 /** True while two plans that are compared are measured. */
@@ -38,8 +38,8 @@ async function measureCompared(name: string, other: Shown, main: Shown): Promise
   if (comparing || main.picture.positions.length > 3 * most) return;
   comparing = true;
   try {
-    if (!openingOf(other.figures.hash)) await measure(`checkpoint ${name}`, other.figures.hash);
-    if (!openingOf(main.figures.hash) && state.main.value === main) await measure('main', main.figures.hash);
+    if (!openingOf(other.figures.hash)) await measure(`checkpoint ${name}`);
+    if (!openingOf(main.figures.hash) && state.main.value === main) await measure('main');
   } catch (error) {
     fail(error);
   } finally {
@@ -53,8 +53,8 @@ async function measureBoth(): Promise<void> {
   const idle = () =>
     !!preview && state.preview.value?.figures === preview && !state.pending.value && !state.busy.value;
   try {
-    if (preview && idle() && !openingOf(preview.hash)) await measure('preview', preview.hash);
-    if (main && idle() && !openingOf(main.hash)) await measure('main', main.hash);
+    if (preview && idle() && !openingOf(preview.hash)) await measure('preview');
+    if (main && idle() && !openingOf(main.hash)) await measure('main');
   } catch (error) {
     fail(error);
   }

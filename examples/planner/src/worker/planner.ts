@@ -241,6 +241,7 @@ export class Planner {
       const { cost, opened } = snapshot.cost(asked);
       opened.dispose();
       return {
+        hash: snapshot.hash,
         openArea: cost.open_area * mm2,
         anteriorLength: cost.anterior_length * mm,
         posteriorLength: cost.posterior_length * mm,
@@ -288,7 +289,7 @@ export class Planner {
         settleOptions,
       );
       try {
-        return spreadOf(this.mvs, ensemble);
+        return { hash: snapshot.hash, ...spreadOf(this.mvs, ensemble) };
       } finally {
         ensemble.dispose();
       }

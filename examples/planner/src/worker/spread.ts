@@ -42,7 +42,7 @@ function regionRanges(all: Figures[]): Spread['regions'] {
   );
 }
 
-export function spreadOf(mvs: Mvs, ensemble: Ensemble): Spread {
+export function spreadOf(mvs: Mvs, ensemble: Ensemble): Omit<Spread, 'hash'> {
   const all = figuresOfMembers(mvs, ensemble);
   const { members, converged, equilibria, node_max } = ensemble.summary;
   const numbers = ({ measures }: Figures) =>
