@@ -69,6 +69,7 @@ void relax_around(LeafletSheet &surface, const std::vector<uint32_t> &from, cons
   }
   std::sort(region.begin(), region.end());
   std::vector<std::vector<uint32_t>> around;
+  around.reserve(region.size());
   for (const uint32_t i : region) {
     around.push_back(neighbours_in(surface.triangles, stars[i], i));
   }
