@@ -87,14 +87,15 @@ struct Lines {
 
 // A ball of 1.3 contact thicknesses: METHOD.md says that narrower openings may count as sealed.
 Lines lines_along(const Leaking &valve, const Vec3 &direction) {
-  constexpr double step = 0.25 * mm, reach = 12 * mm;
+  constexpr double step = 0.25 * mm;
+  constexpr int reach = 48;  // steps: 12 mm
   Vec3 middle = Vec3::Zero();
   for (const Vec3 &p : valve.orifice.vertices) middle += p;
   middle /= static_cast<double>(valve.orifice.vertices.size());
   Lines lines;
-  for (double u = -reach; u <= reach; u += step) {
-    for (double v = -reach; v <= reach; v += step) {
-      const Vec3 through = middle + Vec3(u, v, 0);
+  for (int i = -reach; i <= reach; ++i) {
+    for (int k = -reach; k <= reach; ++k) {
+      const Vec3 through = middle + Vec3(i * step, k * step, 0);
       const Vec3 at_annulus = through - through.z() / direction.z() * direction;
       if (at_annulus.norm() > 10 * mm) continue;  // inside the annulus, which is 30 mm wide
       const Vec3 p = at_annulus + 30 * mm * direction, q = at_annulus - 60 * mm * direction;
