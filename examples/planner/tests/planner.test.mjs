@@ -192,6 +192,24 @@ describe('planner', () => {
     await undo(page);
   });
 
+  it('takes_a_value_at_Enter_whose_preview_came_by_itself', async () => {
+    await begin(page, 'annulus_scale');
+    await page.locator('#f-factor').fill('93');
+    const drafted = () => page.evaluate(() => window.planner.state.draft.value?.fields.factor);
+    // a typed number is tried after a pause
+    for (let k = 0; k < 100 && (await drafted()) !== 0.93; ++k) await page.waitForTimeout(50);
+    assert.equal(await drafted(), 0.93);
+    await answered(page, 200);
+    await page.keyboard.press('Enter');
+    await page.waitForTimeout(300);
+    assert.equal(await drafted(), 0.93, 'the first Enter does not apply');
+    await page.keyboard.press('Enter');
+    await page.getByTestId('form').waitFor({ state: 'detached' });
+    await closed(page);
+    assert.match((await figures(page)).history.at(-1).title, /93/);
+    await undo(page);
+  });
+
   it('says_why_an_operation_is_impossible', async () => {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill('9000');

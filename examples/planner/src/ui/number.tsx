@@ -66,6 +66,8 @@ function textOf(value: number | undefined, scale: number, present: number | null
 /** ms without a key after which a typed number is tried. */
 const pause = 700;
 let typing = 0;
+/** Whether a number was typed that no Enter has taken yet, also where its preview came by itself. */
+let typed = false;
 
 export function NumberField(props: FieldProps) {
   const { kind, field } = props;
@@ -122,18 +124,22 @@ export function NumberField(props: FieldProps) {
           onInput={(event) => {
             // a number that was typed to its end is tried without Enter; "19." goes on
             const { currentTarget: box } = event;
-            const typed = box.value;
+            const now = box.value;
+            typed = true;
             window.clearTimeout(typing);
-            if (typed === text || String(parseFloat(typed)) !== typed) return;
-            typing = window.setTimeout(() => box.isConnected && box.value === typed && set(typed), pause);
+            if (now === text || String(parseFloat(now)) !== now) return;
+            typing = window.setTimeout(() => box.isConnected && box.value === now && set(now), pause);
           }}
           onChange={(event) => event.currentTarget.value !== text && set(event.currentTarget.value)}
           onKeyDown={(event) => {
             // Enter takes a number that was typed; once more, with its preview in sight, it applies
-            if (event.key !== 'Enter' || event.currentTarget.value === text) return;
+            const { key, currentTarget: box } = event;
+            if (key !== 'Enter' || (!typed && box.value === text)) return;
             event.preventDefault();
-            set(event.currentTarget.value);
+            typed = false;
+            if (box.value !== text) set(box.value);
           }}
+          onBlur={() => (typed = false)}
         />
         <span class="unit">{unit}</span>
       </div>

@@ -16,14 +16,16 @@ export function Opening({ kind }: { kind: string }) {
   const now = openingOf(preview.hash);
   const before = openingOf(state.main.value?.figures.hash);
   const least = leastOpening();
-  const small = now ? now.openArea < (least ?? narrow) : false;
+  // as it is printed, to 0.01 cm2: "1.50" is not below 1.5
+  const area = now ? Math.round(now.openArea) : Infinity;
+  const small = area < (least ?? narrow);
   // the annulus became smaller and the opening did not
   const elsewhere = ofAnnulus.has(kind) && now && before && now.openArea >= before.openArea;
   return (
     <p class={`opens${small ? ' warn' : ''}`} data-testid="opening" title={openingTexts.help}>
       {openingTexts.opens(now?.openArea)}
       <span class="was"> {openingTexts.beside(before?.openArea, least)}</span>
-      {now && now.openArea < narrow && <small>{openingTexts.narrow}</small>}
+      {area < narrow && <small>{openingTexts.narrow}</small>}
       {elsewhere && <small>{openingTexts.elsewhere}</small>}
     </p>
   );
