@@ -69,6 +69,14 @@ describe('planner as a customer judges it', () => {
     await openPanel(page, 'Plan');
     await page.getByRole('button', { name: 'Compare' }).click();
     const row = page.getByTestId('compare').getByRole('row', { name: /Open area/ });
+    // a press of Compare shows its table, also where the panel is longer than the window
+    const seen = () =>
+      page.getByTestId('compare').evaluate((table) => {
+        const [head, last] = [table.rows[0], table.rows[4]].map((one) => one.getBoundingClientRect());
+        return head.top >= 0 && last.bottom <= innerHeight;
+      });
+    for (let k = 0; k < 40 && !(await seen()); ++k) await page.waitForTimeout(50);
+    assert.ok(await seen(), 'the first rows of the table are out of the window');
     await row.getByText(/cm²/).nth(1).waitFor();
     const [other, now] = (await row.locator('td').allInnerTexts()).map(parseFloat);
     // a clip in the middle more than halves the opening

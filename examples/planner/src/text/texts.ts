@@ -118,8 +118,8 @@ export const operationWords: Record<string, Words> = {
     fields: {
       anterior: 'Anterior scallop',
       posterior: 'Posterior scallop',
-      position: 'Position: −1 posteromedial, 1 anterolateral (A, D)',
-      angle: 'Turn, seen from the atrium (Q, E)',
+      position: 'Position: −1 posteromedial, 1 anterolateral (keys A, D)',
+      angle: 'Turn against the clock, seen from the atrium (keys Q, E)',
       width: 'Width',
       reach: 'Depth of the grasp',
       name: 'Name',
@@ -505,7 +505,7 @@ export const barTexts = {
   leak: 'leak; arrow: its jet',
   over: 'chord beyond its limit',
   slack: 'slack chord',
-  stitch: 'stitch',
+  stitch: 'stitch of a clip or a suture',
 };
 
 export const valveTexts = {
@@ -609,7 +609,7 @@ export const formTexts = {
     `Annulus front to back ${number(was.ap)} → ${number(now.ap)} mm, side to side ${number(was.cc)} → ${number(now.cc)} mm.`,
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
-  leftEmpty: (fallback: string) => `left empty: ${fallback}`,
+  leftEmpty: (fallback: string) => `an empty field means: ${fallback}`,
   auto: 'auto',
   choose: 'choose…',
   none: 'none',
@@ -743,7 +743,7 @@ export const figureNames = {
   coaptationHeight: 'Coaptation height A2–P2',
   tentingHeight: 'Tenting height',
   billowHeight: 'Prolapse above annulus',
-  annulusAp: 'Annulus front to back',
+  annulusAp: 'Annulus front to back (AP)',
   annulusCc: 'Annulus side to side',
   chordsOver: 'Chordae beyond their limit',
   maxChordTension: 'Strongest chord pull',

@@ -1,4 +1,5 @@
 // The panel "Plan": operations, checkpoints, two plans side by side, notes, and keeping it all.
+import { useEffect, useRef } from 'preact/hooks';
 import { Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
 import { redo, undo } from '../store/history';
 import { canKeepFile, chooseKeptFile, keptFile, leaveKeptFile, saveObj, saveSession } from '../store/keep';
@@ -105,8 +106,11 @@ function openArea(hash: string): string {
 function SideBySide() {
   const now = state.main.value!.figures;
   const other = state.compared.value!.figures;
+  const table = useRef<HTMLTableElement>(null);
+  // it may lie below the panel's edge: a press of Compare would show nothing
+  useEffect(() => table.current?.scrollIntoView({ block: 'start' }), [state.compareWith.value]);
   return (
-    <table class="table" data-testid="compare">
+    <table class="table" data-testid="compare" ref={table}>
       <thead>
         <tr>
           <th></th>
