@@ -24,7 +24,7 @@ std::vector<Vec3> area_variation(const Orifice &orifice) {
   std::vector<Vec3> variation(orifice.vertices.size(), Vec3::Zero());
   const std::vector<Vec3> &y = orifice.vertices;
   for (const Tri &t : orifice.triangles) {
-    const Vec3 twice = (y[t[1]] - y[t[0]]).cross(y[t[2]] - y[t[0]]);
+    const Vec3 twice = area_normal(y, t);
     const double size = twice.norm();
     if (size == 0) continue;
     for (int k = 0; k < 3; ++k) {

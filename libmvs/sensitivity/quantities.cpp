@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/struct_fields.h"
 #include "measure/fields.h"
+#include "model/sides.h"
 #include "sensitivity/chord_site.h"
 #include "sensitivity/chord_state.h"
 #include "sensitivity/coaptation_gradient.h"
@@ -82,7 +83,7 @@ void head_force(const Model &model, const Quantity &quantity, const std::vector<
 
 void leaflet_area(const Model &model, const std::vector<Vec3> &x, QuantityGradient &q) {
   for (const Tri &t : model.valve.triangles) {
-    const Vec3 twice = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    const Vec3 twice = area_normal(x, t);
     const double size = twice.norm();
     q.value += 0.5 * size;
     if (size == 0) continue;

@@ -369,14 +369,7 @@ TEST_CASE("holes_filled_before_and_after_a_cut_are_one_finding") {
       kept.push_back(std::find(t.begin(), t.end(), vertex) == t.end());
     }
     keep_triangles(sheet, kept);
-    std::vector<RimLoop> rims;
-    for (std::vector<uint32_t> &loop : boundary_loops(sheet)) {
-      const LoopShape shape = shape_of(sheet, loop);
-      rims.push_back({std::move(loop), shape});
-    }
-    std::stable_sort(rims.begin(), rims.end(), [](const RimLoop &a, const RimLoop &b) {
-      return a.shape.length > b.shape.length;
-    });
+    std::vector<RimLoop> rims = sorted_rims(sheet);
     REQUIRE(rims.size() == 3);
     fill_holes(sheet, rims, filled);
     CHECK(rims.size() == 2);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/sides.h"
 #include "patient/coordinates.h"
 
 namespace mvs::core {
@@ -31,7 +32,7 @@ EdgeNodes edge_nodes(const PatientGeometry &g, const std::vector<Vec3> &x) {
   const std::vector<uint32_t> &edge = g.rims.free_edge;
   for (size_t k = 0; k < edge.size(); ++k) next[edge[k]] = edge[(k + 1) % edge.size()];
   for (const Tri &t : g.sheet.triangles) {
-    const Vec3 normal = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).normalized();
+    const Vec3 normal = area_normal(x, t).normalized();
     for (size_t k = 0; k < 3; ++k) {
       const uint32_t a = t[k], b = t[(k + 1) % 3];
       if (next[a] != b && next[b] != a) continue;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "geometry/distance.h"
+#include "model/sides.h"
 #include "patient/coordinates.h"
 
 namespace mvs::core {
@@ -42,24 +43,14 @@ bool is_needle(const std::vector<Vec3> &x, const Tri &t, double twice_area) {
   return twice_area < needle_area * longest2;
 }
 
-// Sums of the area vectors around each vertex.
-std::vector<Vec3> area_sums(const std::vector<Vec3> &x, const std::vector<Tri> &triangles) {
-  std::vector<Vec3> sum(x.size(), Vec3::Zero());
-  for (const Tri &t : triangles) {
-    const Vec3 area = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-    for (const uint32_t corner : t) sum[corner] += area;
-  }
-  return sum;
-}
-
-// The same without wild needles; vertices with no other triangle get the sum of their neighbours,
-// from ring to ring.
+// Sums of the area vectors around each vertex, without wild needles; vertices with no other
+// triangle get the sum of their neighbours, from ring to ring.
 std::vector<Vec3> sums_without_needles(const std::vector<Vec3> &x,
                                        const std::vector<Tri> &triangles) {
-  std::vector<Vec3> all = area_sums(x, triangles);
+  std::vector<Vec3> all = area_normals(x, triangles);
   std::vector<Tri> good;
   for (const Tri &t : triangles) {
-    const Vec3 area = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+    const Vec3 area = area_normal(x, t);
     const double norm = area.norm();
     const bool wild = is_needle(x, t, norm) && std::any_of(t.begin(), t.end(), [&](uint32_t i) {
                         return area.dot(all[i]) <= wild_cosine * norm * all[i].norm();
@@ -67,7 +58,7 @@ std::vector<Vec3> sums_without_needles(const std::vector<Vec3> &x,
     if (!wild) good.push_back(t);
   }
   if (good.size() == triangles.size()) return all;
-  std::vector<Vec3> sum = area_sums(x, good);
+  std::vector<Vec3> sum = area_normals(x, good);
   bool spreads = true;
   // sums that cancel do not spread for ever
   for (size_t ring = 0; spreads && ring < x.size(); ++ring) {

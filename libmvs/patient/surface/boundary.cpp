@@ -2,6 +2,7 @@
 #include "patient/surface/boundary.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/math.h"
@@ -69,6 +70,18 @@ LoopShape shape_of(const LeafletSheet &sheet, const std::vector<uint32_t> &loop)
   }
   shape.turning = turning_of(curve);
   return shape;
+}
+
+std::vector<RimLoop> sorted_rims(const LeafletSheet &sheet) {
+  std::vector<RimLoop> rims;
+  for (std::vector<uint32_t> &loop : boundary_loops(sheet)) {
+    const LoopShape shape = shape_of(sheet, loop);
+    rims.push_back({std::move(loop), shape});
+  }
+  std::stable_sort(rims.begin(), rims.end(), [](const RimLoop &a, const RimLoop &b) {
+    return a.shape.length > b.shape.length;
+  });
+  return rims;
 }
 
 }  // namespace mvs::core

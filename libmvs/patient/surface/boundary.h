@@ -21,4 +21,11 @@ struct LoopShape {
 };
 LoopShape shape_of(const LeafletSheet &sheet, const std::vector<uint32_t> &loop);
 
+struct RimLoop {
+  std::vector<uint32_t> loop;
+  LoopShape shape;
+};
+// All boundary loops with their shapes, the longest first.
+std::vector<RimLoop> sorted_rims(const LeafletSheet &sheet);
+
 }  // namespace mvs::core

@@ -8,11 +8,6 @@
 
 namespace mvs::core {
 
-struct RimLoop {
-  std::vector<uint32_t> loop;
-  LoopShape shape;
-};
-
 // A loop shorter than this share of the longest one is a hole: 20 to 30 mm around, 6 to 10 mm
 // across. The free edge of a severe stenosis (1 cm2) is longer, 35 mm.
 inline constexpr double hole_share = 0.2;

@@ -77,10 +77,10 @@ void spread_and_smooth(const std::vector<Tri> &triangles, std::vector<double> &v
   }
 }
 
-// Whether both are parallel within 37 degrees. Rays from a bent rim pass the tissue at a slant.
+// Whether both triangles are parallel. Rays from a bent rim pass the tissue at a slant.
 bool faces_parallel(const LeafletSheet &skin, uint32_t t, uint32_t u) {
   const Vec3 a = area_normal(skin.x, skin.triangles[t]), b = area_normal(skin.x, skin.triangles[u]);
-  return a.dot(b) < -0.8 * a.norm() * b.norm();
+  return a.dot(b) < -parallel_cosine * a.norm() * b.norm();
 }
 
 // The median thickness behind the triangles of a side around each vertex; 0 where none has any.

@@ -40,19 +40,6 @@ std::string list_of_lengths(const std::vector<RimLoop> &rims) {
   return list + (rims.size() > 6 ? ", ..." : "");
 }
 
-// All boundary loops, the longest first.
-std::vector<RimLoop> sorted_rims(const LeafletSheet &sheet) {
-  std::vector<RimLoop> rims;
-  for (std::vector<uint32_t> &loop : boundary_loops(sheet)) {
-    const LoopShape shape = shape_of(sheet, loop);
-    rims.push_back({std::move(loop), shape});
-  }
-  std::stable_sort(rims.begin(), rims.end(), [](const RimLoop &a, const RimLoop &b) {
-    return a.shape.length > b.shape.length;
-  });
-  return rims;
-}
-
 void check_rims(const std::vector<RimLoop> &rims) {
   MVS_MUST(!rims.empty(), MVS_E_OP, "triangles",
            "the surface is closed: give it as skin, or open it at annulus and free edge");

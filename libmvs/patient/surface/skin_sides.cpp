@@ -15,9 +15,6 @@ namespace {
 
 // m: longest rays. Myxomatous leaflets are up to 6 mm thick.
 constexpr double longest_ray = 12e-3;
-// Triangles of a side face one that is parallel within 37 degrees; triangles of a rounded rim face
-// none from there on.
-constexpr double parallel = 0.8;
 // Thickness of a side over the median: beyond, the ray runs along the leaflet.
 constexpr double thickest = 3;
 // Cosine of the angle between neighbours beyond which their edge is a ridge between the sides of a
@@ -152,7 +149,7 @@ void fill_notches(const std::vector<uint32_t> &across, const std::vector<Vec3> &
       std::array<int, 2> beside{};
       for (uint32_t side = 3 * t; side < 3 * t + 3; ++side) {
         const uint32_t u = across[side] == none ? none : across[side] / 3;
-        if (u == none || side_of[u] == none || normal[t].dot(normal[u]) < parallel) continue;
+        if (u == none || side_of[u] == none || normal[t].dot(normal[u]) < parallel_cosine) continue;
         ++beside[side_of[u]];
       }
       if (beside[0] < 2 && beside[1] < 2) continue;
@@ -186,7 +183,8 @@ void grow_flat(const LeafletSheet &skin, const std::vector<uint32_t> &across,
         if (u == none || before[u] == none) continue;
         // the direction is compared with the side itself, so that it does not creep around a rim
         const uint32_t from = seed[u];
-        if (normal[t].dot(normal[u]) < parallel || normal[t].dot(normal[from]) < bent) continue;
+        if (normal[t].dot(normal[u]) < parallel_cosine || normal[t].dot(normal[from]) < bent)
+          continue;
         const double size = std::sqrt(triangle_area(skin.x, skin.triangles[t]));
         if ((centre(t) - centre(from)).norm() > reach + 2 * size) continue;
         side_of[t] = before[u];
@@ -248,7 +246,7 @@ std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<Tissu
   for (uint32_t t = 0; t < n; ++t) {
     const TissueBehind &b = behind[t];
     marks[t] = b.triangle != none && b.thickness <= thickest * median &&
-               normal[t].dot(normal[b.triangle]) < -parallel;
+               normal[t].dot(normal[b.triangle]) < -parallel_cosine;
   }
   const std::vector<uint32_t> across = join_sides(skin.x, skin.triangles).across;
   std::vector<uint32_t> smooth = across;  // without ridges

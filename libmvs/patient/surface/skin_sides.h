@@ -8,6 +8,10 @@
 
 namespace mvs::core {
 
+// Cosine of 37 degrees: triangles of a side face one that is parallel within it, triangles of a
+// rounded rim face none from there on.
+inline constexpr double parallel_cosine = 0.8;
+
 // The tissue behind a triangle, along a ray from its centroid inward.
 struct TissueBehind {
   double thickness = 0;      // m; 0 if the ray leaves nowhere within 12 mm

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "geometry/distance.h"
 #include "patient/findings.h"
 
 namespace mvs::core {
@@ -27,9 +28,7 @@ double mean_distance(const LeafletSheet &sheet, const RimLoop &rim,
     double least2 = INFINITY;
     for (size_t k = 0; k < rim.loop.size(); ++k) {
       const Vec3 &a = sheet.x[rim.loop[k]], &b = sheet.x[rim.loop[(k + 1) % rim.loop.size()]];
-      const double length2 = (b - a).squaredNorm();
-      const double s = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0;
-      least2 = std::min(least2, (a + s * (b - a) - p).squaredNorm());
+      least2 = std::min(least2, closest_on_segment(p, a, b).distance2);
     }
     sum += std::sqrt(least2);
   }
