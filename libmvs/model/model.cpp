@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <atomic>
+#include <numeric>
 
 #include "base/error.h"
 #include "model/checks/check.h"
@@ -64,6 +65,11 @@ size_t sheet_vertices(const Model &model) {
     count += !model.topology.node_triangles[n].empty();
   }
   return count;
+}
+
+double mean_edge(const Model &model) {
+  const std::vector<double> &length = model.rest_length;
+  return std::accumulate(length.begin(), length.end(), 0.0) / static_cast<double>(length.size());
 }
 
 ModelPtr make_model(Valve valve, const Model *parent) {

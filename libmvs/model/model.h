@@ -70,6 +70,9 @@ ModelPtr make_model(Valve valve, const Model *parent = nullptr);
 // Returns the number of nodes with triangles.
 size_t sheet_vertices(const Model &model);
 
+// Returns the mean length of the edges at rest, m.
+double mean_edge(const Model &model);
+
 // Makes arrays that have the same bits as those of `other` share their memory; no value changes.
 void share(Model &model, const Model &other);
 void share(State &state, const State &other);

@@ -3,7 +3,6 @@
 #include "session/mesh_warnings.h"
 
 #include <algorithm>
-#include <numeric>
 #include <string>
 
 #include "base/error.h"
@@ -47,11 +46,6 @@ Needles needles_of(const Model &model) {
     }
   }
   return found;
-}
-
-double mean_edge(const Model &model) {
-  const std::vector<double> &length = model.rest_length;
-  return std::accumulate(length.begin(), length.end(), 0.0) / static_cast<double>(length.size());
 }
 
 // The remedy for triangles and edges that are too small: a mesh whose edges are well above the
@@ -106,10 +100,7 @@ void check_touching(const Model &model, std::vector<Fault> &found) {
   const Valve &valve = model.valve;
   const Vec3 &p = valve.rest.get()[touching.vertex];
   const double r = valve.contact_thickness;
-  const auto star = std::find_if(valve.triangles.begin(), valve.triangles.end(), [&](const Tri &t) {
-    return std::find(t.begin(), t.end(), touching.vertex) != t.end();
-  });
-  const uint32_t beside = static_cast<uint32_t>(star - valve.triangles.begin());
+  const uint32_t beside = model.topology.node_triangles[touching.vertex][0];
   found.push_back(
       {format("node %u", touching.vertex),
        format(

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "geometry/bvh.h"
@@ -94,11 +93,6 @@ class Neighbourhoods {
   std::vector<NearTriangle> near_;
 };
 
-double mean_side(const Model &model) {
-  const std::vector<double> &length = model.rest_length;
-  return std::accumulate(length.begin(), length.end(), 0.0) / static_cast<double>(length.size());
-}
-
 }  // namespace
 
 TouchingTissue find_touching_tissue(const Model &model) {
@@ -108,7 +102,7 @@ TouchingTissue find_touching_tissue(const Model &model) {
   double least2 = INFINITY;
   // If a vertex is clear within `thickness + skip`, by ways within `far - skip`, those nearer to it
   // than `skip` are clear as well. Where sides are longer, there are hardly any.
-  const double skip = mean_side(model) < 0.5 * thickness ? thickness : 0;
+  const double skip = mean_edge(model) < 0.5 * thickness ? thickness : 0;
   std::vector<uint8_t> is_clear(model.node_count(), 0);
   for (uint32_t v = 0; v < model.node_count(); ++v) {
     if (is_clear[v] != 0 || !neighbourhoods.is_tissue(v)) continue;
