@@ -47,7 +47,7 @@ struct Finding {
   std::string name;  // "annulus", "thickness": the key of import.json
   FindingSource source = FindingSource::measured;
   double confidence = 1;      // 0 to 1
-  std::string sentence;       // what was seen, and what to give if it is wrong
+  std::string sentence;       // the observation, and the remedy if it is wrong
   std::vector<double> value;  // SI
   std::string unit;           // "m", "m2", or ""
 };

@@ -30,8 +30,8 @@ constexpr double continued_by = 4, most_continued = 1e3, longest_slide = 0.5;
 // share of its length does not run along the sheet. The value is 0.13 over a crease of 60 degrees,
 // 0.5 across a passage.
 constexpr double off_of_length = 0.15;
-// Of the grain of the sheet: a node farther from the sheet than this is not on it. Nodes on it are
-// there but for rounding.
+// Distance from the sheet over its grain beyond which a node is not on the sheet. The distance of
+// nodes on it is a rounding error.
 constexpr double off_sheet = 1e-3;
 
 bool runs_along(const Rail &sheet, const Vec3 &a, const Vec3 &b) {
