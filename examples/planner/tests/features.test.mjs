@@ -175,7 +175,7 @@ describe('planner features', () => {
     await page.keyboard.press('Tab');
     await page.getByRole('button', { name: 'Measure the open area' }).click();
     await answered(page);
-    const { openArea, gradient } = await page.evaluate(() => window.planner.state.cost.value.value);
+    const { openArea, gradient } = await page.evaluate(() => window.planner.state.cost.value);
     // Bernoulli with the library's density and discharge coefficient (mvs/cost.h)
     const bernoulli = (0.5 * 1060 * (200e-6 / (0.85 * openArea * 1e-6)) ** 2) / 133.322;
     assert.ok(Math.abs(gradient - bernoulli) < 1e-6 * bernoulli, `${gradient}, Bernoulli ${bernoulli}`);

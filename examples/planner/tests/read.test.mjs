@@ -28,7 +28,7 @@ describe('planner read and touched', () => {
     await closed(page);
     const { spread, measures, regions, chords, heads } = await page.evaluate(() => {
       const { state } = window.planner;
-      return { spread: state.spread.value.value, ...state.main.value.figures };
+      return { spread: state.spread.value, ...state.main.value.figures };
     });
     assert.ok(spread.converged > 4);
     // the first closure is the one of the page; the numbers of the library are converted alike

@@ -66,7 +66,7 @@ export function pickField(name: string | null): void {
 
 /** Whether a draft has all that it needs for a preview. */
 export function complete(kind: string, fields: Record<string, FieldValue>): boolean {
-  const info = state.operations.value.find((operation) => operation.name === kind);
+  const info = state.operationOf(kind);
   if (!info) return false;
   if (info.fields.some((field) => field.required && fields[field.name] === undefined)) return false;
   if (kind === 'chord_length') return fields.length !== undefined || fields.factor !== undefined;

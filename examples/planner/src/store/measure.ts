@@ -76,12 +76,12 @@ export async function measureCost(): Promise<void> {
     flow: state.flow.value ?? 0,
   });
   if (!value) return;
-  state.cost.value = { hash: value.hash, value };
+  state.cost.value = value;
   keepOpening(value);
 }
 
 export async function measureSpread(): Promise<void> {
   if (!state.main.value) return;
   const value = await run(t.spreading, 'spread', { members: 8 });
-  if (value) state.spread.value = { hash: value.hash, value };
+  if (value) state.spread.value = value;
 }

@@ -16,7 +16,7 @@ const most = 2500;
 /** The opening of a closed valve if it was measured. */
 export function openingOf(hash: string | undefined): Cost | null {
   if (!hash) return null;
-  if (state.cost.value?.hash === hash) return state.cost.value.value;
+  if (state.cost.value?.hash === hash) return state.cost.value;
   return state.openings.value.get(hash) ?? null;
 }
 

@@ -37,6 +37,9 @@ export const ready = signal(false);
 export const broken = signal('');
 export const version = signal('');
 export const operations = signal<OperationInfo[]>([]);
+/** The row of an operation in the library's table. */
+export const operationOf = (kind: string | undefined): OperationInfo | undefined =>
+  operations.value.find(({ name }) => name === kind);
 
 /** The valve of the plan, the preview of an operation, and the moving picture that hides both. */
 export const main = signal<Shown | null>(null);
@@ -96,14 +99,14 @@ export const changed = signal(false);
 export const onlyHere = signal(false);
 /** Counts the plans that were begun: opened, built or recovered. */
 export const plan = signal(0);
-export const cost = signal<{ hash: string; value: Cost } | null>(null);
+export const cost = signal<Cost | null>(null);
 /** A view that something other than the picture asks for. */
 export const wantedView = signal<{ preset: 'surgeon' | 'ventricle' } | null>(null);
 /** Openings of previews and of the valves before them, by hash. */
 export const openings = signal<Map<string, Cost>>(new Map());
 /** ml/s through the open valve, where it is known. */
 export const flow = signal<number | null>(null);
-export const spread = signal<{ hash: string; value: Spread } | null>(null);
+export const spread = signal<Spread | null>(null);
 export const tour = signal<{ number: number; founding: FoundingResult | null } | null>(null);
 /** Valves of the tour whose goals were all reached since the page was opened. */
 export const finished = signal<number[]>([]);
@@ -177,9 +180,7 @@ export const shown = computed<Shown | null>(() =>
 );
 export const figures = computed<Figures | null>(() => (coming.value ? null : (shown.value?.figures ?? null)));
 /** The spread of the valve whose figures are shown, if it was measured. */
-export const shownSpread = computed(() =>
-  spread.value && spread.value.hash === figures.value?.hash ? spread.value.value : null,
-);
+export const shownSpread = computed(() => (spread.value?.hash === figures.value?.hash ? spread.value : null));
 /** The figures to compare with. */
 export const before = computed<Figures | null>(() =>
   inPast.value ? null : (earlier.value?.figures ?? null),

@@ -28,7 +28,7 @@ const prominent: Record<string, string[]> = {
 
 export function OperationForm() {
   const draft = state.draft.value!;
-  const info = state.operations.value.find((operation) => operation.name === draft.kind)!;
+  const info = state.operationOf(draft.kind)!;
   const words = wordsOf(draft.kind, info.help);
   const usable = info.fields.filter((field) => field.type !== 'point' && !field.name.startsWith('landmarks'));
   // of an operation that the page does not know: what is required, or all of them where nothing is

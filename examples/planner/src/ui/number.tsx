@@ -30,13 +30,18 @@ export function labelOf({ field, label }: FieldProps): string {
   return label ?? (field.label || field.name);
 }
 
+/** The unit in which a field is shown, and its factor on the value: shares are shown in percent. */
+function shownUnit(field: FieldInfo): { unit: string; scale: number } {
+  const isShare = shares.has(field.name) && field.unit === '';
+  return isShare ? { unit: '%', scale: 100 } : { unit: field.unit, scale: 1 };
+}
+
 /** The tooltip of a field, with the value that an empty one stands for where that has a unit. */
 export function tipOf({ kind, field }: FieldProps): string {
-  const percent = shares.has(field.name) && field.unit === '';
-  const unit = percent ? '%' : field.unit;
+  const { unit, scale } = shownUnit(field);
   const value = fallbackOf(field);
-  const plain = value === undefined || !unit || (!Number.isFinite(field.fallbackValue) && !percent);
-  const usual = plain ? '' : `${+(value * (percent ? 100 : 1)).toPrecision(3)} ${unit}`;
+  const plain = value === undefined || !unit || (!Number.isFinite(field.fallbackValue) && scale === 1);
+  const usual = plain ? '' : `${+(value * scale).toPrecision(3)} ${unit}`;
   return fieldTip(kind, field.name, field.help, usual);
 }
 
@@ -72,9 +77,7 @@ let typed = false;
 export function NumberField(props: FieldProps) {
   const { kind, field } = props;
   const value = state.draft.value?.fields[field.name] as number | undefined;
-  const percent = shares.has(field.name) && field.unit === '';
-  const scale = percent ? 100 : 1;
-  const unit = percent ? '%' : field.unit;
+  const { unit, scale } = shownUnit(field);
   const range = sliders[kind]?.[field.name];
   const rest = kind === 'chord_length' && field.name === 'length' ? restOfChord() : null;
   const given = fallbackOf(field);

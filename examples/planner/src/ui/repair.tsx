@@ -76,7 +76,7 @@ export function firstFields(kind: string): Record<string, FieldValue> {
 
 /** The field that the first click in the picture fills. */
 export function firstPick(kind: string, fields: Record<string, FieldValue>): string | null {
-  const info = state.operations.value.find((operation) => operation.name === kind);
+  const info = state.operationOf(kind);
   const asks =
     info?.fields.filter(
       (field) => ['chord', 'site', 'head'].includes(field.type) && fields[field.name] === undefined,
@@ -87,7 +87,7 @@ export function firstPick(kind: string, fields: Record<string, FieldValue>): str
 
 export function begin(kind: string): void {
   const fields = firstFields(kind);
-  const info = state.operations.value.find((operation) => operation.name === kind);
+  const info = state.operationOf(kind);
   // a chord that the operation is not about is let go
   if (state.choice.value?.kind === 'chord' && !info?.fields.some((field) => field.type === 'chord'))
     state.choice.value = null;

@@ -194,7 +194,7 @@ function headName(h: number): string {
 }
 
 function OpenArea({ figures }: { figures: Figures }) {
-  const cost = state.cost.value?.hash === figures.hash ? state.cost.value.value : null;
+  const cost = state.cost.value?.hash === figures.hash ? state.cost.value : null;
   return (
     <Section title={valveTexts.opens}>
       <div class="field">

@@ -8,7 +8,7 @@ export function fillField(hit: Hit, name: string): void {
   const draft = state.draft.value;
   const picture = state.main.value?.picture;
   const topology = picture && state.topologyOf(picture);
-  const info = state.operations.value.find((operation) => operation.name === draft?.kind);
+  const info = state.operationOf(draft?.kind);
   const field = info?.fields.find((candidate) => candidate.name === name);
   if (!draft || !topology || !field || !picture) return;
   if (field.type === 'head' && hit.head >= 0) setField(name, topology.heads[hit.head].id);
@@ -27,7 +27,7 @@ function fillSite(name: string, hit: Hit): void {
   const topology = state.topologyOf(picture)!;
   const { triangle, u, at } = hit.surface!;
   const fields = { ...draft.fields, [name]: { triangle, u } };
-  const info = state.operations.value.find((operation) => operation.name === draft.kind);
+  const info = state.operationOf(draft.kind);
   const head = info?.fields.find((field) => field.type === 'head' && field.required);
   if (head && fields[head.name] === undefined) {
     const range = (node: number) =>

@@ -1,24 +1,20 @@
 // A place that is clicked in the preview of an operation, in the valve before it: the operation may have divided triangles.
 import * as state from '../store/state';
 import type { Picture, Site, Topology } from '../protocol';
-import type { SurfaceHit } from './pick';
+import { point } from './mesh';
+import { placeIn, type SurfaceHit } from './pick';
 
 type Vector = [number, number, number];
 
 /** Origin of a node that the operation has made. */
 const made = 0xffffffff;
 
-function pointOf(topology: Topology, x: Float32Array, triangle: number, u: number[]): Vector {
-  const nodes = topology.triangles.subarray(3 * triangle, 3 * triangle + 3);
-  return [0, 1, 2].map((c) => nodes.reduce((sum, node, k) => sum + u[k] * x[3 * node + c], 0)) as Vector;
-}
-
 /** Places of the preview's nodes in the valve before: by their origin, that of the made node is the place in the form. */
 function placesBefore(shown: Topology, old: Topology, x: Float32Array, at: Vector | null): (Vector | null)[] {
   const rows = new Map(Array.from(old.origin, (origin, row) => [origin, row]));
   return Array.from(shown.origin, (origin) => {
     const row = origin === made ? undefined : rows.get(origin);
-    return row === undefined ? at : [x[3 * row], x[3 * row + 1], x[3 * row + 2]];
+    return row === undefined ? at : point(x, row);
   });
 }
 
@@ -54,7 +50,7 @@ export function beforePreview(hit: SurfaceHit): SurfaceHit | null {
     (value): value is Extract<Site, { triangle: number }> =>
       typeof value === 'object' && 'triangle' in (value as object),
   );
-  const places = placesBefore(shown, old, x, site ? pointOf(old, x, site.triangle, site.u) : null);
+  const places = placesBefore(shown, old, x, site ? placeIn(old, x, site) : null);
   const corners = Array.from(
     shown.triangles.subarray(3 * hit.triangle, 3 * hit.triangle + 3),
     (node) => places[node],
@@ -66,7 +62,7 @@ export function beforePreview(hit: SurfaceHit): SurfaceHit | null {
   let best: SurfaceHit | null = null;
   let nearest = flat;
   for (let t = 0; t < old.triangles.length / 3; ++t) {
-    const own = [0, 1, 2].map((k) => pointOf(old, x, t, [+(k === 0), +(k === 1), +(k === 2)]));
+    const own = Array.from(old.triangles.subarray(3 * t, 3 * t + 3), (node) => point(x, node));
     const foot = footOn(own, at);
     if (!foot || foot.off >= nearest) continue;
     nearest = foot.off;

@@ -81,7 +81,7 @@ function answerOf(hit: Hit, topology: Topology, asks: FieldInfo[]): { field: Fie
 function answer(hit: Hit, topology: Topology): boolean {
   const draft = state.draft.value;
   const before = state.topologyOf(state.main.value!.picture);
-  const info = state.operations.value.find((operation) => operation.name === draft?.kind);
+  const info = state.operationOf(draft?.kind);
   const asks = info?.fields.filter((candidate) => candidate.required) ?? [];
   if (!draft || !before) return false;
   const part = answerOf(hit, topology, asks);

@@ -73,7 +73,7 @@ export function clipPlace(): ClipPlace | null {
 
 /** The largest turn of the form's field, degrees. */
 function largestAngle(): number {
-  const clip = state.operations.value.find((operation) => operation.name === 'clip');
+  const clip = state.operationOf('clip');
   return Math.floor(clip?.fields.find((field) => field.name === 'angle')?.high ?? 0);
 }
 

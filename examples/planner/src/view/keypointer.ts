@@ -28,7 +28,7 @@ function asked(): boolean {
 /** The type of the field that a click fills; an outline is made of places on the leaflet. */
 function askedType(): string {
   if (state.picking.value === 'outline') return 'site';
-  const info = state.operations.value.find((operation) => operation.name === state.draft.value?.kind);
+  const info = state.operationOf(state.draft.value?.kind);
   return info?.fields.find((field) => field.name === state.picking.value)?.type ?? '';
 }
 

@@ -20,7 +20,7 @@ export interface Mesh {
 }
 
 /** The place of a node. */
-export function point(x: Float32Array, node: number): number[] {
+export function point(x: Float32Array, node: number): [number, number, number] {
   return [x[3 * node], x[3 * node + 1], x[3 * node + 2]];
 }
 

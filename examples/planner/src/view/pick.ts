@@ -229,8 +229,12 @@ function meant(head: Candidate, chord: Candidate, surface: SurfaceHit | null): H
   return surface && 'surface';
 }
 
-/** The place of a hit in the middle of the tissue. */
-function placeIn(topology: Topology, x: Float32Array, { triangle, u }: SurfaceHit): SurfaceHit['at'] {
+/** The place of barycentric weights in a triangle, in the middle of the tissue. */
+export function placeIn(
+  topology: Topology,
+  x: Float32Array,
+  { triangle, u }: { triangle: number; u: number[] },
+): SurfaceHit['at'] {
   const nodes = topology.triangles.subarray(3 * triangle, 3 * triangle + 3);
   const sum = (c: number) =>
     u[0] * x[3 * nodes[0] + c] + u[1] * x[3 * nodes[1] + c] + u[2] * x[3 * nodes[2] + c];
