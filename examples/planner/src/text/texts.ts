@@ -280,7 +280,7 @@ export const tourTexts = {
     edge: (scallop: string, height: number | null) =>
       `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
     chords: (percent: number | null) =>
-      `No chord above ${percent ?? '…'} % of its working limit, 10 % more than before the illness`,
+      `No chord above ${percent ?? '…'} % of its working limit: 10 % above the limit, or above the load before the illness where that was higher`,
     open: 'Open area at least 90 % of that before the illness',
   },
   shortGoals: {
@@ -753,7 +753,7 @@ export const reportTexts = {
   title: 'Report',
   fileTitle: 'Valve report',
   fileName: (title: string) => `${title || 'valve'} report.html`,
-  closed: (when: string) => `${when}. Closed at 120 mmHg.`,
+  closed: (when: string) => `${when}. The present plan, closed at 120 mmHg.`,
   before: 'Before',
   after: 'After',
   section: 'Section through the middle',
