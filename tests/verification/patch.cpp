@@ -24,12 +24,6 @@ void disturb(Valve &valve, const std::vector<uint32_t> &rim, double cell) {
 
 }  // namespace
 
-double mean_edge(const Model &model) {
-  double sum = 0;
-  for (const double length : model.rest_length) sum += length;
-  return sum / static_cast<double>(model.rest_length.size());
-}
-
 Patch::Patch(const Published &law, uint32_t cells)
     : Patch(law, cells, law.law == LeafletLawId::spring ? equilateral : irregular) {}
 

@@ -40,6 +40,4 @@ class Patch {
   double volume_ = 0;  // m3
 };
 
-double mean_edge(const Model &model);
-
 }  // namespace mvs::core::verification
