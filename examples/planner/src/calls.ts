@@ -22,7 +22,7 @@ import type {
 
 /** How far a valve opens; the gradient of a flow in ml/s, where it is not 0. */
 export interface CostRequest {
-  which: 'main' | 'preview' | `checkpoint ${string}`;
+  which: 'main' | 'preview' | 'first' | `checkpoint ${string}`;
   flow: number;
 }
 

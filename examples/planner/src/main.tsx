@@ -9,6 +9,7 @@ import { keepFollowing, visited } from './store/keep';
 import { findCopies } from './store/recovery';
 import * as state from './store/state';
 import { watchOpening } from './store/opening';
+import { watchResult } from './store/result';
 import { watchTour } from './store/tour';
 import { barTexts, t } from './text/texts';
 import { decode } from './shipped';
@@ -46,6 +47,7 @@ async function start(): Promise<void> {
   }
   watchTour();
   watchOpening();
+  watchResult();
   await findCopies();
   keepFollowing();
 }

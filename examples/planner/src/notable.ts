@@ -61,5 +61,9 @@ export function leakPlaces(parts: OrificePart[]): OrificePart[] {
   return parts.filter((part) => part.area >= Math.min(smallLeak, largest));
 }
 
-/** The clip that a stitch belongs to: its stitches are chordae "clip", "clip/2", "clip/3"; empty for other names. */
-export const clipOf = (name: string): string => (/^clip/.test(name) ? name.replace(/\/\d+$/, '') : '');
+/** The cut that a stitch closes, "P2 suture" of "P2 suture 3"; empty for stitches of a clip. */
+export const cutOf = (name: string): string =>
+  / suture(?= \d+$)/.test(name) ? name.replace(/ \d+$/, '') : '';
+
+/** The clip that a stitch belongs to, which may have any name: its stitches are "clip", "clip/2", "clip/3"; empty for those of a cut. */
+export const clipOf = (name: string): string => (cutOf(name) ? '' : name.replace(/\/\d+$/, ''));

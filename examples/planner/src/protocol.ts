@@ -19,6 +19,8 @@ export interface Topology {
   chordNodes: Uint32Array;
   chordKind: Uint32Array;
   chordRadius: Float32Array;
+  /** 1 for sutures and artificial chordae, by their modulus. */
+  chordArtificial: Uint32Array;
   headNodes: Uint32Array;
   origin: Uint32Array;
   leaflets: Part[];

@@ -76,8 +76,71 @@ describe('planner features', () => {
     assert.ok(Math.abs(position) > 0.15, `position ${position}`);
     await apply(page);
     await openPanel(page, 'Valve');
-    assert.match(await page.getByTestId('devices').innerText(), /clip\s+\d+ stitches/);
+    assert.match(await page.getByTestId('devices').innerText(), /Clip\s+joins A2 and P2 over \d+\smm/);
     await undo(page);
+  });
+
+  it('slides_a_clip_to_the_side_to_which_its_slider_goes', async () => {
+    await page.keyboard.press('1');
+    await cameraRests(page);
+    await begin(page, 'clip');
+    const slider = page.locator('input[type=range][aria-label^="Position"]');
+    const ends = page.locator('.field', { has: slider }).locator('.ends');
+    assert.equal((await ends.innerText()).replace(/\s+/g, ' '), 'anterolateral posteromedial');
+    const middle = (await labelled('Clip')).x;
+    await slider.focus();
+    for (let k = 0; k < 6; ++k) await page.keyboard.press('ArrowRight');
+    await answered(page, 300);
+    const right = (await labelled('Clip')).x;
+    assert.ok(right > middle + 5, `from ${middle} to ${right}`);
+    assert.equal(
+      await slider.getAttribute('aria-valuetext'),
+      '30\u00a0% of the way to the posteromedial end',
+    );
+    // the chordae that tell the sides: posteromedial is where the heads PM are
+    const side = await page.evaluate(() => {
+      const { state, viewport } = window.planner;
+      const { picture } = state.main.value;
+      const topology = state.topologyOf(picture);
+      const x = (name) => {
+        const node = topology.headNodes[topology.heads.findIndex((part) => part.name === name)];
+        const at = picture.positions.slice(3 * node, 3 * node + 3);
+        return viewport.camera.project(...at, viewport.width, viewport.height)[0];
+      };
+      return x('PM1') - x('AL1');
+    });
+    assert.ok(side > 0, 'posteromedial is to the right');
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+  });
+
+  it('names_devices_as_a_surgeon_does', async () => {
+    const add = async (kind, fields) => {
+      await page.evaluate(([operation, given]) => window.planner.edit(operation, given), [kind, fields]);
+      await closed(page);
+      await apply(page);
+    };
+    const id = (scallop) =>
+      page.evaluate(
+        (name) =>
+          window.planner.state
+            .topologyOf(window.planner.state.main.value.picture)
+            .scallops.find((part) => part.name === name).id,
+        scallop,
+      );
+    await add('ring', { size: 34 });
+    // a clip may have any name, and is a clip in list and picture all the same
+    await add('clip', { name: 'XTW' });
+    await add('resect', { scallop: await id('P1'), width: 5, depth: 5 });
+    await openPanel(page, 'Valve');
+    const rows = [];
+    for (const row of await page.getByTestId('devices').locator('tbody tr').all())
+      rows.push((await row.locator('th, td').allInnerTexts()).map((text) => text.replace(/\s+/g, ' ')));
+    assert.match(rows[0].join(': '), /^Ring: 3\d\.\d mm wide/);
+    assert.match(rows[1].join(': '), /^Clip XTW: joins A2 and P2 over \d mm, strongest pull \d+ mN$/);
+    assert.deepEqual(rows[2], ['Suture', 'closes the cut in P1']);
+    assert.equal(rows.length, 3);
+    for (let k = 0; k < 3; ++k) await undo(page);
   });
 
   it('turns_a_clip_by_its_handle_and_by_keys', async () => {

@@ -23,9 +23,29 @@ function passes(a, b, box) {
   return false;
 }
 
+/** Lets a test hold back what the worker answers, as a slow one does: `hold(true)`, and in their order `hold(false)`. */
+function holdAnswers() {
+  const { get, set } = Object.getOwnPropertyDescriptor(Worker.prototype, 'onmessage');
+  const held = [];
+  let holding = false;
+  window.heldAnswers = () => held.length;
+  window.hold = (on) => {
+    holding = on;
+    while (!on && held.length) held.shift()();
+  };
+  Object.defineProperty(Worker.prototype, 'onmessage', {
+    get,
+    set(take) {
+      set.call(this, (event) => (holding ? held.push(() => take(event)) : take(event)));
+    },
+  });
+}
+
 describe('planner to look at', () => {
   let page;
-  sharePlanner((opened) => ({ page } = opened));
+  sharePlanner((opened) => ({ page } = opened), {
+    prepare: (context) => context.addInitScript(holdAnswers),
+  });
   const positions = (name) =>
     page.evaluate((which) => [...window.planner.state[which].value.picture.positions], name);
   const shown = () => page.evaluate(() => [...window.planner.state.picture.value.positions]);
@@ -128,6 +148,37 @@ describe('planner to look at', () => {
     await begin(page, 'annulus_scale');
     assert.deepEqual(await shown(), await positions('preview'));
     await page.keyboard.press('Escape');
+  });
+
+  it('keeps_the_valve_before_in_sight_when_a_preview_comes_late', async () => {
+    await begin(page, 'annulus_scale');
+    await answered(page);
+    const hold = (on) => page.evaluate((value) => window.hold(value), on);
+    const held = () => page.evaluate(() => window.heldAnswers());
+    const past = () => page.evaluate(() => window.planner.state.inPast.value);
+    await hold(true);
+    await page.locator('#f-factor').fill('97');
+    await page.keyboard.press('Enter');
+    // the shape, the leak and all figures of the newer form
+    while ((await held()) < 3) await page.waitForTimeout(20);
+    await page.getByRole('button', { name: 'Before', exact: true }).click();
+    await hold(false);
+    await answered(page, 300);
+    assert.ok(await past(), 'the late preview took the valve before away');
+    assert.deepEqual(await shown(), await positions('main'));
+    await page.getByRole('button', { name: 'Preview' }).click();
+    assert.deepEqual(await shown(), await positions('preview'));
+    // a newer form shows its preview
+    await page.getByRole('button', { name: 'Before', exact: true }).click();
+    await page.locator('#f-factor').fill('96');
+    await page.keyboard.press('Enter');
+    assert.ok(!(await past()));
+    await answered(page);
+    // with a form that is left, “before” would be another valve
+    await page.getByRole('button', { name: 'Before', exact: true }).click();
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+    assert.ok(!(await past()));
   });
 
   it('covers_no_leaflet_by_a_notice', async () => {

@@ -146,8 +146,14 @@ describe('planner', () => {
       });
     });
     await begin(page, 'annulus_scale');
+    await page.evaluate(() => {
+      const { state } = window.planner;
+      const stop = state.preview.subscribe((preview) => {
+        if (preview?.figures.known !== 'shape' || state.draft.value?.fields.factor !== 0.94) return;
+        queueMicrotask(() => (stop(), document.querySelector('[data-testid=form]').requestSubmit()));
+      });
+    });
     await page.locator('#f-factor').fill('94');
-    await page.keyboard.press('Enter');
     await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
     await closed(page);
@@ -186,9 +192,48 @@ describe('planner', () => {
     await page.locator('#f-factor').fill('93');
     await page.keyboard.press('Enter');
     assert.equal(await page.evaluate(() => window.planner.state.draft.value?.fields.factor), 0.93);
+    await answered(page);
     await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
+    await closed(page);
     assert.match((await figures(page)).history.at(-1).title, /93/);
+    await undo(page);
+  });
+
+  it('applies_nothing_whose_result_is_still_to_come', async () => {
+    const applied = async () => (await figures(page)).history.filter((entry) => !entry.undone).length;
+    const before = await applied();
+    await begin(page, 'annulus_scale');
+    await answered(page);
+    // Enter takes the number, and further ones come before its result: also after it the form is open
+    const early = await page.evaluate(() => {
+      const form = document.querySelector('[data-testid=form]');
+      window.planner.edit('annulus_scale', { factor: 0.91 });
+      for (let k = 0; k < 3; ++k) form.requestSubmit();
+      return new Promise((resolve) =>
+        setTimeout(
+          () =>
+            resolve({
+              hint: document.querySelector('[data-testid=trying]')?.innerText,
+              status: document.querySelector('[data-testid=status]').innerText,
+              outdated: window.planner.state.outdated.value,
+            }),
+          0,
+        ),
+      );
+    });
+    assert.ok(early.outdated, 'the result came before it was looked at');
+    assert.match(early.status, /^Not applied: its result is still to come/);
+    assert.match(early.hint, /^Not applied: its result is still to come/);
+    await answered(page, 500);
+    assert.equal(await page.evaluate(() => window.planner.state.draft.value?.fields.factor), 0.91);
+    assert.match(await page.getByTestId('status').innerText(), /^Preview: Sealed/);
+    // the next one applies what is seen
+    await page.locator('#f-factor').focus();
+    await page.keyboard.press('Enter');
+    await page.getByTestId('form').waitFor({ state: 'detached' });
+    await closed(page);
+    assert.equal(await applied(), before + 1);
     await undo(page);
   });
 

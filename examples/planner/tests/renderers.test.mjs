@@ -2,7 +2,34 @@
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { closed, withPlanner } from './browser.mjs';
-import { cameraRests, openPanel } from './person.mjs';
+import { cameraRests, chordNames, openPanel } from './person.mjs';
+
+/** Changes between dark and light along the middle of the tube of a chord, in its image; -1 where a leaflet or a head hides most of it. */
+function bandsOf(page, name) {
+  return page.evaluate(async (wanted) => {
+    const { state, viewport } = window.planner;
+    const picture = state.picture.value;
+    const topology = state.topologyOf(picture);
+    const k = topology.chords.findIndex((part) => part.name === wanted);
+    const [a, b] = [0, 1].map((end) => {
+      const node = topology.chordNodes[2 * k + end];
+      const at = picture.positions.slice(3 * node, 3 * node + 3);
+      return viewport.camera.project(...at, viewport.width, viewport.height);
+    });
+    const image = await window.pixels();
+    const scale = image.width / viewport.width;
+    let [changes, dark] = [0, null];
+    for (let s = 0.3; s <= 0.9; s += 1 / 512) {
+      const [x, y] = [0, 1].map((c) => Math.round(scale * (a[c] + s * (b[c] - a[c]))));
+      const light = [0, 1, 2].reduce((sum, c) => sum + image.data[4 * (y * image.width + x) + c] / 3, 0);
+      // bands are near 20 and 200 of 255: between them nothing is counted
+      const now = light < 70 ? true : light > 110 ? false : dark;
+      if (dark !== null && now !== dark) ++changes;
+      dark = now;
+    }
+    return changes;
+  }, name);
+}
 
 /** How much redder than blue the picture is around the leak, of 255, in the mean. */
 function rednessAtLeak(page) {
@@ -23,6 +50,42 @@ function rednessAtLeak(page) {
 }
 
 describe('planner renderers', () => {
+  it('draw_artificial_chordae_in_bands_and_native_ones_in_one_colour', async () => {
+    for (const hash of ['#software', '#webgl'])
+      await withPlanner({ hash }, async ({ page }) => {
+        const names = {};
+        for (const kind of ['neochord', 'chord_add']) {
+          const before = await chordNames(page);
+          await page.evaluate((operation) => {
+            const { state, edit } = window.planner;
+            const topology = state.topologyOf(state.main.value.picture);
+            const scallop = topology.scallops.find((part) => part.name === 'P2').id;
+            edit(operation, { head: topology.heads[0].id, site: { scallop, along: 0.5, height: 0.4 } });
+          }, kind);
+          await closed(page);
+          await page.keyboard.press('Enter');
+          await page.getByTestId('form').waitFor({ state: 'detached' });
+          await closed(page);
+          names[kind] = (await chordNames(page)).find((name) => !before.includes(name));
+        }
+        const keys = page.locator('.scale');
+        assert.match(await keys.innerText(), /artificial chord/);
+        const bands = {};
+        for (const [kind, name] of Object.entries(names)) {
+          await page.keyboard.press('2');
+          await cameraRests(page);
+          await page.waitForTimeout(400);
+          bands[kind] = await bandsOf(page, name);
+        }
+        assert.ok(bands.neochord >= 6, `${hash}: ${bands.neochord} changes along the artificial chord`);
+        assert.ok(bands.chord_add <= 3, `${hash}: ${bands.chord_add} changes along the native chord`);
+        // in a colour map as well
+        await page.getByLabel('Colours').selectOption({ label: 'Chord pull' });
+        await page.waitForTimeout(400);
+        assert.match(await keys.innerText(), /artificial chord/);
+      });
+  });
+
   it('show_the_leak_behind_the_leaflets_alike', async () => {
     const seen = {};
     for (const hash of ['#software', '#webgl'])

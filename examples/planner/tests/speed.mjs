@@ -78,6 +78,8 @@ async function applyTyped(page) {
     await begin(page, 'annulus_scale');
     await page.locator('#f-factor').fill(String(k % 2 ? 104 : 97));
     await page.keyboard.press('Enter');
+    // nothing is applied before its result is shown
+    while (await page.evaluate(() => window.planner.state.outdated.value)) await page.waitForTimeout(5);
     await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
     await closed(page);

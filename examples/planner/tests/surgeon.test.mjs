@@ -94,7 +94,7 @@ describe('planner as a surgeon reads it', () => {
     await begin(page, 'band');
     await apply(page);
     await openPanel(page, 'Valve');
-    assert.match(await page.getByTestId('devices').innerText(), /band\s+[\d.]+\smm long/);
+    assert.match(await page.getByTestId('devices').innerText(), /Posterior band\s+[\d.]+\smm long/);
     await page.keyboard.press('o');
     await page.getByTestId('verdict').getByText('when closed').waitFor();
     await page.keyboard.press('w');

@@ -1,9 +1,10 @@
 // The operation in the form and its preview. The shape of a preview is shown before its figures are known. A newer
 // value does not interrupt the shape of an older one unless that takes long: the picture then follows a slider.
 import { batch } from '@preact/signals';
-import { t } from '../text/texts';
+import { say, t } from '../text/texts';
 import type { FieldValue, Shown } from '../protocol';
 import { cancel, complete as addFigures, fail, isCancelled, request, sentenceOf, show } from './requests';
+import { sayPreview } from './result';
 import * as state from './state';
 
 /** ms for which a newer value waits for the shape of an older one. */
@@ -12,14 +13,12 @@ const patience = 250;
 /** The preview that the worker calculates. */
 let under: { id: number; draft: state.Draft; shaped: boolean } | null = null;
 let timer = 0;
-/** Apply was pressed before the shape of the present form was known. */
-let applyNext = false;
 
 /** Begins or changes an operation; its preview follows. */
 export function edit(kind: string, fields: Record<string, FieldValue>): void {
-  applyNext = false;
   batch(() => {
     state.draft.value = { kind, fields };
+    state.early.value = false;
     state.panel.value = 'repair';
     state.motion.value = null;
     state.openness.value = 1;
@@ -120,7 +119,6 @@ async function calculate(draft: state.Draft): Promise<void> {
       under.shaped = true;
       reveal(draft, shown);
       if (timer) next();
-      else if (applyNext) void apply();
     },
   });
   under = { id: call.id, draft, shaped: false };
@@ -143,7 +141,6 @@ function ended(): void {
     state.pending.value = false;
     state.busy.value = null;
   });
-  if (applyNext) void apply();
 }
 
 function reveal(draft: state.Draft, shown: Shown): void {
@@ -155,12 +152,11 @@ function reveal(draft: state.Draft, shown: Shown): void {
     state.previewed.value = draft;
     state.draftMessage.value = '';
     if (shown.figures.known === 'shape') state.busy.value = null;
-    else if (shown.figures.known === 'all') state.status.value = t.previewLine(shown.figures);
+    else if (shown.figures.known === 'all') sayPreview(shown.figures);
   });
 }
 
 function refuse(draft: state.Draft, sentence: string): void {
-  applyNext = false;
   batch(() => {
     state.preview.value = null;
     state.previewed.value = draft;
@@ -170,8 +166,8 @@ function refuse(draft: state.Draft, sentence: string): void {
 }
 
 /**
- * Applies the operation of the form, as soon as the shape of its preview is there; figures that are still to come
- * follow on the valve of the plan.
+ * Applies the operation of the form, whose preview the picture shows: before it does, nothing is applied, and the status line
+ * says so. Figures that are still to come follow on the valve of the plan.
  */
 export async function apply(): Promise<void> {
   const draft = state.draft.value;
@@ -179,17 +175,16 @@ export async function apply(): Promise<void> {
   const shown = state.preview.value;
   if (!shown || state.outdated.value) {
     if (!state.pending.value) refresh();
-    applyNext = state.pending.value;
+    if (state.pending.value) [state.early.value, state.status.value] = [true, t.notSeen];
     return;
   }
-  applyNext = false;
   if (under) cancel(under.id);
   under = null;
   const accepted = request('accept', { has: shown.figures.known }, { stage: addFigures });
   batch(() => {
     state.pending.value = false;
     state.busy.value = null;
-    show(shown, false);
+    show(shown, false, say(shown.figures.history.filter((entry) => !entry.undone).at(-1)?.title ?? ''));
     state.changed.value = true;
   });
   try {
@@ -202,7 +197,6 @@ export async function apply(): Promise<void> {
 
 /** Leaves the form without a change. */
 export function discard(): void {
-  applyNext = false;
   leavePreview();
   batch(() => {
     state.draft.value = null;

@@ -3,22 +3,15 @@
 import { effect, untracked } from '@preact/signals';
 import type { CostRequest } from '../calls';
 import type { Cost, Shown } from '../protocol';
+import { narrowing, openingOf } from './limits';
 import { fail, request } from './requests';
 import * as state from './state';
+import { isNarrowed } from './verdict';
 
-/** Operations that narrow the open valve. */
-export const narrowing = new Set(['ring', 'band', 'annulus_scale', 'clip', 'resect']);
 /** ms without a change of the form before the worker is taken for it; it cannot be interrupted. */
 const rest = 400;
 /** Vertices above which it takes too long to be done unasked. */
 const most = 2500;
-
-/** The opening of a closed valve if it was measured. */
-export function openingOf(hash: string | undefined): Cost | null {
-  if (!hash) return null;
-  if (state.cost.value?.hash === hash) return state.cost.value;
-  return state.openings.value.get(hash) ?? null;
-}
 
 /** Remembers the opening of the closed valve that was measured, among the last ones. */
 export function keepOpening(found: Cost): void {
@@ -69,8 +62,37 @@ function watchCompared(): void {
   });
 }
 
+/** The valve whose opening was asked for last: a failure is not repeated. */
+let asked = '';
+
+/** Measures the valve of the plan where an operation may have narrowed it: its verdict waits for that. */
+function watchNarrowed(): void {
+  let timer = 0;
+  effect(() => {
+    window.clearTimeout(timer);
+    const { main, draft, busy, motion, handing, surface } = state;
+    const figures = main.value?.figures;
+    const idle = !draft.value && !busy.value && !motion.value && !handing.value && !surface.value;
+    if (!idle || figures?.known !== 'all' || !figures.measures.atRest) return;
+    if (!isNarrowed(figures) || openingOf(figures.hash) || asked === figures.hash) return;
+    if (main.value!.picture.positions.length > 3 * most) return;
+    timer = window.setTimeout(() => {
+      asked = figures.hash;
+      measure('main').catch(fail);
+    }, rest);
+  });
+}
+
+/** Measures the first and the present valve of the plan, for the report; larger ones too. */
+export async function measurePlan(): Promise<void> {
+  const { first, main } = state;
+  if (!openingOf(main.value?.figures.hash)) await measure('main');
+  if (!openingOf(first.value?.figures.hash)) await measure('first');
+}
+
 export function watchOpening(): void {
   watchCompared();
+  watchNarrowed();
   let timer = 0;
   effect(() => {
     const { draft, pending, busy, preview } = state;

@@ -4,6 +4,7 @@ import { say, t } from '../text/texts';
 import type { CallName, Calls } from '../calls';
 import type { Shown } from '../protocol';
 import { CallError, Client, type CallOptions } from './client';
+import { sayResult } from './result';
 import * as state from './state';
 
 let client: Client;
@@ -67,10 +68,12 @@ export function complete(shown: Shown): void {
   const same = value.figures.known !== 'shape';
   batch(() => {
     state.main.value = same ? { ...shown, picture: value.picture } : shown;
-    if (shown.figures.known === 'all' && !state.preview.value)
-      if (shown.figures.known === 'all') state.status.value = t.statusLine(shown.figures);
+    if (shown.figures.known === 'all' && !state.preview.value) sayResult(shown.figures);
   });
 }
+
+/** What the status line calls a change. */
+const doneBy = { undo: t.undone, redo: t.repeated, restore: t.returned };
 
 /** Runs a request that changes the valve of the plan, and shows it in stages. */
 export async function change<Name extends 'undo' | 'redo' | 'restore'>(
@@ -82,14 +85,14 @@ export async function change<Name extends 'undo' | 'redo' | 'restore'>(
   const stage = (shown: Shown) => {
     if (begun) return complete(shown);
     begun = true;
-    show(shown, false);
+    show(shown, false, doneBy[name]);
   };
   const shown = await run(text, name, argument, { stage });
   if (shown) stage(shown as Shown);
 }
 
-/** Shows a valve as that of the plan; `fresh` where it begins another plan. */
-export function show(shown: Shown, fresh: boolean): void {
+/** Shows a valve as that of the plan; `fresh` where it begins another plan; `done` names what gave it. */
+export function show(shown: Shown, fresh: boolean, done = ''): void {
   batch(() => {
     state.main.value = shown;
     state.preview.value = null;
@@ -109,6 +112,6 @@ export function show(shown: Shown, fresh: boolean): void {
       state.cost.value = null;
       state.spread.value = null;
     }
-    state.status.value = t.statusLine(shown.figures);
+    sayResult(shown.figures, done);
   });
 }

@@ -56,6 +56,8 @@ export const first = signal<Shown | null>(null);
 
 export const draft = signal<Draft | null>(null);
 export const draftMessage = signal('');
+/** Apply was pressed before the result of the form was shown. */
+export const early = signal(false);
 /** True from a change of the form until all of its preview is known, or its refusal. */
 export const pending = signal(false);
 export const choice = signal<Choice | null>(null);
@@ -196,8 +198,22 @@ export const picture = computed<Picture | null>(() => motion.value?.picture ?? s
 export const canUndo = computed(() => main.value?.figures.history.some((entry) => !entry.undone) ?? false);
 export const canRedo = computed(() => main.value?.figures.history.some((entry) => entry.undone) ?? false);
 
-/** Returns from the valve before to the present one as soon as something happens to that. */
+/** What the user does to the present valve: later figures of a valve, and a preview that comes late, are none of it. */
+const doings = computed(() => [
+  plan.value,
+  main.value?.figures.hash,
+  draft.value,
+  picking.value,
+  imported.value,
+  !!motion.value,
+]);
+let seen: unknown[] = [];
+let previewing = false;
+
+/** Returns from the valve before to the present one where the user goes on, or where a preview leaves and “before” would be another valve. */
 effect(() => {
-  const watched = [main, preview, motion, draft, imported].map((value) => value.value);
-  if (watched) past.value = false;
+  const gone = previewing && !preview.value;
+  const { value: now } = doings;
+  if (gone || now.some((value, k) => value !== seen[k])) past.value = false;
+  [seen, previewing] = [now, !!preview.value];
 });

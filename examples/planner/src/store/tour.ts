@@ -7,7 +7,7 @@ import { percentOfLimit } from '../notable';
 import type { FoundingResult } from '../protocol';
 import { openShipped } from './files';
 import { measureCost } from './measure';
-import { openingOf } from './opening';
+import { allowedLoad, leastCoaptation, leastOpening, openingOf } from './limits';
 import { fail, request } from './requests';
 import * as state from './state';
 
@@ -45,19 +45,6 @@ function learn(number: number, founding: FoundingResult): void {
   if (state.tour.value?.number === number) state.tour.value = { ...state.tour.value, founding };
 }
 
-/** The least open area that the tour asks for, mm2; null where it is not known. */
-export function leastOpening(): number | null {
-  const healthy = state.tour.value?.founding?.healthy;
-  return healthy ? 0.9 * healthy.openArea : null;
-}
-
-/** The largest load of a chord that the tour allows, in per cent of its working limit: a tenth above the limit or above the highest
- *  load before the illness, which is as little as limits are known; null where it is not known. */
-export function allowedLoad(): number | null {
-  const healthy = state.tour.value?.founding?.healthy;
-  return healthy ? percentOfLimit(1.1 * Math.max(1, healthy.measures.chordLoad)) : null;
-}
-
 /** The scallop that is flail in a valve of the tour. */
 export const flailOf = (number: number): string | undefined => ({ 4: 'P2' })[number];
 
@@ -70,17 +57,18 @@ export function flailHeight(): number | null {
 }
 
 /** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */
-export function reached(): Record<'sealed' | 'chords' | 'open' | 'edge', boolean | null> {
-  if (state.coming.value) return { sealed: null, chords: null, open: null, edge: null };
+export function reached(): Record<'sealed' | 'chords' | 'open' | 'edge' | 'coaptation', boolean | null> {
+  if (state.coming.value) return { sealed: null, chords: null, open: null, edge: null, coaptation: null };
   const height = flailHeight();
   const { hash, known, measures } = state.main.value!.figures;
   const cost = openingOf(hash);
-  const [least, allowed] = [leastOpening(), allowedLoad()];
+  const [least, allowed, length] = [leastOpening(), allowedLoad(), leastCoaptation()];
   return {
     sealed: known === 'shape' ? null : measures.atRest && measures.orifice === 0,
     chords: allowed !== null ? percentOfLimit(measures.chordLoad) <= allowed : null,
     // a valve without a flail scallop has nothing to reach
     edge: height === null || height < 0,
+    coaptation: known === 'shape' || length === null ? null : measures.coaptationMean >= length,
     open: cost && least !== null ? cost.openArea >= least : null,
   };
 }

@@ -1,5 +1,5 @@
 // Every text that the page shows, in a surgeon's words. To translate the page, translate this file.
-import { leakPlaces } from '../notable';
+import { leakPlaces, suture } from '../notable';
 import type { Figures } from '../protocol';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
@@ -14,6 +14,22 @@ export function grade(orifice: number): { level: number; word: string } {
   if (orifice < 30) return { level: 2, word: 'Moderate leak' };
   if (orifice < 40) return { level: 3, word: 'Moderate–severe leak' };
   return { level: 4, word: 'Severe leak' };
+}
+
+/** The stenosis of an open valve by its area in mm2, judged on cm2 with one digit as guidelines write it: 1.5 or less is severe, 1.0
+ *  or less very severe (ACC/AHA 2014). Narrow is what loses more than 5 mmHg at a mean flow of 200 ml/s, by p = 4 v2: 1.8 cm2.
+ *  Empty for a wide one. */
+export function stenosis(area: number): string {
+  const shown = Math.round(area / 10);
+  if (shown <= 10) return 'very severe stenosis';
+  if (shown <= 15) return 'severe stenosis';
+  return shown < 18 ? 'narrow' : '';
+}
+
+/** A verdict in one sentence: the grade of the leak, its place, what is wrong beside it. */
+export function headlineOf(word: string, place: string, but: string[]): string {
+  const begin = place ? `${word} at ${place}` : word;
+  return but.length ? `${begin}${place ? '; ' : ', but '}${but.join('; ')}` : begin;
 }
 
 /** A list in words. */
@@ -118,7 +134,7 @@ export const operationWords: Record<string, Words> = {
     fields: {
       anterior: 'Anterior scallop',
       posterior: 'Posterior scallop',
-      position: 'Position: −1 posteromedial, 1 anterolateral (keys A, D)',
+      position: 'Position along the edge (keys A, D)',
       angle: 'Turn against the clock, seen from the atrium (keys Q, E)',
       width: 'Width',
       reach: 'Depth of the grasp',
@@ -130,7 +146,7 @@ export const operationWords: Record<string, Words> = {
     short: 'Take out a piece of a leaflet and suture',
     fields: {
       scallop: 'Scallop',
-      position: 'Position: −1 posteromedial, 1 anterolateral',
+      position: 'Position along the edge',
       width: 'Width at the free edge',
       base_width: 'Width at the annulus',
       depth: 'Depth',
@@ -194,17 +210,28 @@ export const t = {
   severalFiles: (name: string) => `One file at a time: ${name} was taken.`,
   importBegun: (triangles: number) =>
     `Surface with ${triangles} triangles. Mark both commissures, then build the valve.`,
-  statusLine: (f: Figures) =>
-    f.measures.orifice > 0
-      ? `${grade(f.measures.orifice).word}: ${number(f.measures.orifice)} mm² at ${where(f)}. Coaptation ${number(f.measures.coaptationMean)} mm.`
-      : f.measures.atRest
-        ? `Sealed. Coaptation ${number(f.measures.coaptationMean)} mm.`
-        : 'The valve did not come to rest.',
-  previewLine: (f: Figures) =>
-    `Preview: ${f.measures.orifice > 0 ? `${grade(f.measures.orifice).word}, ${number(f.measures.orifice)} mm²` : 'sealed'}.`,
+  /** The result of what was done, for the status line: `done` names it. */
+  statusLine: (done: string, headline: string, f: Figures, more: string) =>
+    [
+      `${done ? `${done}: ` : ''}${headline}.`,
+      f.known !== 'shape' && f.measures.orifice > 0 ? `Leak ${number(f.measures.orifice)} mm².` : '',
+      f.known === 'shape' ? '' : `Coaptation ${number(f.measures.coaptationMean)} mm.`,
+      more ? `${more}.` : '',
+    ]
+      .filter(Boolean)
+      .join(' '),
+  previewed: 'Preview',
+  undone: 'Undone',
+  repeated: 'Repeated',
+  returned: 'Returned',
+  notSeen: 'Not applied: its result is still to come. Apply it once it is shown.',
 };
 
 export const kinds = ['Other', 'Marginal', 'Rough zone', 'Strut', 'Basal', 'Commissural', 'Trunk', 'Suture'];
+
+/** What a chord is, beside its name. */
+export const kindOf = ({ kind, artificial }: { kind: number; artificial: boolean }): string =>
+  artificial && kind !== suture ? 'Artificial' : kinds[kind];
 export { number as figure };
 
 export const tourTexts = {
@@ -279,6 +306,8 @@ export const tourTexts = {
     sealed: 'No leak under 120 mmHg',
     edge: (scallop: string, height: number | null) =>
       `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
+    coaptation: (least: number | null) =>
+      `Coaptation length at least 90 % of that before the illness, in the mean${least === null ? '' : `: ${number(least)} mm`}. (Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.)`,
     chords: (percent: number | null) =>
       `No chord above ${percent ?? '…'} % of its working limit: 10 % above the limit, or above the load before the illness where that was higher`,
     open: 'Open area at least 90 % of that before the illness',
@@ -286,6 +315,7 @@ export const tourTexts = {
   shortGoals: {
     sealed: 'No leak',
     edge: (scallop: string) => `Edge of ${scallop}`,
+    coaptation: 'Coaptation',
     chords: 'Chordae',
     open: 'Opens',
   },
@@ -431,6 +461,16 @@ export const verdictTexts = {
   meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
   ofClosed: 'when closed',
   chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
+  but: ', but',
+  butHelp: 'A sealed valve may still open too little, or hang on chordae that may tear.',
+  openingIs: (area: number, word: string) => `opens to ${number(area / 100)} cm²: ${word}`,
+  openingUnknown: 'its opening is not measured yet',
+  chordsBeyond: (count: number, percent: number) =>
+    count === 1 ? `1 chord at ${percent} % of its limit` : `${count} chordae over limit, up to ${percent} %`,
+  relieved: (chords: { name: string; percent: number }[]) =>
+    `${listOf(chords.map(({ name, percent }) => `${name} (before ${percent} %)`))} ${chords.length === 1 ? 'is' : 'are'} slack`,
+  relievedHelp:
+    'It was far beyond its working limit before and carries nothing any more: its leaflet is held by its neighbours alone.',
   chordOver: (name: string, percent: number) => `${name} ${percent} %`,
   limitHelp:
     'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it a chord may tear. A healthy valve may have one just at its limit.',
@@ -505,6 +545,7 @@ export const barTexts = {
   leak: 'leak; arrow: its jet',
   over: 'chord beyond its limit',
   slack: 'slack chord',
+  artificial: 'artificial chord',
   stitch: 'stitch of a clip or a suture',
 };
 
@@ -517,8 +558,11 @@ export const valveTexts = {
     'How high the leaflets touch in the middle section, along the axis of the valve. The table gives the coaptation of A2 and P2 along the leaflets, which is longer where they lie at a slant.',
   tenting: 'Tenting height',
   tentingHelp: 'Deepest point of the closed leaflets below the plane of the annulus',
-  prolapse: 'Prolapse above annulus',
-  prolapseHelp: 'Highest point above the surface of the annulus; more than 2 mm is prolapse',
+  billow: 'Billow above annulus',
+  billowHelp:
+    'Highest point of all leaflets above the surface of the annulus, mostly in the middle of a scallop; more than 2 mm counts as prolapse. The table gives it by scallop, and how high each free edge stands.',
+  /** Where a largest value of the whole valve is. */
+  at: (scallop: string) => `at ${scallop}`,
   annulus: 'Annulus',
   ap: 'Front to back (AP)',
   cc: 'Side to side (CC)',
@@ -529,7 +573,7 @@ export const valveTexts = {
   coaptationArea: 'Coaptation area',
   coaptationLeast: 'Coaptation, least',
   tentingVolume: 'Tenting volume',
-  prolapseVolume: 'Prolapse volume',
+  billowVolume: 'Billow volume',
   saddle: 'Saddle height',
   angle: 'Non-planar angle',
   stretch95: 'Leaflet stretch, 95th percentile',
@@ -562,7 +606,15 @@ export const tableTexts = {
   scallop: 'Scallop',
   coaptation: 'Coaptation, mm',
   leak: 'Leak, mm²',
-  prolapse: 'Prolapse, mm',
+  billow: 'Billow, mm',
+  billowHelp: 'Highest point above the surface of the annulus; – where there is none',
+  edge: 'Edge, mm',
+  edgeHelp:
+    'Highest point of the free edge above (+) or below (−) the plane of the annulus. An edge above it prolapses; flail, it stands in the atrium.',
+  signed: (value: number) =>
+    number(value)
+      .replace('-', '−')
+      .replace(/^(?=\d)/, '+'),
   commissure: (name: string) => `Commissure ${name.replace('-', '–')}`,
   was: (value: string) => ` was ${value}`,
   leakHint: 'A leak between two leaflets counts by half for the scallop on either side.',
@@ -579,13 +631,27 @@ export const tableTexts = {
 export const fewestPoints = 8;
 
 export const deviceTexts = {
-  title: (count: number) => `Rings, clips, artificial chordae (${count})`,
+  title: (count: number) => `Implants and sutures (${count})`,
   device: 'Device',
   figures: 'Figures',
   ring: (cc: number, ap: number, round: number) =>
     `${number(cc)} mm wide, ${number(ap)} mm front to back, ${number(round, 0)} mm around`,
   band: (length: number) => `${number(length, 0)} mm long`,
-  clip: (stitches: number, pull: number) => `${stitches} stitches, strongest pull ${millinewton(pull)}`,
+  names: {
+    ring: 'Ring',
+    band: 'Posterior band',
+    clip: 'Clip',
+    neochord: 'Artificial chord',
+    suture: 'Suture',
+  },
+  /** What it is, and its name unless the library gave it: "clip" and "clip2" are Clip and Clip 2. */
+  named: (kind: string, name: string) => {
+    const given = /^(?:ring|band|clip)(\d*)$/.exec(name);
+    return given ? `${kind} ${given[1]}`.trimEnd() : `${kind} ${name}`;
+  },
+  clip: (clip: { between: string[]; width: number; pull: number }) =>
+    `joins ${listOf(clip.between)} over ${number(clip.width, 0)} mm, strongest pull ${millinewton(clip.pull)}`,
+  suture: (of: string[]) => `closes the cut in ${listOf(of)}`,
   neochord: (chord: { rest: number; tension: number; heads: string; scallops: string }) =>
     `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${millinewton(chord.tension)}` : 'slack'}`,
 };
@@ -616,9 +682,16 @@ export const formTexts = {
   default: 'default',
   pick: (label: string) => `Pick in the picture: ${label}`,
   picked: (scallop: string) => `picked on ${scallop}`,
-  along: (percent: number) => `Along the scallop: ${percent} %`,
+  along: (percent: number) => `Along the scallop: ${percent} % from its posteromedial end`,
   height: (percent: number) => `From annulus to free edge: ${percent} %`,
   alongTip: 'Along the scallop',
+  /** Left and right in the surgeon's view. */
+  sides: ['anterolateral', 'posteromedial'] as const,
+  /** A position between the ends of a scallop, from -1, posteromedial, to 1. */
+  position: (value: number) =>
+    value === 0
+      ? 'in the middle of the scallop'
+      : `${number(100 * Math.abs(value), 0)} % of the way to the ${value > 0 ? 'anterolateral' : 'posteromedial'} end`,
   heightTip: 'From annulus to free edge',
   axes: ['Towards the front', 'To the side', 'Towards the atrium'],
   axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
@@ -636,7 +709,10 @@ export const markTexts = {
 export const openingTexts = {
   opens: (area: number | undefined) =>
     `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
-  narrow: 'Below 1.5 cm² an open mitral valve counts as a severe stenosis.',
+  narrow: (word: string) =>
+    word === 'narrow'
+      ? 'Narrow: a mean flow of 200 ml/s loses more than 5 mmHg.'
+      : `${word[0].toUpperCase()}${word.slice(1)}: 1.5 cm² or less is severe, 1.0 cm² or less very severe (ACC/AHA 2014).`,
   elsewhere:
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   beside: (before: number | undefined, least: number | null) =>
@@ -697,7 +773,9 @@ export const repairTexts = {
   scallop: (name: string) => `Scallop ${name}`,
   coaptation: 'Coaptation',
   leak: 'Leak',
-  prolapse: 'Prolapse',
+  billow: 'Billow above the annulus',
+  edge: 'Free edge',
+  edgeAt: (mm: number) => `${number(Math.abs(mm))} mm ${mm > 0 ? 'above' : 'below'} the annulus`,
   none: 'none',
   neochord: 'Artificial chord',
   resect: 'Resect',
@@ -738,11 +816,12 @@ export const planTexts = {
 
 /** Names of figures in the comparison and in the report. */
 export const figureNames = {
+  verdict: 'Verdict',
   orifice: 'Leak',
   coaptationMean: 'Coaptation length, mean',
   coaptationHeight: 'Coaptation height A2–P2',
   tentingHeight: 'Tenting height',
-  billowHeight: 'Prolapse above annulus',
+  billowHeight: 'Billow above annulus',
   annulusAp: 'Annulus front to back (AP)',
   annulusCc: 'Annulus side to side',
   chordsOver: 'Chordae beyond their limit',
@@ -769,7 +848,6 @@ export const reportTexts = {
   gradient: (flow: number) => `Mean pressure gradient at ${number(flow, 0)} ml/s`,
   save: 'Save as HTML',
   print: 'Print',
-  verdict: (word: string, place: string) => word + (place ? ` at ${place}` : ''),
 };
 
 export const dialogTexts = {
@@ -962,7 +1040,7 @@ export const tips: Record<string, string> = {
   [appTexts.preview]: 'Picture and figures of the valve after the operation of the form',
   [appTexts.now]: 'Picture and figures of the present valve',
   [t.cancel]: 'Stops this calculation; the valve stays as it is',
-  [tableTexts.scallops]: 'Coaptation, leak and prolapse of each scallop',
+  [tableTexts.scallops]: 'Coaptation, leak, billow and free edge of each scallop',
   [valveTexts.annulus]: 'Size of the annulus',
   [valveTexts.section]: 'The leaflets in a plane from front to back, before and now',
   [valveTexts.physics]: 'Further figures for those who know the mechanics of the valve',

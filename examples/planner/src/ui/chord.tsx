@@ -1,6 +1,6 @@
 // The card of a chosen chord, with its figures, also in a form that changes it.
 import { chordLimit, chordValue, percentOfLimit, shareOfLimit } from '../notable';
-import { figure, kinds, repairTexts, verdictTexts } from '../text/texts';
+import { figure, kindOf, repairTexts, verdictTexts } from '../text/texts';
 import type { Chord } from '../protocol';
 
 /** The limit of a chord beside its value; a suture has none. */
@@ -39,7 +39,7 @@ export function ChordFacts({ chord, after, brief }: { chord: Chord; after?: Chor
   return (
     <>
       <h3>{repairTexts.chord(chord.name)}</h3>
-      <p>{repairTexts.between(kinds[chord.kind], chord.heads, chord.scallops)}</p>
+      <p>{repairTexts.between(kindOf(chord), chord.heads, chord.scallops)}</p>
       <dl>
         {(brief ? briefFacts : facts).map(([label, of, unit, limit]) => (
           <>

@@ -1,8 +1,9 @@
-// Rings, bands, clips and artificial chordae as a table: the twin of what the picture shows of them.
-import { clipOf, suture } from '../notable';
+// Rings, bands, clips, artificial chordae and sutures as a table: the twin of what the picture shows of them.
+import { clipOf, cutOf, suture } from '../notable';
 import * as state from '../store/state';
 import { deviceTexts, tipTexts } from '../text/texts';
-import type { Figures, Picture, Topology } from '../protocol';
+import type { Chord, Figures, Picture, Topology } from '../protocol';
+import { clipWidths } from '../view/clips';
 import { isClosed } from '../view/heart';
 import { Section } from './parts';
 
@@ -11,11 +12,16 @@ interface Device {
   figures: string;
 }
 
-/** Largest extents along CC and AP and the length of a ring's curve; the length of a band. */
-function ringFigures(picture: Picture, r: number, frame: number[]): string {
+/** The curve of a ring or band. */
+function ringPoints(picture: Picture, r: number): number[][] {
   const points: number[][] = [];
   for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k)
     points.push([0, 1, 2].map((c) => picture.ringPoints[3 * k + c]));
+  return points;
+}
+
+/** Largest extents along CC and AP and the length of a ring's curve; the length of a band. */
+function ringFigures(points: number[][], frame: number[]): string {
   if (points.length < 2) return '';
   const extent = (row: number) => {
     const places = points.map((p) => p.reduce((sum, v, c) => sum + v * frame[3 * row + c], 0));
@@ -29,29 +35,44 @@ function ringFigures(picture: Picture, r: number, frame: number[]): string {
   return deviceTexts.ring(extent(2), extent(1), length + gap);
 }
 
-/** The stitches of each clip. */
-function clips(figures: Figures): Device[] {
-  const stitches = new Map<string, number[]>();
+/** Stitches by the clip or the cut that they belong to. */
+function stitchesBy(figures: Figures, of: (name: string) => string): [string, Chord[]][] {
+  const found = new Map<string, Chord[]>();
   for (const chord of figures.chords) {
-    const name = clipOf(chord.name);
-    if (chord.kind !== suture || !name) continue;
-    stitches.set(name, [...(stitches.get(name) ?? []), chord.tension]);
+    const name = chord.kind === suture ? of(chord.name) : '';
+    if (name) found.set(name, [...(found.get(name) ?? []), chord]);
   }
-  return [...stitches].map(([name, pulls]) => ({
-    name,
-    figures: deviceTexts.clip(pulls.length, Math.max(...pulls)),
-  }));
+  return [...found];
 }
 
+/** Scallops at the ends of stitches, each once. */
+const scallopsOf = (stitches: Chord[]): string[] => [
+  ...new Set(stitches.flatMap(({ scallops }) => scallops.split('+'))),
+];
+
 function devicesOf(topology: Topology, picture: Picture, figures: Figures): Device[] {
+  const { names, named } = deviceTexts;
   const rings = topology.rings.map((part, r) => ({
-    name: part.name,
-    figures: ringFigures(picture, r, figures.frame),
+    name: named(isClosed(ringPoints(picture, r)) ? names.ring : names.band, part.name),
+    figures: ringFigures(ringPoints(picture, r), figures.frame),
+  }));
+  const widths = clipWidths(topology, picture, figures.frame);
+  const clips = stitchesBy(figures, clipOf).map(([name, stitches]) => ({
+    name: named(names.clip, name),
+    figures: deviceTexts.clip({
+      between: scallopsOf(stitches),
+      width: widths.get(name) ?? 0,
+      pull: Math.max(...stitches.map(({ tension }) => tension)),
+    }),
   }));
   const neochordae = figures.chords
     .filter((chord) => chord.artificial && chord.kind !== suture)
-    .map((chord) => ({ name: chord.name, figures: deviceTexts.neochord(chord) }));
-  return [...rings, ...clips(figures), ...neochordae];
+    .map((chord) => ({ name: named(names.neochord, chord.name), figures: deviceTexts.neochord(chord) }));
+  const cuts = stitchesBy(figures, cutOf).map(([, stitches]) => ({
+    name: names.suture,
+    figures: deviceTexts.suture(scallopsOf(stitches)),
+  }));
+  return [...rings, ...clips, ...neochordae, ...cuts];
 }
 
 export function Devices({ figures }: { figures: Figures }) {

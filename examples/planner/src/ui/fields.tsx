@@ -102,12 +102,18 @@ function SiteField(props: FieldProps) {
             <input
               type="range"
               title={tips[formTexts.alongTip]}
-              min="0"
-              max="1"
+              min="-1"
+              max="0"
               step="0.05"
-              value={value.along}
-              onInput={(event) => set({ along: +event.currentTarget.value })}
+              value={-value.along}
+              aria-valuetext={formTexts.along(Math.round(100 * value.along))}
+              onInput={(event) => set({ along: Math.abs(+event.currentTarget.value) })}
             />
+            <span class="ends" aria-hidden="true">
+              {formTexts.sides.map((side) => (
+                <i>{side}</i>
+              ))}
+            </span>
           </label>
           <label class="slider">
             <span>{formTexts.height(Math.round(100 * value.height))}</span>

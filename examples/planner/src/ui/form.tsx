@@ -97,7 +97,11 @@ export function OperationForm() {
           <span>{appTexts.apply}</span>
         </button>
         <Button onClick={discard}>{appTexts.discard}</Button>
-        {ready && state.outdated.value && <span class="hint">{t.previewing}</span>}
+        {ready && state.outdated.value && (
+          <span class="hint" data-testid="trying">
+            {state.early.value ? t.notSeen : t.previewing}
+          </span>
+        )}
       </div>
     </form>
   );

@@ -1,6 +1,7 @@
 // The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair".
 import { Check, CircleHelp, X } from 'lucide-preact';
-import { allowedLoad, flailHeight, flailOf, reached, startValve } from '../store/tour';
+import { allowedLoad, leastCoaptation } from '../store/limits';
+import { flailHeight, flailOf, reached, startValve } from '../store/tour';
 import * as state from '../store/state';
 import { tipTexts, tourTexts } from '../text/texts';
 import { Button } from './parts';
@@ -16,13 +17,14 @@ interface Check {
 
 function checks(number: number): Check[] {
   const { goals, shortGoals } = tourTexts;
-  const { sealed, chords, open, edge } = reached();
+  const { sealed, chords, open, edge, coaptation } = reached();
   const scallop = flailOf(number);
   return [
     { text: goals.sealed, short: shortGoals.sealed, done: sealed },
     ...(scallop
       ? [{ text: goals.edge(scallop, flailHeight()), short: shortGoals.edge(scallop), done: edge }]
       : []),
+    { text: goals.coaptation(leastCoaptation()), short: shortGoals.coaptation, done: coaptation },
     { text: goals.chords(allowedLoad()), short: shortGoals.chords, done: chords },
     { text: goals.open, short: shortGoals.open, done: open, later: tourTexts.whenSealed },
   ];

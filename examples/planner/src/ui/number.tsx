@@ -17,6 +17,10 @@ const sliders: Record<string, Record<string, [number, number, number]>> = {
   patch: { width: [4, 25, 0.5], height: [3, 18, 0.5] },
 };
 
+/** Positions along a scallop grow to the left of the surgeon's view: so do their sliders. */
+const isPosition = (kind: string, name: string): boolean =>
+  name === 'position' && (kind === 'clip' || kind === 'resect');
+
 /** Names that hold shares, shown in per cent. */
 const shares = new Set(['factor', 'ap', 'cc', 'ap_ratio', 'area_factor']);
 
@@ -90,6 +94,8 @@ export function NumberField(props: FieldProps) {
   const text = textOf(value, scale, rest);
   const low = rest ? +(0.4 * rest).toFixed(1) : range?.[0];
   const high = rest ? +(1.6 * rest).toFixed(1) : range?.[1];
+  const position = isPosition(kind, field.name);
+  const slider = (of: number) => (position ? -of : of) * scale;
   return (
     <div class="field" title={tipOf(props)}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
@@ -99,15 +105,19 @@ export function NumberField(props: FieldProps) {
             <input
               type="range"
               aria-label={labelOf(props)}
-              min={low! * scale}
-              max={high! * scale}
+              aria-valuetext={position ? formTexts.position(shown ?? 0) : undefined}
+              min={slider(position ? high! : low!)}
+              max={slider(position ? low! : high!)}
               step={range[2] * scale}
-              value={(shown ?? (low! + high!) / 2) * scale}
-              onInput={(event) => set(event.currentTarget.value)}
+              value={slider(shown ?? (low! + high!) / 2)}
+              onInput={({ currentTarget: { value: text } }) => set(position ? String(-text) : text)}
             />
             <span class="ends" aria-hidden="true">
-              <i>{+(low! * scale).toPrecision(4)}</i>
-              <i>{+(high! * scale).toPrecision(4)}</i>
+              {(position ? formTexts.sides : [low!, high!].map((end) => +(end * scale).toPrecision(4))).map(
+                (end) => (
+                  <i>{end}</i>
+                ),
+              )}
             </span>
           </span>
         )}
@@ -149,10 +159,13 @@ export function NumberField(props: FieldProps) {
       {kind === 'ring' && field.name === 'size' && (
         <small>{formTexts.sizeFrom(state.main.value?.figures.measures.annulusCc ?? NaN)}</small>
       )}
+      {position && <small>{formTexts.position(value ?? 0)}</small>}
       {rest !== null && value !== undefined && <small>{formTexts.change(rest, value)}</small>}
-      {value === undefined && field.fallback && !rest && !Number.isFinite(field.fallbackValue) && (
-        <small>{formTexts.leftEmpty(field.fallback)}</small>
-      )}
+      {value === undefined &&
+        field.fallback &&
+        !rest &&
+        !position &&
+        !Number.isFinite(field.fallbackValue) && <small>{formTexts.leftEmpty(field.fallback)}</small>}
     </div>
   );
 }

@@ -14,6 +14,8 @@ export function Figure(props: {
   help?: string;
   spread?: Range | null;
   warn?: boolean;
+  /** A word beside the value. */
+  note?: string;
 }) {
   const digits = props.digits ?? 1;
   const waiting = Number.isNaN(props.value) && state.figures.value?.known !== 'all';
@@ -24,6 +26,7 @@ export function Figure(props: {
       <span class="figure-label">{props.label}</span>
       <span class="figure-value">
         {waiting ? '…' : figure(props.value, digits)} <small>{props.unit}</small>
+        {props.note && <small class="figure-note"> {props.note}</small>}
       </span>
       {differs && (
         <span class={`figure-before ${better === null ? '' : better ? 'better' : 'worse'}`}>

@@ -4,9 +4,10 @@ import { Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
 import { redo, undo } from '../store/history';
 import { canKeepFile, chooseKeptFile, keptFile, leaveKeptFile, saveObj, saveSession } from '../store/keep';
 import { allowAutosave, autosave, storageWorks } from '../store/recovery';
-import { openingOf } from '../store/opening';
+import { openingOf } from '../store/limits';
 import * as state from '../store/state';
-import { appTexts, barTexts, planTexts, say, tips, valveTexts } from '../text/texts';
+import { headline } from '../store/verdict';
+import { appTexts, barTexts, figureNames, planTexts, say, tips, valveTexts } from '../text/texts';
 import { Checkpoints } from './checkpoints';
 import { areaText, comparedRows, stepsOf } from './compared';
 import { Button, Section } from './parts';
@@ -119,6 +120,14 @@ function SideBySide() {
         </tr>
       </thead>
       <tbody>
+        <tr class="wrap">
+          <th scope="row">{figureNames.verdict}</th>
+          {[other, now].map((figures) => (
+            <td>
+              <strong>{headline(figures)}</strong>
+            </td>
+          ))}
+        </tr>
         {comparedRows(other, now).map(([label, ...values]) => (
           <tr>
             <th scope="row">{label}</th>

@@ -17,6 +17,7 @@ import {
   X,
 } from 'lucide-preact';
 import { edit, presentLength } from '../store/edit';
+import { shownEdges } from '../store/edges';
 import * as state from '../store/state';
 import { appTexts, figure, operationTips, repairTexts, wordsOf } from '../text/texts';
 import type { FieldValue } from '../protocol';
@@ -206,6 +207,7 @@ function Chosen() {
   const part = topology?.scallops.find((item) => item.id === choice.id);
   const region = figures.regions.find((item) => item.name === part?.name);
   if (!part || !region) return null;
+  const edge = shownEdges().get(part.name);
   return (
     <div class="chosen-card" data-testid="chosen">
       <LetGo />
@@ -215,8 +217,14 @@ function Chosen() {
         <dd>{figure(region.coaptationMean)} mm</dd>
         <dt>{repairTexts.leak}</dt>
         <dd>{region.orifice > 0 ? `${figure(region.orifice)} mm²` : repairTexts.none}</dd>
-        <dt>{repairTexts.prolapse}</dt>
+        <dt>{repairTexts.billow}</dt>
         <dd>{region.billow > 0 ? `${figure(region.billow)} mm` : repairTexts.none}</dd>
+        {edge !== undefined && (
+          <>
+            <dt>{repairTexts.edge}</dt>
+            <dd>{repairTexts.edgeAt(edge)}</dd>
+          </>
+        )}
       </dl>
       <div class="row">
         <Button icon={<Spline size={16} />} onClick={() => begin('neochord')}>

@@ -4,9 +4,11 @@ import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
 import { download } from '../store/keep';
 import * as state from '../store/state';
-import { figure, grade, reportTexts, sectionTexts, t, valveTexts, where } from '../text/texts';
+import { headline, relieved } from '../store/verdict';
+import { figure, reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
 import type { Cost, Figures } from '../protocol';
-import { openingOf } from '../store/opening';
+import { openingOf } from '../store/limits';
+import { measurePlan } from '../store/opening';
 import { fail, request } from '../store/requests';
 import { view } from './app';
 import { areaText, comparedRows, stepsOf } from './compared';
@@ -67,10 +69,6 @@ function escape(text: string): string {
   return text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }
 
-function verdictOf(figures: Figures): string {
-  return reportTexts.verdict(grade(figures.measures.orifice).word, where(figures));
-}
-
 const tableRow = (label: string, was: string, now: string): string =>
   `<tr><th>${escape(label)}</th><td>${escape(was)}</td><td>${escape(now)}</td></tr>`;
 
@@ -123,12 +121,14 @@ function reportHtml(pictures: Pictures, plot: string): string {
     .map((step) => `<li>${escape(step)}</li>`)
     .join('');
   const opening = openingRows(then, now);
+  const slack = relieved(then, now);
   const table = comparedRows(then, now)
     .map((row) => tableRow(...row))
     .join('');
   return `<h1>${escape(state.title.value || now.valve)}</h1><p>${reportTexts.closed(date)}</p>
-<div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(verdictOf(then))}</p>${images(pictures.before)}</section>
-<section><h2>${reportTexts.after}</h2><p>${escape(verdictOf(now))}</p>${images(pictures.after)}</section></div>
+<div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(headline(then))}</p></section>
+<section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
+<div class="pair"><section>${images(pictures.before)}</section><section>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
 <div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table></section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
 ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
@@ -144,8 +144,11 @@ export function ReportDialog() {
   const html = useSignal('');
   useEffect(() => {
     const pictures = takePictures();
-    html.value = reportHtml(pictures, '');
-    sectionPlot().then((plot) => (html.value = reportHtml(pictures, plot)), fail);
+    let plot = '';
+    const write = () => (html.value = reportHtml(pictures, plot));
+    write();
+    sectionPlot().then((drawn) => ((plot = drawn), write()), fail);
+    measurePlan().then(write, fail);
   }, []);
   const saved = useSignal('');
   const save = () => {

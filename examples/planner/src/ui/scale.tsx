@@ -16,6 +16,8 @@ import {
 /** Stitches are those of a suture or a clip. */
 const hasStitches = (): boolean => !!state.figures.value?.chords.some((chord) => chord.kind === suture);
 const hasSlack = (): boolean => !!state.picture.value?.chordTaut.some((strain) => strain < 0);
+const hasArtificial = (): boolean =>
+  !!state.figures.value?.chords.some((chord) => chord.artificial && chord.kind !== suture);
 const hasOver = (): boolean => (state.figures.value?.measures.chordsOver ?? 0) > 0;
 
 function Key({ of, text }: { of: string; text: string }) {
@@ -42,6 +44,9 @@ function TissueKeys({ surface }: { surface: boolean }) {
       )}
       {!surface && hasOver() && <Key of="over" text={barTexts.over} />}
       {!surface && state.chordsOn.value && hasSlack() && <Key of="slack" text={barTexts.slack} />}
+      {!surface && state.chordsOn.value && hasArtificial() && (
+        <Key of="artificial" text={barTexts.artificial} />
+      )}
       {!surface && state.chordsOn.value && hasStitches() && <Key of="stitch" text={barTexts.stitch} />}
     </div>
   );
@@ -63,6 +68,7 @@ function MapScale({ name }: { name: Exclude<MapName, 'tissue'> }) {
       {isChordMap(name) && <Limits name={name} />}
       {isChordMap(name) && hasOver() && <Key of="over" text={barTexts.over} />}
       {isChordMap(name) && hasSlack() && <Key of="slack" text={barTexts.slack} />}
+      {isChordMap(name) && hasArtificial() && <Key of="artificial" text={barTexts.artificial} />}
       {words.none && <Key of="none" text={words.none} />}
     </div>
   );

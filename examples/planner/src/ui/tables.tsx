@@ -1,7 +1,8 @@
 // Scallops and chordae as tables: the twin of the picture for keyboard and screen reader.
 import * as state from '../store/state';
-import { figure, kinds, tableTexts, tipTexts } from '../text/texts';
+import { figure, kindOf, tableTexts, tipTexts } from '../text/texts';
 import type { Figures } from '../protocol';
+import { shownEdges } from '../store/edges';
 import { chordValue, percentOfLimit, shareOfLimit, suture } from '../notable';
 import { Section, Spread, times } from './parts';
 
@@ -11,16 +12,18 @@ export function Scallops({ figures }: { figures: Figures }) {
   const waiting = figures.known !== 'all';
   const regions = waiting ? (before?.regions ?? []) : figures.regions;
   const dots = (text: string) => (waiting ? '…' : text);
+  const edges = shownEdges();
   const ranges = waiting ? undefined : state.shownSpread.value?.regions;
   return (
     <Section title={tableTexts.scallops} open>
-      <table class="table" data-testid="scallops">
+      <table class="table narrow" data-testid="scallops">
         <thead>
           <tr>
             <th>{tableTexts.scallop}</th>
             <th>{tableTexts.coaptation}</th>
             <th>{tableTexts.leak}</th>
-            <th>{tableTexts.prolapse}</th>
+            <th title={tableTexts.billowHelp}>{tableTexts.billow}</th>
+            <th title={tableTexts.edgeHelp}>{tableTexts.edge}</th>
           </tr>
         </thead>
         <tbody>
@@ -43,6 +46,9 @@ export function Scallops({ figures }: { figures: Figures }) {
                 <td>
                   {dots(region.billow > 0 ? figure(region.billow) : '–')}
                   <Spread range={ranges?.[region.name]?.billow} digits={1} />
+                </td>
+                <td class={edges.get(region.name)! > 0 ? 'edge high' : 'edge'}>
+                  {edges.has(region.name) ? tableTexts.signed(edges.get(region.name)!) : ''}
                 </td>
               </tr>
             );
@@ -91,7 +97,7 @@ export function Chordae({ figures }: { figures: Figures }) {
                     >
                       {chord.name}
                     </button>{' '}
-                    <small>{kinds[chord.kind]}</small>
+                    <small>{kindOf(chord)}</small>
                   </th>
                   <td>{chord.strain <= 0 ? tableTexts.slack : `${percentOfLimit(share)} %`}</td>
                   <td>

@@ -3,7 +3,7 @@
 import { Check, Eye, Wrench } from 'lucide-preact';
 import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
-import { openingOf } from '../store/opening';
+import { openingOf } from '../store/limits';
 import { showChord, startValve } from '../store/tour';
 import { figure, say, tips, tipTexts, tourTexts } from '../text/texts';
 import { Goals } from './goals';

@@ -47,14 +47,15 @@ export function ValvePanel() {
           help={valveTexts.tentingHelp}
         />
         <Figure
-          label={valveTexts.prolapse}
+          label={valveTexts.billow}
           value={m.billowHeight}
           before={before?.billowHeight}
           unit="mm"
           good="low"
           spread={range('billowHeight')}
           warn={m.billowHeight > 2}
-          help={valveTexts.prolapseHelp}
+          help={valveTexts.billowHelp}
+          note={billowing(figures)}
         />
       </div>
       <Scallops figures={figures} />
@@ -109,7 +110,7 @@ export function ValvePanel() {
             spread={range('tentingVolume')}
           />
           <Figure
-            label={valveTexts.prolapseVolume}
+            label={valveTexts.billowVolume}
             value={m.billowVolume}
             before={before?.billowVolume}
             unit="ml"
@@ -186,6 +187,12 @@ export function ValvePanel() {
       </Section>
     </div>
   );
+}
+
+/** The scallop in which the leaflets billow most. */
+function billowing({ regions, measures }: Figures): string {
+  const [most] = regions.filter(({ commissure }) => !commissure).sort((a, b) => b.billow - a.billow);
+  return most && measures.billowHeight > 0 ? valveTexts.at(most.name) : '';
 }
 
 function headName(h: number): string {

@@ -2,8 +2,10 @@
 // come.
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import * as state from '../store/state';
-import { allowedLoad, showChord } from '../store/tour';
-import { figure, grade, tipTexts, valveTexts, verdictTexts, where } from '../text/texts';
+import { faultyLoad } from '../store/limits';
+import { showChord } from '../store/tour';
+import { relieved, verdictOf } from '../store/verdict';
+import { figure, tipTexts, valveTexts, verdictTexts, where } from '../text/texts';
 import type { Figures } from '../protocol';
 import { Spread } from './parts';
 
@@ -16,25 +18,33 @@ export function Verdict() {
         <strong>{surface ? verdictTexts.surface : '…'}</strong>
       </div>
     );
-  const words = verdictTexts;
-  const m = figures.measures;
   const shape = figures.known === 'shape';
-  const graded = m.atRest && m.underLoad && !shape;
-  const { level, word } = grade(m.orifice);
+  const { level, word, but, unmeasured } = verdictOf(figures);
   const tag = tagOf();
+  const grading = level === null ? 'none' : but.length && !level ? 'but' : level;
   return (
     <div
-      class={`verdict level-${graded ? level : 'none'}${state.outdated.value ? ' outdated' : ''}`}
+      class={`verdict level-${grading}${state.outdated.value ? ' outdated' : ''}`}
       data-testid="verdict"
       aria-busy={state.pending.value}
     >
       <div class="verdict-word">
-        <strong>{shape ? words.measuring : graded ? word : words.notAtRest}</strong>
+        <strong>
+          {word}
+          {but.length > 0 && !level && verdictTexts.but}
+        </strong>
         {tag && <span class="tag">{tag}</span>}
       </div>
-      <Leak figures={figures} graded={graded} />
-      {!graded && !shape && <div class="verdict-where">{words.notFinal}</div>}
+      {but.map((reservation) => (
+        <strong class="verdict-but" title={verdictTexts.butHelp}>
+          {reservation}
+        </strong>
+      ))}
+      <Leak figures={figures} graded={level !== null} />
+      {level === null && !shape && <div class="verdict-where">{verdictTexts.notFinal}</div>}
+      {unmeasured && <div class="verdict-note">{verdictTexts.openingUnknown}</div>}
       <Beyond figures={figures} />
+      <Relieved figures={figures} />
     </div>
   );
 }
@@ -51,16 +61,15 @@ function tagOf(): string {
 /** Chordae that are named on the card, as many as have room. */
 const named = 2;
 
-/** The chordae beyond their limit, by name: a press shows them. No warning where the tour allows their load. */
+/** The chordae beyond their limit, by name: a press shows them. They are counted here where the verdict does not. */
 function Beyond({ figures }: { figures: Figures }) {
   const beyond = beyondLimit(figures.chords);
   if (!beyond.length) return null;
   const words = verdictTexts;
-  const most = state.tour.value ? (allowedLoad() ?? Infinity) : 100;
-  const warned = percentOfLimit(figures.measures.chordLoad) > most;
+  const counted = percentOfLimit(figures.measures.chordLoad) > faultyLoad() && figures.known !== 'shape';
   return (
-    <div class={warned ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
-      <div>{words.chordsOver(beyond.length)}</div>
+    <div class={counted ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
+      {!counted && <div>{words.chordsOver(beyond.length)}</div>}
       <div class="beyond-names">
         {beyond.slice(0, named).map((chord) => (
           <button
@@ -74,6 +83,17 @@ function Beyond({ figures }: { figures: Figures }) {
         ))}
         {beyond.length > named && '…'}
       </div>
+    </div>
+  );
+}
+
+/** Chordae that were far beyond their limit in the valve before and are slack. */
+function Relieved({ figures }: { figures: Figures }) {
+  const slack = relieved(state.before.value, figures);
+  if (!slack.length || figures.known === 'shape') return null;
+  return (
+    <div class="verdict-note" title={verdictTexts.relievedHelp}>
+      {verdictTexts.relieved(slack)}
     </div>
   );
 }

@@ -1,4 +1,5 @@
-// Chordae as tubes from the papillary heads to the ventricular side of the leaflets, in the colour of their load or kind.
+// Chordae as tubes from the papillary heads to the ventricular side of the leaflets, in the colour of their load or kind;
+// artificial ones in bands of that colour and a dark one.
 import type { Picture, Topology } from '../protocol';
 import { suture } from '../notable';
 import { colourOf, isChordMap, maps, tissue } from './colours';
@@ -14,8 +15,19 @@ function chordColour(topology: Topology, picture: Picture, options: SceneOptions
   if (picture.chordTaut[k] < 0) return tissue.slack;
   if (isChordMap(options.map) && options.chordValues)
     return colourOf(maps[options.map], options.chordValues[k]);
+  if (topology.chordArtificial[k]) return tissue.ring;
   return topology.chordKind[k] === strut ? tissue.strut : tissue.chord;
 }
+
+/** mm of the bands by which artificial chordae differ from native ones in all colours. */
+const band = 1.4;
+
+/** Whether a chord is drawn in bands: artificial ones, except the chosen one and stitches, which have a colour of their own. */
+const isBanded = (
+  { chordArtificial, chordKind }: Topology,
+  { chosenChord }: SceneOptions,
+  k: number,
+): boolean => chordArtificial[k] === 1 && chordKind[k] !== suture && k !== chosenChord;
 
 /** mm between the surface of a chord and the leaflet that it ends at. */
 const below = 0.15;
@@ -52,10 +64,13 @@ export function chordae(
     const chosen = k === options.chosenChord;
     const radius = drawnRadius(topology, k) * (chosen ? 1.8 : 1);
     const [a, b] = chordEnds(topology, picture, k, radius, normals);
-    shapes.tube(a, b, radius, chordColour(topology, picture, options, k), many ? 4 : 7);
+    const colour = chordColour(topology, picture, options, k);
+    const sides = many ? 4 : 7;
+    if (isBanded(topology, options, k)) shapes.banded(a, b, radius, [tissue.artificial, colour], band, sides);
+    else shapes.tube(a, b, radius, colour, sides);
     // a joint where chordae branch; on the leaflet it would show on the other side
     if (!many && onLeaflet[topology.chordNodes[2 * k + 1]] === 0)
-      shapes.sphere(b, radius * 1.15, chordColour(topology, picture, options, k), 4, 6);
+      shapes.sphere(b, radius * 1.15, colour, 4, 6);
   }
   return shapes.mesh({ cut: true });
 }

@@ -13,6 +13,7 @@ export const tissue = {
   slack: [0.42, 0.42, 0.42] as Colour,
   strut: [0.98, 0.95, 0.86] as Colour,
   over: [0.9, 0.38, 0.0] as Colour,
+  artificial: [0.06, 0.04, 0.32] as Colour,
   suture: [0.16, 0.45, 0.75] as Colour,
   chosen: [0.0, 0.62, 1.0] as Colour,
   head: [0.4, 0.19, 0.16] as Colour,

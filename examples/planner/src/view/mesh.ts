@@ -43,6 +43,22 @@ export class Shapes {
     return this.positions.length / 3 - 1;
   }
 
+  /** A tube in bands of two colours, each about as long as `band`, of which the first is at both ends. */
+  banded(
+    a: ArrayLike<number>,
+    b: ArrayLike<number>,
+    radius: number,
+    colours: [Colour, Colour],
+    band: number,
+    sides = 7,
+  ): void {
+    const along = (s: number) => [0, 1, 2].map((c) => a[c] + s * (b[c] - a[c]));
+    const length = Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+    const count = 2 * Math.max(1, Math.round(length / band / 2)) + 1;
+    for (let k = 0; k < count; ++k)
+      this.tube(along(k / count), along((k + 1) / count), radius, colours[k % 2], sides);
+  }
+
   /** A tube between two points; its ends may have different radii and colours. */
   tube(
     a: ArrayLike<number>,

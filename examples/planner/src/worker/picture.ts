@@ -17,6 +17,12 @@ import { beyondLimit, shareOfLimit } from '../notable';
 import { mostSent, Recent } from '../recent';
 import { ml, mm, mm2, scaled } from './units';
 
+/** Pa; natural chordae have less, expanded PTFE 400 MPa. */
+const sutureYoung = 2e8;
+
+const artificialOf = (snapshot: Snapshot): Uint32Array =>
+  Uint32Array.from(snapshot.array<Float64Array>('chord_young'), (young) => (young >= sutureYoung ? 1 : 0));
+
 /** Topologies that the page has. */
 const sent = new Recent<true>(mostSent);
 
@@ -34,6 +40,12 @@ function topologyKey(snapshot: Snapshot): string {
   let hash = hashWords(2166136261, snapshot.array<Uint32Array>('triangle_nodes'));
   hash = hashWords(hash, snapshot.array<Uint32Array>('chord_nodes'));
   hash = hashWords(hash, snapshot.array<Uint32Array>('chord_kind'));
+  // a chord of the same name may have another thickness or material in another form
+  hash = hashWords(
+    hash,
+    Uint32Array.from(snapshot.array<Float64Array>('chord_area'), (area) => 1e12 * area),
+  );
+  hash = hashWords(hash, artificialOf(snapshot));
   const names = ['chord', 'ring', 'head'].flatMap((kind) =>
     partsOf(snapshot, kind as 'chord').map((p) => `${p.id}${p.name}`),
   );
@@ -71,6 +83,7 @@ function connectivity(snapshot: Snapshot, key: string): Topology {
     chordNodes: u32('chord_nodes'),
     chordKind: u32('chord_kind'),
     chordRadius: Float32Array.from(radius),
+    chordArtificial: artificialOf(snapshot),
     headNodes: u32('head_nodes'),
     origin: u32('node_origin'),
     leaflets: partsOf(snapshot, 'leaflet'),
@@ -157,11 +170,8 @@ function measuresOf(snapshot: Snapshot, known: Known): Measures {
   };
 }
 
-/** Pa; natural chordae have less, expanded PTFE 400 MPa. */
-const sutureYoung = 2e8;
-
 function chordsOf(mvs: Mvs, snapshot: Snapshot): Chord[] {
-  const young = snapshot.copy<Float64Array>('chord_young');
+  const artificial = artificialOf(snapshot);
   return snapshot.chords().map((chord, k) => {
     const kind = ChordKind[chord.kind];
     const limits = mvs.c.mvs_get_chord_limits(chord.kind);
@@ -178,7 +188,7 @@ function chordsOf(mvs: Mvs, snapshot: Snapshot): Chord[] {
       strainLimit: limits.strain,
       tensionLimit: limits.tension,
       over: chord.flags !== 0,
-      artificial: young[k] >= sutureYoung,
+      artificial: artificial[k] === 1,
     };
   });
 }

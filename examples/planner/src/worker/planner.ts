@@ -251,6 +251,7 @@ export class Planner {
       };
     };
     if (which === 'preview' && this.preview) return costOf(this.preview);
+    if (which === 'first' && this.first) return costOf(this.first);
     const name = checkpointIn(which);
     return name === null ? this.main.read(costOf) : costOf(this.checkpoints.of(name));
   }

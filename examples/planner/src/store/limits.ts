@@ -1,0 +1,40 @@
+// What a valve is judged by: how far it opens, where that was measured, and the load of chordae that is allowed.
+import { percentOfLimit } from '../notable';
+import type { Cost } from '../protocol';
+import * as state from './state';
+
+/** Operations that narrow the open valve. */
+export const narrowing = new Set(['ring', 'band', 'annulus_scale', 'clip', 'resect']);
+
+/** The opening of a closed valve if it was measured. */
+export function openingOf(hash: string | undefined): Cost | null {
+  if (!hash) return null;
+  if (state.cost.value?.hash === hash) return state.cost.value;
+  return state.openings.value.get(hash) ?? null;
+}
+
+/** The least open area that the tour asks for, mm2; null where it is not known. */
+export function leastOpening(): number | null {
+  const healthy = state.tour.value?.founding?.healthy;
+  return healthy ? 0.9 * healthy.openArea : null;
+}
+
+/** The least mean coaptation length that the tour asks for, mm; null where it is not known. The 8 mm at A2-P2 that surgeons aim at are no
+ *  goal: the valve of the study has a posterior leaflet of 12 mm, and its leaflets meet over less when it is healthy. */
+export function leastCoaptation(): number | null {
+  const healthy = state.tour.value?.founding?.healthy;
+  return healthy ? 0.9 * healthy.measures.coaptationMean : null;
+}
+
+/** A tenth above the limit: limits are known as little as that. */
+const tolerated = 1.1;
+
+/** The largest load of a chord that the tour allows, in per cent of its working limit: a tenth above the limit or above the highest
+ *  load before the illness; null where it is not known. */
+export function allowedLoad(): number | null {
+  const healthy = state.tour.value?.founding?.healthy;
+  return healthy ? percentOfLimit(tolerated * Math.max(1, healthy.measures.chordLoad)) : null;
+}
+
+/** The load in per cent above which chordae are named as a fault of the valve: that of the tour, where a valve of the tour is open. */
+export const faultyLoad = (): number => allowedLoad() ?? percentOfLimit(tolerated);

@@ -1,0 +1,63 @@
+// The verdict on a valve with its reservations, the same in the card, the report, the comparison of plans and the status line: a
+// valve that is sealed may open too little, or hang on chordae beyond their limit.
+import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
+import type { Figures } from '../protocol';
+import { grade, headlineOf, stenosis, verdictTexts, where } from '../text/texts';
+import { faultyLoad, narrowing, openingOf } from './limits';
+
+export interface Verdict {
+  /** 0 sealed to 4; null where the figures are not final. */
+  level: number | null;
+  word: string;
+  /** What is wrong beside the leak, the opening first. */
+  but: string[];
+  /** An operation may have narrowed the valve, and how far it opens is not known. */
+  unmeasured: boolean;
+}
+
+/** Whether an operation of the plan narrows the open valve. */
+export const isNarrowed = ({ history }: Figures): boolean =>
+  history.some(({ kind, undone }) => !undone && narrowing.has(kind));
+
+/** How far the valve opens, if that is known and too little. */
+function ofOpening({ hash }: Figures): string[] {
+  const cost = openingOf(hash);
+  const word = cost ? stenosis(cost.openArea) : '';
+  return word ? [verdictTexts.openingIs(cost!.openArea, word)] : [];
+}
+
+/** Chordae beyond their limit, if the load of one of them is a fault. */
+function ofChordae({ chords, measures }: Figures): string[] {
+  if (percentOfLimit(measures.chordLoad) <= faultyLoad()) return [];
+  const beyond = beyondLimit(chords);
+  return [verdictTexts.chordsBeyond(beyond.length, percentOfLimit(shareOfLimit(beyond[0])))];
+}
+
+export function verdictOf(figures: Figures): Verdict {
+  const { known, measures } = figures;
+  const none = { level: null, but: [], unmeasured: false };
+  if (known === 'shape') return { ...none, word: verdictTexts.measuring };
+  if (!measures.atRest || !measures.underLoad) return { ...none, word: verdictTexts.notAtRest };
+  return {
+    ...grade(measures.orifice),
+    but: [...ofOpening(figures), ...ofChordae(figures)],
+    unmeasured: isNarrowed(figures) && !openingOf(figures.hash),
+  };
+}
+
+/** The verdict in one sentence, with the place of a leak. */
+export function headline(figures: Figures): string {
+  const { level, word, but, unmeasured } = verdictOf(figures);
+  const all = unmeasured ? [verdictTexts.openingUnknown, ...but] : but;
+  return headlineOf(word, level ? where(figures) : '', all);
+}
+
+/** Chordae far beyond their limit before that carry nothing any more, with their load before in per cent. */
+export function relieved(before: Figures | null, now: Figures): { name: string; percent: number }[] {
+  if (!before || before.hash === now.hash) return [];
+  const slack = new Set(now.chords.filter(({ strain }) => strain <= 0).map(({ id }) => id));
+  return beyondLimit(before.chords)
+    .filter(({ id }) => slack.has(id))
+    .map((chord) => ({ name: chord.name, percent: percentOfLimit(shareOfLimit(chord)) }))
+    .filter(({ percent }) => percent > faultyLoad());
+}
