@@ -17,6 +17,20 @@ function moved(page) {
   });
 }
 
+/** Share of pale pixels, which are neither tissue nor the blue of the hand, in the middle of the picture: daylight or chordae. */
+function paleness(page) {
+  return page.evaluate(async () => {
+    const { width, height } = window.planner.viewport;
+    const { data } = await window.pixels([0.3 * width, 0.35 * height, 0.4 * width, 0.4 * height]);
+    let pale = 0;
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = data.slice(i, i + 3);
+      if (Math.min(r, g, b) > 120 && r - b < 15 && b - r < 30) ++pale;
+    }
+    return pale / (data.length / 4);
+  });
+}
+
 describe('planner in the hand', () => {
   let page;
   sharePlanner((opened) => ({ page } = opened));
@@ -46,6 +60,9 @@ describe('planner in the hand', () => {
         most = Math.max(most, await moved(page));
       }
       assert.ok(most >= 0.5 && most < 20, `${most} mm`);
+      // where the leaflets are drawn without their thickness, the line of closure is a pale hole
+      const pale = await paleness(page);
+      assert.ok(pale < 2e-4, `share of daylight ${pale}`);
       await page.mouse.up();
       await answered(page, 300);
       // the valve of the plan is shown again, and is the same

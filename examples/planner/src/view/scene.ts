@@ -12,6 +12,8 @@ import { seams } from './seams';
 export interface SceneOptions {
   map: MapName;
   fields: Fields | null;
+  /** Fields that say how near the leaflets are to each other; of a moving valve those before its motion. */
+  sides: Fields | null;
   /** Values of the map `distance`, mm per node, if a reference is given. */
   distance: Float32Array | null;
   frame: number[];
@@ -31,7 +33,7 @@ export interface SceneOptions {
 
 /** Everything that is drawn of a valve. */
 export function sceneMeshes(topology: Topology, middle: Picture, options: SceneOptions): Mesh[] {
-  const picture = atrialSide(topology, middle, options.fields);
+  const picture = atrialSide(topology, middle, options.sides);
   const leaflets = leafletMesh(topology, picture, options);
   const meshes = [leaflets, seams(topology, picture, leaflets), boundary(topology, picture, options)];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));

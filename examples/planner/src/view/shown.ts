@@ -1,7 +1,7 @@
 // The valve that the page shows, be it that of the plan, a preview, the valve before, or one in motion: its frame and
 // size, and its meshes with their labels and leak.
 import { chordValue, leakPlaces, shareOfLimit } from '../notable';
-import type { Fields, Topology } from '../protocol';
+import type { Fields, Picture, Topology } from '../protocol';
 import * as state from '../store/state';
 import { isChordMap } from './colours';
 import type { Mesh } from './mesh';
@@ -43,6 +43,13 @@ export function shownFields(): Fields | null {
   return state.motion.value ? null : (state.figures.value?.fields ?? null);
 }
 
+/** Fields of the resting valve of which a moving picture is: without the sides of its leaflets a sealed valve would show daylight
+ *  between them while tissue is pushed. */
+function fieldsBefore(picture: Picture): Fields | null {
+  const resting = state.resting.value;
+  return resting?.picture.topology === picture.topology ? resting.figures.fields : null;
+}
+
 /** The meshes of the valve; an empty list before the first valve. */
 export function valveMeshes(frame: number[]): Mesh[] {
   const picture = state.picture.value;
@@ -56,6 +63,7 @@ export function valveMeshes(frame: number[]): Mesh[] {
   return sceneMeshes(topology, picture, {
     map,
     fields: shownFields(),
+    sides: shownFields() ?? fieldsBefore(picture),
     distance: map === 'distance' ? distances() : null,
     frame,
     load: figures ? Float32Array.from(figures.chords, shareOfLimit) : null,
