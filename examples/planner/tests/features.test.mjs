@@ -224,7 +224,7 @@ describe('planner features', () => {
     await answered(page, 100);
     await apply(page);
     await openPanel(page, 'Valve');
-    const [, wide, deep] = /ring\s+([\d.]+)\smm wide, ([\d.]+)\smm front/.exec(
+    const [, wide, deep] = /Ring\s+([\d.]+)\smm wide, ([\d.]+)\smm front/.exec(
       await page.getByTestId('devices').innerText(),
     );
     // the library lays the ring on the annulus, a few degrees off its axes

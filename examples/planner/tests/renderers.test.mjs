@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { closed, withPlanner } from './browser.mjs';
-import { cameraRests, chordNames, openPanel } from './person.mjs';
+import { apply, cameraRests, chordNames, openPanel } from './person.mjs';
 
 /** Changes between dark and light along the middle of the tube of a chord, in its image; -1 where a leaflet or a head hides most of it. */
 function bandsOf(page, name) {
@@ -63,9 +63,7 @@ describe('planner renderers', () => {
             edit(operation, { head: topology.heads[0].id, site: { scallop, along: 0.5, height: 0.4 } });
           }, kind);
           await closed(page);
-          await page.keyboard.press('Enter');
-          await page.getByTestId('form').waitFor({ state: 'detached' });
-          await closed(page);
+          await apply(page);
           names[kind] = (await chordNames(page)).find((name) => !before.includes(name));
         }
         const keys = page.locator('.scale');

@@ -25,13 +25,14 @@ function nativeOf(session) {
     chords: json('chords').chords,
     heads: json('info').heads,
     measures: json('measure').measures,
-    openArea: json('cost'),
   };
 }
 
 describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND is not set' }, () => {
   let page;
   let native;
+  /** The status line after the last operation. */
+  let said;
   sharePlanner((opened) => ({ page } = opened));
   const add = async (kind, fields) => {
     await page.evaluate(([operation, given]) => window.planner.edit(operation, given), [kind, fields]);
@@ -63,6 +64,7 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     });
     await add('band', { factor: 0.92 });
     await add('clip', { position: 0.2 });
+    said = (await page.getByTestId('status').innerText()).replace(/\s+/g, ' ');
     native = nativeOf(await save(page));
     await openPanel(page, 'Valve');
     await page.evaluate(() => {
@@ -140,7 +142,7 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     const lines = page.locator('[aria-live=polite]');
     assert.equal(await lines.count(), 1);
     const m = native.measures;
-    const said = (await lines.innerText()).replace(/\s+/g, ' ');
+    assert.match(said, /^Join A2 and P2 by clip/);
     assert.ok(said.includes(`Coaptation ${m.coaptation_length_mean_mm.toFixed(1)} mm`), said);
     if (m.regurgitant_orifice_area_mm2 > 0)
       assert.ok(said.includes(`Leak ${m.regurgitant_orifice_area_mm2.toFixed(1)} mm²`), said);

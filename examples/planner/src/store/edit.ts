@@ -41,7 +41,8 @@ export function presentLength(id: string): number {
 /** Sets a field; a chord that answers the form is chosen in the picture as well, and its length is the present one. */
 export function setField(name: string, value: FieldValue | undefined): void {
   const now = state.draft.value;
-  if (!now) return;
+  // a number that was typed is taken by Enter, by leaving its field and after a pause: the form changes once
+  if (!now || (typeof value === 'number' && now.fields[name] === value)) return;
   const fields = { ...now.fields };
   const shape = replacements[now.kind];
   if (shape?.points === name) for (const other of shape.instead) delete fields[other];
