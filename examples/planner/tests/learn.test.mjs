@@ -26,7 +26,8 @@ describe('planner to learn with', () => {
   it('compares_with_the_healthy_valve_from_the_first_moment_of_the_next_tour_valve', async () => {
     // the verdict names the chord, and the goal the load that is compared with
     await openPanel(page, 'Learn');
-    const note = /beyond the working limit\s+A2\/4 \d+\s%[^]*No chord above 111\s% of its working limit/;
+    const note =
+      /1 chord at (\d+)\s% of its limit[^]*A2\/4 \1\s%[^]*No chord above 111\s% of its working limit/;
     await page.evaluate(() => {
       window.notes = [];
       const text = (id) => document.querySelector(`[data-testid=${id}]`)?.innerText;
