@@ -30,6 +30,9 @@ try {
   await shoot();
   await page.keyboard.press('2');
   await begin(page, 'band');
+  await page.locator('#f-factor').fill('85');
+  await page.keyboard.press('Tab');
+  await answered(page, 200);
   await shoot();
   await apply(page);
   await page.keyboard.press('4');
