@@ -16,7 +16,7 @@ export function Scallops({ figures }: { figures: Figures }) {
   const ranges = waiting ? undefined : state.shownSpread.value?.regions;
   return (
     <Section title={tableTexts.scallops} open>
-      <table class="table narrow" data-testid="scallops">
+      <table class="table scallops" data-testid="scallops">
         <thead>
           <tr>
             <th>{tableTexts.scallop}</th>
