@@ -11,6 +11,7 @@
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
+#include "tests/patient/atrial_wall.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 #include "tests/patient/voxel_skin.h"
@@ -350,4 +351,18 @@ TEST_CASE("a_smooth_thick_skin_with_flat_rims_keeps_its_annulus") {
   // a filter that rounds the rims off makes it 4 % shorter
   CHECK(length(mid, rims.annulus) ==
         doctest::Approx(length(tissue.sheet, tissue.rims.annulus)).epsilon(0.005));
+}
+
+TEST_CASE("a_skin_with_wall_of_the_atrium_is_cut_along_annulus_points") {
+  const WalledValve valve = remeshed_with_wall(1600, 5, 1e-3);
+  const Surface skin = skin_of(tissue_of(valve.surface), 1, [](const Vec3 &) { return 1e-3; });
+  const RimLandmarks landmarks = {annulus_points(valve, 6, 0), {}};
+  Findings findings;
+  LeafletSheet mid = clean_surface(skin.x, skin.triangles, {}, {}, findings);
+  mid = mid_of_skin(mid, landmarks, findings);
+  find_rims(mid, landmarks, findings);
+  // 3 %: the mid-surface turns half a thickness outward at the bend beside the annulus
+  CHECK(sheet_area(mid) == doctest::Approx(sheet_area(valve.leaflets)).epsilon(0.03));
+  CHECK(std::count_if(findings.begin(), findings.end(),
+                      [](const Finding &f) { return f.name == "atrial_tissue"; }) == 1);
 }

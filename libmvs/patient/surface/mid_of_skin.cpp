@@ -156,10 +156,12 @@ LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks
   std::vector<LeafletSheet> atrial;
   for (const uint32_t side : {0u, 1u}) {
     LeafletSheet sheet = side_sheet(closed, behind, side_of, side);
-    Findings unused;
+    Findings made;
     // normals out of the tissue become normals into the atrium
-    const bool turned = find_rims(sheet, landmarks, unused).turned;
-    if (!turned) atrial.push_back(std::move(sheet));
+    if (find_rims(sheet, landmarks, made).turned) continue;
+    atrial.push_back(std::move(sheet));
+    const Finding *cut = find_finding(made, "atrial_tissue");
+    if (cut) findings.push_back(*cut);
   }
   MVS_MUST(atrial.size() == 1, MVS_E_OP, "triangles",
            "the sides of the skin do not show which is the atrial one: give the papillary tips and "
