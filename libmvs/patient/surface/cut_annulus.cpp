@@ -117,15 +117,29 @@ std::vector<uint8_t> above(const std::vector<double> &level) {
   return marks;
 }
 
-// The largest loop of which most vertices lie on a side; nullptr.
+// The largest loop that lies on a side in the mean; nullptr.
 const RimLoop *largest_on_side(const std::vector<RimLoop> &rims, const std::vector<double> &level,
                                double sign) {
   for (const RimLoop &rim : rims) {
-    const auto count = std::count_if(rim.loop.begin(), rim.loop.end(),
-                                     [&](uint32_t i) { return sign * level[i] > 0; });
-    if (2 * static_cast<size_t>(count) > rim.loop.size()) return &rim;
+    double sum = 0;
+    for (const uint32_t i : rim.loop) sum += sign * level[i];
+    if (sum > 0) return &rim;
   }
   return nullptr;
+}
+
+// The level at the vertices, positive beyond the curve, and their distance from the curve, m.
+struct CurveLevel {
+  std::vector<double> level, distance;
+};
+
+// Whether a rim follows the curve along a tenth of its vertices or more, as that of a wall beside a
+// part of the annulus does; free edges are 5 mm away and more.
+bool follows_curve(const RimLoop &rim, const CurveLevel &at) {
+  constexpr double on_curve = 2e-3;  // m
+  const auto count = std::count_if(rim.loop.begin(), rim.loop.end(),
+                                   [&](uint32_t i) { return at.distance[i] < on_curve; });
+  return 10 * static_cast<size_t>(count) >= rim.loop.size();
 }
 
 // Which side has the leaflets, and how sure that is.
@@ -135,11 +149,15 @@ struct LeafletSide {
   double confidence = 0.9;
 };
 
-LeafletSide leaflet_side(const std::vector<RimLoop> &rims, const std::vector<double> &level,
+LeafletSide leaflet_side(const std::vector<RimLoop> &rims, const CurveLevel &at,
                          const std::vector<Vec3> &tips) {
-  const RimLoop *plus = largest_on_side(rims, level, 1);
-  const RimLoop *minus = largest_on_side(rims, level, -1);
+  const RimLoop *plus = largest_on_side(rims, at.level, 1);
+  const RimLoop *minus = largest_on_side(rims, at.level, -1);
   if (!plus || !minus) return {plus ? plus : minus, plus ? 1.0 : -1.0};
+  if (const bool plus_follows = follows_curve(*plus, at);
+      plus_follows != follows_curve(*minus, at)) {
+    return {plus_follows ? minus : plus, plus_follows ? -1.0 : 1.0};
+  }
   if (!tips.empty()) {
     double nearer = 0;
     for (const Vec3 &tip : tips) {
@@ -151,11 +169,6 @@ LeafletSide leaflet_side(const std::vector<RimLoop> &rims, const std::vector<dou
   const double odds = std::max(a, b) / std::max(std::min(a, b), 1e-300);
   return {a > b ? plus : minus, a > b ? 1.0 : -1.0, std::min(0.9, (odds - 1) / (odds + 1))};
 }
-
-// The level at the vertices, positive beyond the curve, and their distance from the curve, m.
-struct CurveLevel {
-  std::vector<double> level, distance;
-};
 
 // Makes the level negative in pieces beyond the curve that hardly reach there, that have the free
 // edge, or that begin far from the curve, as in folds beside it.
@@ -242,7 +255,7 @@ bool cut_along_annulus(LeafletSheet &sheet, const RimLandmarks &landmarks, Findi
     at.distance.push_back(distance);
     at.level.push_back(across);
   }
-  const LeafletSide side = leaflet_side(rims, at.level, landmarks.tips);
+  const LeafletSide side = leaflet_side(rims, at, landmarks.tips);
   if (!side.free_edge) return false;
   for (double &value : at.level) value *= -side.sign;
   const Rows stars = rows_of(sheet.x.size(), sheet.triangles);
