@@ -368,7 +368,7 @@ TEST_CASE("a_skin_with_wall_of_the_atrium_is_cut_along_annulus_points") {
 }
 
 TEST_CASE("noise_of_a_thick_skin_with_flat_rims_takes_no_area") {
-  // Filters that round the rims off took 6 to 9 % of it at 2 mm.
+  // Filters that round the rims off took 6 to 7 % of it.
   const Tissue &tissue = fine_tissue();
   const auto thick = [](const Vec3 &) { return 2e-3; };
   for (const uint64_t seed : {1u, 2u, 3u}) {
@@ -389,7 +389,7 @@ TEST_CASE("noise_of_a_thick_skin_with_flat_rims_takes_no_area") {
 }
 
 TEST_CASE("the_middle_of_a_thick_skin_with_round_rims_ends_near_their_centres") {
-  // Bends of the rims that were kept made the area 10 to 14 % larger.
+  // Bends of the rims that were kept made the area 18 to 29 % larger.
   const Tissue &tissue = fine_tissue();
   for (const double size : {0.5e-3, 0.7e-3}) {
     CAPTURE(size);
