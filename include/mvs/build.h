@@ -37,8 +37,10 @@ typedef struct mvs_surface_desc {
   mvs_array triangles;        /* U32, m x 3 [each three points in turn are a triangle] */
   mvs_array triangle_leaflet; /* U32, m: MVS_LEAFLET_LABEL_* [split between the commissures] */
   mvs_array point_thickness;  /* F64, n, m: of the tissue [of a skin its own, else the option] */
-  mvs_array annulus;          /* k x 3, points along the annulus in any order [guessed: the boundary
-                                 that is farther from the papillary tips, or longer] */
+  mvs_array annulus;          /* k x 3, points along the annulus in any order; tissue beyond a curve
+                                 through six or more of them all around it is cut off as wall of
+                                 the atrium [guessed: the boundary that is farther from the
+                                 papillary tips, or longer] */
   mvs_array commissures;      /* 2 x 3, near the surface [guessed from heights, annulus and tips] */
   mvs_array anterior;         /* 1 x 3, a point near the anterior leaflet [guessed: the leaflet that
                                  is more like a normal anterior one] */

@@ -1,6 +1,5 @@
-// Cues as normal deviates. The odds of the two sides of one pair of feet are the fourth root of
-// what independent cues give, as these depend on each other; pairs near each other share their
-// errors.
+// Cues as normal deviates. The odds of two sides are the fourth root of what independent cues give,
+// as these depend on each other; pairs near each other share their errors.
 #include "patient/leaflet_odds.h"
 
 #include <algorithm>
@@ -157,13 +156,18 @@ ArcGuess ArcOdds::best(double least_share) const {
     const size_t d = a > b ? a - b : b - a;
     return std::min(d, n - d);
   };
-  double all = 0, pair = 0;
+  double all = 0, pair = 0, any_side = 0, this_side = 0;
   for (size_t i = 0; i < n; ++i) {
     for (size_t j = 0; j < n; ++j) {
       const double m = misfits[i * n + j];
       if (m == INFINITY) continue;
       const double weight = math::exp(-0.5 * (m - least));
       all += weight;
+      const double side = math::exp(-0.5 * dependence * (m - least));
+      any_side += side;
+      // twice the way from one end of the guess to the middle of this arc
+      const size_t middle2 = (2 * (i + n - guess.from) + (j + n - i) % n) % (2 * n);
+      if (middle2 < 2 * (guess.to - guess.from)) this_side += side;
       const size_t to = guess.to % n;
       if ((apart(i, guess.from) <= near && apart(j, to) <= near) ||
           (apart(j, guess.from) <= near && apart(i, to) <= near)) {
@@ -172,7 +176,7 @@ ArcGuess ArcOdds::best(double least_share) const {
     }
   }
   guess.confidence = pair / all;
-  guess.orientation = is_anterior(guess.from, guess.to);
+  guess.orientation = this_side / any_side;
   return guess;
 }
 

@@ -19,7 +19,7 @@ struct AnnulusSamples {
 struct ArcGuess {
   size_t from = 0, to = 0;  // the anterior arc; to may exceed n
   double confidence = 0;    // of the pair: share of the posterior within 5 mm
-  double orientation = 0;   // that the anterior leaflet is on this side
+  double orientation = 0;   // that the middle of the anterior leaflet lies in this arc, by all arcs
 };
 
 // Sum of the squared deviations of an arc from normal anatomy, in standard deviations: heights all

@@ -102,9 +102,15 @@ void check_heights(const std::vector<double> &height) {
       *least * 1e3, *most * 1e3);
 }
 
-std::array<double, 2> guessed_commissures(const AnnulusSamples &annulus,
-                                          const std::vector<double> &heights, double length,
-                                          Findings &findings) {
+// Feet of commissures, and the probability of the side of the anterior leaflet as far as it depends
+// on where they are.
+struct GuessedFeet {
+  std::array<double, 2> feet{};
+  double orientation = 1;
+};
+
+GuessedFeet guessed_commissures(const AnnulusSamples &annulus, const std::vector<double> &heights,
+                                double length, Findings &findings) {
   check_heights(annulus.height);
   const ArcGuess guess = ArcOdds(annulus).best(least_guessed_share);
   const std::vector<double> exact = smoothed(heights, 2);
@@ -124,7 +130,8 @@ std::array<double, 2> guessed_commissures(const AnnulusSamples &annulus,
         others);
   }
   const double width = length / samples;
-  return {(static_cast<double>(i) + 0.5) * width, (static_cast<double>(j) + 0.5) * width};
+  return {{(static_cast<double>(i) + 0.5) * width, (static_cast<double>(j) + 0.5) * width},
+          guess.orientation};
 }
 
 bool contains(double from, double to, double foot, double length) {
@@ -135,6 +142,7 @@ bool contains(double from, double to, double foot, double length) {
 struct AnteriorOdds {
   double odds;
   std::string cues;
+  double orientation = 1;  // GuessedFeet
 };
 
 AnteriorOdds anterior_odds(const AnnulusSamples &annulus, const LeafletArcs &arcs, double length) {
@@ -163,13 +171,12 @@ void add_anterior(FindingSource source, const char *sentence, const AnteriorOdds
              sentence, 100 * (1 - odds), shape.cues.c_str()));
 }
 
-// Whether the leaflet along an arc is the anterior one.
+// Whether the leaflet along an arc is the anterior one. `shape`: the odds for it by its shape.
 bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
                  const LeafletLandmarks &landmarks, const LabelledArea &area,
-                 const AnnulusSamples &annulus, const LeafletArcs &arcs, Findings &findings) {
+                 const AnteriorOdds &shape, const LeafletArcs &arcs, Findings &findings) {
   const double length = c.annulus_length;
   const auto [from, to] = arcs;
-  const AnteriorOdds shape = anterior_odds(annulus, arcs, length);
   if (!landmarks.anterior.empty()) {
     const SheetPlace place = place_on(sheet, c, landmarks.anterior[0]);
     MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "anterior",
@@ -191,12 +198,15 @@ bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
                  findings);
     return labelled > 0;
   }
-  const double odds = shape.odds;
-  add(findings, "anterior", FindingSource::guessed, std::min(0.95, std::abs(2 * odds - 1)),
-      format("the leaflet that is more like a normal anterior one by %s: %.0f %% likely; give a "
-             "point of the anterior leaflet if this is wrong",
-             shape.cues.c_str(), 100 * std::max(odds, 1 - odds)));
-  return odds >= 0.5;
+  const double likely = std::min(std::max(shape.odds, 1 - shape.odds), shape.orientation);
+  add(findings, "anterior", FindingSource::guessed, std::clamp(2 * likely - 1, 0.0, 0.95),
+      format(
+          "the leaflet that is more like a normal anterior one by %s: %.0f %% likely%s. If it is "
+          "the other one, all scallops, chordae, measures and operations are on the wrong "
+          "leaflet: give a point of the anterior leaflet",
+          shape.cues.c_str(), 100 * likely,
+          shape.orientation < 1 ? ", over all places where commissures may be" : ""));
+  return shape.odds >= 0.5;
 }
 
 // The point of the annulus at an arc length.
@@ -214,23 +224,27 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
   const AnnulusSamples annulus = annulus_samples(sheet, rims, heights, landmarks.tips);
   const LabelledArea area = labelled_area(sheet, coordinates, samples);
   const size_t at = findings.size();
+  double orientation = 1;
   std::vector<Vec3> commissures = landmarks.commissures;
   if (!commissures.empty()) {
     MVS_MUST(commissures.size() == 2, MVS_E_ARGUMENT, "commissures",
              "%zu commissures are given: a mitral valve has two", commissures.size());
     add(findings, "commissures", FindingSource::given, 1, "");
   } else {
-    const std::array<double, 2> feet =
-        area.anterior + area.posterior > 0
-            ? commissures_of_labels(area, length, findings)
-            : guessed_commissures(annulus, heights, length, findings);
-    for (const double s : feet) commissures.push_back(annulus_point(sheet, rims, s));
+    const GuessedFeet guess = area.anterior + area.posterior > 0
+                                  ? GuessedFeet{commissures_of_labels(area, length, findings)}
+                                  : guessed_commissures(annulus, heights, length, findings);
+    for (const double s : guess.feet) commissures.push_back(annulus_point(sheet, rims, s));
+    if (landmarks.anterior.empty()) orientation = guess.orientation;
+    findings[at].confidence *= orientation;  // the sides tell the two commissures apart
   }
   // found points take the same way as given ones, so that giving them changes no bit
   const auto [feet, distance] = feet_of(sheet, coordinates, commissures);
   if (!landmarks.commissures.empty()) say_given(distance, findings[at]);
   LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};
-  if (!is_anterior(sheet, coordinates, landmarks, area, annulus, arcs, findings)) {
+  AnteriorOdds shape = anterior_odds(annulus, arcs, length);
+  shape.orientation = orientation;
+  if (!is_anterior(sheet, coordinates, landmarks, area, shape, arcs, findings)) {
     arcs = {feet[1], feet[1] + wrapped(feet[0] - feet[1], length)};
     std::swap(commissures[0], commissures[1]);
   }

@@ -101,3 +101,22 @@ TEST_CASE("indentations_on_both_sides_of_p2_are_no_commissures") {
   // off, when only the heights at the ends of an arc and its greatest height counted.
   check_ends(guess_with(0.35, true));
 }
+
+TEST_CASE("one_of_three_leaflets_alike_is_the_anterior_one_with_a_third_of_the_probability") {
+  constexpr size_t samples = 120;
+  AnnulusSamples annulus;
+  for (size_t k = 0; k < samples; ++k) {
+    const double t = 2 * pi * (static_cast<double>(k) + 0.5) / samples;
+    annulus.points.emplace_back(18e-3 * std::cos(t), 18e-3 * std::sin(t), 0);
+    annulus.height.push_back(8e-3 + 10e-3 * std::abs(std::sin(1.5 * t)));
+  }
+  const ArcOdds odds(annulus);
+  const ArcGuess guess = odds.best(0.28);
+  // each of three arcs, a third of the way apart, is as likely; together they cover the annulus
+  // once, and overlap by the share of each above a third
+  const double share = static_cast<double>(guess.to - guess.from) / samples;
+  CHECK(share == doctest::Approx(1.0 / 3).epsilon(0.12));
+  CHECK(guess.orientation == doctest::Approx(1.0 / 3).epsilon(0.12));
+  // of these two ends alone, the smaller side is far likelier
+  CHECK(odds.is_anterior(guess.from, guess.to) > 0.9);
+}

@@ -203,7 +203,8 @@ void add_landmark_options(CLI::App &command, ImportOptions &options) {
   const auto landmark = [&](const char *name, std::string &to, const char *help) {
     command.add_option(name, to, std::string(help) + ": .mrk.json, .fcsv, .csv, .vtk, .vtp");
   };
-  landmark("--annulus", options.annulus, "points or a curve along the annulus");
+  landmark("--annulus", options.annulus,
+           "points or a curve along the annulus; tissue beyond it is cut off");
   landmark("--commissures", options.commissures, "the two commissures");
   landmark("--anterior", options.anterior, "one point of the anterior leaflet");
   landmark("--tips", options.tips, "tips of the papillary muscles");

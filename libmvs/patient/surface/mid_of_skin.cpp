@@ -150,21 +150,26 @@ LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks
   LeafletSheet closed = skin;
   turn_outward(closed);
   make_ring(closed, findings);
-  const int rounds = smooth_skin(closed, median_thickness(closed), findings);
+  const double thickness = median_thickness(closed);
+  const SkinRidges ridges = skin_ridges(closed, thickness);
+  const int rounds = smooth_skin(closed, thickness, ridges, findings);
   const std::vector<TissueBehind> behind = tissue_behind(closed);
-  const std::vector<uint32_t> side_of = sides_of(closed, behind);
+  const std::vector<uint32_t> side_of = sides_of(closed, behind, ridges.at_rims);
   std::vector<LeafletSheet> atrial;
   for (const uint32_t side : {0u, 1u}) {
     LeafletSheet sheet = side_sheet(closed, behind, side_of, side);
-    Findings unused;
+    Findings made;
     // normals out of the tissue become normals into the atrium
-    const bool turned = find_rims(sheet, landmarks, unused).turned;
-    if (!turned) atrial.push_back(std::move(sheet));
+    if (find_rims(sheet, landmarks, made).turned) continue;
+    atrial.push_back(std::move(sheet));
+    const Finding *cut = find_finding(made, "atrial_tissue");
+    if (cut) findings.push_back(*cut);
   }
   MVS_MUST(atrial.size() == 1, MVS_E_OP, "triangles",
            "the sides of the skin do not show which is the atrial one: give the papillary tips and "
            "points along the annulus");
   add_thickness(closed, atrial[0], findings);
+  if (!ridges.at_rims) drop_round_rims(atrial[0]);
   move_to_mid(atrial[0], 0, findings);
   smooth_rims_freely(atrial[0], std::min(rounds, rim_rounds));
   return std::move(atrial[0]);

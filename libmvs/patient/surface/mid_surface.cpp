@@ -9,6 +9,9 @@
 #include "model/compressed_rows.h"
 #include "model/sides.h"
 #include "patient/findings.h"
+#include "patient/surface/boundary.h"
+#include "patient/surface/manifold.h"
+#include "patient/surface/weld.h"
 
 namespace mvs::core {
 namespace {
@@ -50,7 +53,67 @@ std::vector<uint8_t> harmed(const LeafletSheet &sheet, const std::vector<Vec3> &
   return marks;
 }
 
+// Marks the triangles that shrink to less than a half, or cross others, where each vertex moves by
+// half a thickness.
+std::vector<uint8_t> spoilt_by_offset(const LeafletSheet &sheet) {
+  constexpr double least_area = 0.5;
+  const std::vector<Vec3> normal = smooth_normals(sheet);
+  std::vector<Vec3> x(sheet.x.size());
+  for (size_t i = 0; i < x.size(); ++i) x[i] = sheet.x[i] - 0.5 * sheet.thickness[i] * normal[i];
+  std::vector<uint8_t> marks(sheet.triangles.size(), 0);
+  for (size_t t = 0; t < marks.size(); ++t) {
+    const Vec3 before = area_normal(sheet.x, sheet.triangles[t]);
+    marks[t] = area_normal(x, sheet.triangles[t]).dot(before) < least_area * before.squaredNorm();
+  }
+  for (const auto &[a, b] : find_intersections(x, sheet.triangles)) marks[a] = marks[b] = 1;
+  return marks;
+}
+
+// Drops triangles with a mark at the rims, and those that are at them then, and keeps the largest
+// piece. Returns whether any was dropped.
+bool peel_rims(LeafletSheet &sheet, const std::vector<uint8_t> &marks) {
+  std::vector<uint8_t> at_rim(sheet.x.size(), 0), kept(marks.size(), 1);
+  for (const std::vector<uint32_t> &rim : boundary_loops(sheet)) {
+    for (const uint32_t i : rim) at_rim[i] = 1;
+  }
+  bool any = false;
+  for (bool more = true; more;) {
+    more = false;
+    for (size_t t = 0; t < marks.size(); ++t) {
+      const Tri &tri = sheet.triangles[t];
+      if (marks[t] == 0 || kept[t] == 0) continue;
+      if (std::none_of(tri.begin(), tri.end(), [&](uint32_t i) { return at_rim[i] != 0; }))
+        continue;
+      kept[t] = 0;
+      for (const uint32_t i : tri) at_rim[i] = 1;
+      any = more = true;
+    }
+  }
+  if (!any) return false;
+  keep_triangles(sheet, kept);
+  const std::vector<uint32_t> piece = pieces_of(join_sides(sheet.x, sheet.triangles).across);
+  std::vector<size_t> count(piece.size() + 1, 0);
+  for (const uint32_t p : piece) ++count[p];
+  const auto largest = std::max_element(count.begin(), count.end()) - count.begin();
+  kept.assign(piece.size(), 0);
+  for (size_t t = 0; t < piece.size(); ++t) kept[t] = piece[t] == static_cast<uint32_t>(largest);
+  keep_triangles(sheet, kept);
+  separate_fans(sheet, join_sides(sheet.x, sheet.triangles).across);
+  drop_unused(sheet);
+  return true;
+}
+
 }  // namespace
+
+void drop_round_rims(LeafletSheet &sheet) {
+  constexpr int most_rounds = 4;
+  const size_t rims = boundary_loops(sheet).size();
+  LeafletSheet left = sheet;
+  for (int round = 0; round < most_rounds; ++round) {
+    if (!peel_rims(left, spoilt_by_offset(left))) break;
+  }
+  if (boundary_loops(left).size() >= rims) sheet = std::move(left);
+}
 
 void move_to_mid(LeafletSheet &sheet, double thickness_if_unknown, Findings &findings) {
   const size_t n = sheet.x.size();

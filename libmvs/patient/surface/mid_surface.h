@@ -12,6 +12,12 @@ namespace mvs::core {
 // others.
 void move_to_mid(LeafletSheet &sheet, double thickness_if_unknown, Findings &findings);
 
+// Drops the triangles at the rims of the atrial side of a skin that bend around the edge of the
+// tissue: moved to the middle, they would shrink to less than a half or cross others. The middle of
+// tissue with a round edge ends half a thickness before it. Changes nothing if parts of the sheet
+// would be lost.
+void drop_round_rims(LeafletSheet &sheet);
+
 // The mid-surface of a closed skin (both sides of the leaflets and the bands that join them at
 // annulus and free edge) as an open sheet with normals into the atrium and with the thickness at
 // each vertex. Rays inward from each triangle measure the thickness (shape diameter, Shapira et al.

@@ -11,6 +11,7 @@
 #include "model/sides.h"
 #include "patient/findings.h"
 #include "patient/surface/boundary.h"
+#include "patient/surface/cut_annulus.h"
 #include "patient/surface/cut_handles.h"
 #include "patient/surface/holes.h"
 #include "patient/surface/pinched_gaps.h"
@@ -141,6 +142,7 @@ std::vector<RimLoop> rims_without_holes(LeafletSheet &sheet, FilledHoles &filled
 
 SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings &findings) {
   fill_pinched_gaps(sheet, findings);
+  cut_along_annulus(sheet, landmarks, findings);
   FilledHoles filled;
   std::vector<RimLoop> rims = rims_without_holes(sheet, filled);
   const size_t triangles = sheet.triangles.size();

@@ -16,13 +16,14 @@ struct RimLandmarks {
   std::vector<Vec3> tips;     // of the papillary muscles
 };
 
-// Fills gaps that open to a rim in one point and holes (loops shorter than a fifth of the longest
-// one, and longer ones that are narrow and lie in the plane of one leaflet), finds which of the two
-// rims is the annulus (nearer to given annulus points, else farther from given tips, else larger,
-// rounder and smoother), and turns the triangles so that their normals point into the atrium: the
-// annulus, in the order in which the triangles pass along it, runs counter-clockwise seen from
-// there. `sheet` is one piece as clean_surface() makes it. Throws unless there are two rims and no
-// handle, on landmarks of another frame, and on leaflets that are closed.
+// Cuts tissue of the atrium off along given annulus points (cut_annulus.h), fills gaps that open to
+// a rim in one point and holes (loops shorter than a fifth of the longest one, and longer ones that
+// are narrow and lie in the plane of one leaflet), finds which of the two rims is the annulus
+// (nearer to given annulus points, else farther from given tips, else larger, rounder and
+// smoother), and turns the triangles so that their normals point into the atrium: the annulus, in
+// the order in which the triangles pass along it, runs counter-clockwise seen from there. `sheet`
+// is one piece as clean_surface() makes it. Throws unless there are two rims and no handle, on
+// landmarks of another frame, and on leaflets that are closed.
 SheetRims find_rims(LeafletSheet &sheet, const RimLandmarks &landmarks, Findings &findings);
 
 }  // namespace mvs::core

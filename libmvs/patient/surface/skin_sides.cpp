@@ -228,7 +228,8 @@ std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin) {
   return behind;
 }
 
-std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind) {
+std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
+                               bool sharp_rims) {
   const size_t n = skin.triangles.size();
   std::vector<double> sorted;
   for (const TissueBehind &b : behind) {
@@ -256,7 +257,7 @@ std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<Tissu
   }
   std::vector<uint32_t> side_of = split_sides(skin, smooth, marks);
   fill_notches(across, normal, side_of);
-  grow_flat(skin, across, normal, median, side_of);
+  if (sharp_rims) grow_flat(skin, across, normal, median, side_of);
   check_facing(skin, behind, side_of);
   return side_of;
 }

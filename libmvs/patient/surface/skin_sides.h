@@ -20,7 +20,9 @@ struct TissueBehind {
 // Normals of `skin` point out of the tissue.
 std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin);
 
-// The side of each triangle, 0 or 1; `none` for the bands at the rims.
-std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind);
+// The side of each triangle, 0 or 1; `none` for the bands at the rims. `sharp_rims`: the bands are
+// flat and meet the sides at ridges, up to which the sides go; else the skin is round there.
+std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
+                               bool sharp_rims);
 
 }  // namespace mvs::core

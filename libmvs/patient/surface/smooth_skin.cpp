@@ -49,7 +49,8 @@ double share_of_bends(const LeafletSheet &skin) {
 
 }  // namespace
 
-int smooth_skin(LeafletSheet &skin, double thickness, Findings &findings) {
+int smooth_skin(LeafletSheet &skin, double thickness, const SkinRidges &ridges,
+                Findings &findings) {
   constexpr double most_rounds = 40;
   const double fineness = thickness / median_edge(skin.x, skin.triangles);
   const int rounds = static_cast<int>(std::min(most_rounds, 4 * fineness * fineness));
@@ -60,8 +61,11 @@ int smooth_skin(LeafletSheet &skin, double thickness, Findings &findings) {
   if (share_of_bends(skin) < rough) return 0;
   std::vector<std::vector<uint32_t>> around(skin.x.size());
   const Rows stars = rows_of(skin.x.size(), skin.triangles);
-  for (uint32_t i = 0; i < around.size(); ++i)
-    around[i] = neighbours_in(skin.triangles, stars[i], i);
+  for (uint32_t i = 0; i < around.size(); ++i) {
+    const auto &[a, b] = ridges.along[i];
+    around[i] = a == none || !ridges.at_rims ? neighbours_in(skin.triangles, stars[i], i)
+                                             : std::vector<uint32_t>{a, b};
+  }
   const std::vector<Vec3> before = skin.x;
   std::vector<Vec3> next(skin.x.size());
   for (int step = 0; step < 2 * rounds; ++step) {

@@ -35,16 +35,6 @@ double mean_distance(const LeafletSheet &sheet, const RimLoop &rim,
   return sum / static_cast<double>(points.size());
 }
 
-// How much a rim looks like an annulus: its spanned area, times its roundness (4 pi area /
-// length^2) over the square of its turning, as the free edge has scallops. Annulus over free
-// edge: 2.2 for a parametric valve with a saddle of 9 mm, 3.1 for its default, 28 for a real valve
-// by ultrasound, 37 and more for designed ones. (Deviations from a plane mislead: a saddle is less
-// plane than many a free edge.)
-double annulus_likeness(const LoopShape &shape) {
-  const double area = shape.area.norm();
-  return area * area / (shape.length * shape.length * shape.turning * shape.turning);
-}
-
 // Lowers the confidence in the annulus if the other boundary is more like one by its shape. Returns
 // how many times more.
 double doubt_shape(const std::vector<RimLoop> &rims, size_t annulus, const char *remedy,
@@ -79,7 +69,8 @@ bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims
     finding.confidence = std::min(finding.confidence, near_annulus / near);
     finding.sentence +=
         "; the leaflets are taken to begin at this boundary, not at the points: if tissue between "
-        "them is the wall of the atrium, cut it off there";
+        "them is the wall of the atrium, give six points or more all around the annulus, on the "
+        "surface, along which it is cut off";
   }
   doubt_shape(rims, d0 <= d1 ? 0 : 1, "check that the points are not those of the free edge",
               finding);
@@ -132,6 +123,11 @@ bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
 
 }  // namespace
 
+double annulus_likeness(const LoopShape &shape) {
+  const double area = shape.area.norm();
+  return area * area / (shape.length * shape.length * shape.turning * shape.turning);
+}
+
 void order_rims(const LeafletSheet &sheet, const RimLandmarks &landmarks,
                 std::vector<RimLoop> &rims, Findings &findings) {
   Finding finding;
@@ -141,8 +137,14 @@ void order_rims(const LeafletSheet &sheet, const RimLandmarks &landmarks,
                          : (!landmarks.tips.empty() ? first_by_tips(rims, landmarks.tips, finding)
                                                     : first_by_shape(rims, finding));
   if (!first) std::swap(rims[0], rims[1]);
+  // points along which tissue of the atrium is cut off stay those that were given, so that they
+  // lead to the same cut again
   std::vector<Vec3> points;
-  for (const uint32_t node : rims[0].loop) points.push_back(sheet.x[node]);
+  if (find_finding(findings, "atrial_tissue")) {
+    points = landmarks.annulus;
+  } else {
+    for (const uint32_t node : rims[0].loop) points.push_back(sheet.x[node]);
+  }
   set_points(points, finding);
   findings.push_back(finding);
 }

@@ -1271,7 +1271,8 @@ export interface SurfaceDesc {
   /** F64, n, m: of the tissue [of a skin its own, else the option] */
   point_thickness?: ArrayInput;
   /**
-   * k x 3, points along the annulus in any order [guessed: the boundary that is farther from the
+   * k x 3, points along the annulus in any order; tissue beyond a curve through six or more of them
+   * all around it is cut off as wall of the atrium [guessed: the boundary that is farther from the
    * papillary tips, or longer]
    */
   annulus?: ArrayInput;

@@ -18,7 +18,8 @@ from typing import Any, Optional
 import mvs
 from .console import Console
 
-LANDMARKS = {"annulus": "points or a curve along the annulus", "commissures": "the two commissures",
+LANDMARKS = {"annulus": "points or a curve along the annulus; tissue beyond it is cut off",
+             "commissures": "the two commissures",
              "anterior": "a point of the anterior leaflet", "tips": "tips of the papillary muscles"}
 
 
