@@ -2,8 +2,9 @@
  *
  * An operation is a struct that begins with mvs_op: its size and kind. mvs_check_op and
  * mvs_apply_op return the same result and sentence. An operation may be applied to an open, a
- * closed or a moving valve; positions and velocities do not change (except that a clip opens the
- * valve), and the next settle or step moves the valve to its new equilibrium. Lengths are in m.
+ * closed or a moving valve; positions and velocities do not change (except that a clip and a
+ * resection open the valve), and the next settle or step moves the valve to its new equilibrium.
+ * Lengths are in m.
  *
  * Every operation can be undone. The history belongs to snapshots, so that restoring a snapshot
  * restores its history; a new valve starts a new history. */
@@ -193,7 +194,8 @@ typedef struct mvs_op_clip {
 
 /* Resects a part of a scallop from its free edge and sews the sides of the gap together: a
  * triangle, a quadrangle, or a given outline. A quadrangle also shortens the annulus below by the
- * width of its base. */
+ * width of its base. It is made on the open valve: positions return to the rest shape with zero
+ * velocity. */
 typedef struct mvs_op_resect {
   mvs_op op;
   mvs_id scallop;    /* [P2] */

@@ -17,6 +17,8 @@ class Settling {
   // Before the first advance(): whether more nodes are far from rest than a local subproblem may
   // have. Only Newton's method looks.
   virtual bool begins_far_from_rest() const { return false; }
+  // Before the first advance(): the largest force on a free node, N. Only Newton's method looks.
+  virtual double largest_first_force() const { return 0; }
 };
 
 // Advances to the end.

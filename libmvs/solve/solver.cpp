@@ -84,6 +84,7 @@ class ValveSettling final : public Settling {
 
   bool advance() override { return loop_->advance(); }
   bool begins_far_from_rest() const override { return loop_->begins_far_from_rest(); }
+  double largest_first_force() const override { return loop_->largest_first_force(); }
 
   SolveStats finish(State &state) override {
     State nodes = ToolPoints::extended(state);

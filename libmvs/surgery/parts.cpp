@@ -85,6 +85,12 @@ void remove_nodes(Surgery &s, const std::vector<uint8_t> &gone) {
   renumber_grasps(s.state, remove_nodes(s.valve, gone));
 }
 
+void open_the_valve(Surgery &s) {
+  const State open = initial_state(s.before);
+  s.state.x = open.x;
+  s.state.v = open.v;
+}
+
 Id add_suture(Surgery &s, Suture suture) {
   Chord chord;
   chord.id = new_id(s);

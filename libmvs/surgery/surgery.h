@@ -41,6 +41,11 @@ void remove_nodes(Surgery &s, const std::vector<uint8_t> &gone);
 // Removes chords that lead to no leaflet or to no papillary head, and their branch points.
 void prune_chords(Surgery &s);
 
+// Sets the positions to the open valve: stitches are sewn in an arrested heart, and clips close on
+// open leaflets. Joining edges that are pressed on other tissue would fold or pinch it: settling
+// took hundreds of iterations and left crossing creases; from the open valve it takes about 26.
+void open_the_valve(Surgery &s);
+
 // Adds a suture: a chord that joins two nodes of the sheet. Returns its id.
 struct Suture {
   std::string name;

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "geometry/intersect.h"
 #include "model/law.h"
+#include "solve/nodes.h"
 #include "solve/settings.h"
 #include "solve/static/untangle.h"
 
@@ -126,6 +127,32 @@ TEST_CASE("exponential_tissue_closes_over_a_bilinear_surrogate_in_fewer_iteratio
   CHECK(solver.settle(*model, more, {}, {}).iterations == 0);
   settle_with_mesh_hierarchy(solver, *model, again, {}, {});
   CHECK(hash_of(*model, again) == hash_of(*model, levels));
+}
+
+TEST_CASE("overstretched_exponential_tissue_is_settled_as_a_bilinear_one_first") {
+  Valve valve = valve_of(425)->valve;
+  const LeafletLaw &law = *find_leaflet_law(LeafletLawId::fung);
+  for (Leaflet &leaflet : valve.leaflets) {
+    leaflet.law = law.id;
+    leaflet.constants = default_constants(law.constants);
+  }
+  const ModelPtr model = make_model(std::move(valve));
+  Solver solver(Backend::fastest);
+  State closed = loaded(*model);
+  REQUIRE(solver.settle(*model, closed, {}, {}).converged);
+  const double rest_force = MVS_SYSTOLE_PA * mean_area(*model);
+  // tissue between one node of the anterior leaflet and its neighbours is stretched as at a clip
+  const uint32_t moved = model->topology.free_edges.front()[0];
+  for (const double distance : {0.1e-3, 8e-3}) {
+    State plain = closed;
+    plain.x.edit()[moved] += Vec3(0, 0, -distance);
+    State levels = plain;
+    const double first = solver.begin_settle(*model, plain, {}, {})->largest_first_force();
+    CHECK(solver.settle(*model, plain, {}, {}).converged);
+    CHECK(settle_with_mesh_hierarchy(solver, *model, levels, {}, {}).converged);
+    const bool is_plain = hash_of(*model, plain) == hash_of(*model, levels);
+    CHECK(is_plain == (first < settings::mesh_hierarchy::overstretched * rest_force));
+  }
 }
 
 TEST_CASE("progress_increases_over_the_levels_and_can_cancel") {

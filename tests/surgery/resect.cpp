@@ -54,6 +54,24 @@ TEST_CASE("a_resected_valve_converges_sutured_and_sealed") {
   }
 }
 
+TEST_CASE("a_resection_is_made_on_the_open_shape_in_any_state") {
+  const ModelState before = shipped();
+  const Closed healthy = close(before);
+  const ModelState closed{healthy.model, healthy.state};
+  for (const mvs_op_resect &op : {resection(0, 0, 0), resection(8 * mm, 6 * mm, 10 * mm)}) {
+    const Closed from_open = close(apply(before, op).current);
+    const Closed from_closed = close(apply(closed, op).current);
+    CHECK(from_open.state.x.get() == from_closed.state.x.get());
+  }
+  // the outline is of the closed leaflet, as it lies before the operation
+  const ModelState after = apply(closed, along_outline(notch(closed))).current;
+  const State open = initial_state(*closed.model);
+  for (size_t n = 0; n < after.model->valve.rest.size(); ++n) {
+    const uint32_t origin = after.model->valve.origin[n];
+    if (origin != none) CHECK(after.state.x.get()[n] == open.x.get()[origin]);
+  }
+}
+
 TEST_CASE("the_sutures_seal_the_gap") {
   ModelState cut = apply(shipped(), resection(0, 0, 0)).current;
   Valve valve = cut.model->valve;

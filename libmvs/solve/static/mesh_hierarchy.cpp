@@ -82,12 +82,12 @@ ModelPtr make_surrogate(const Model &fine) {
   return make_model(std::move(valve), &fine);
 }
 
-// The level before the finest one where tissue has an exponential law.
-Level surrogate_of(const Level &fine, CoarseLevels &kept) {
+// The level before the finest one where tissue has an exponential law; it is left at so many rest
+// forces.
+Level surrogate_of(const Level &fine, double rest_forces, CoarseLevels &kept) {
   namespace set = settings::mesh_hierarchy;
   const ModelPtr model = kept.surrogate(*fine.model);
-  const SolveOptions options =
-      rough(fine.options, set::surrogate_residual, *model, fine.state.load);
+  const SolveOptions options = rough(fine.options, rest_forces, *model, fine.state.load);
   return Level{model.get(), nullptr, model,
                fine.state,  options, part_of(fine.progress, 0, set::coarse_progress)};
 }
@@ -160,9 +160,15 @@ class HierarchySettling final : public Settling {
                     const SolveOptions &options, const Progress &progress)
       : solver_(&solver) {
     levels_.push_back({&model, nullptr, nullptr, state, options, progress});
-    if (has_tissue_with_surrogate(model) && is_to_coarsen()) {
-      levels_.back().has_coarser = true;
-      levels_.push_back(surrogate_of(levels_.back(), solver.coarse_levels()));
+    if (has_tissue_with_surrogate(model)) {
+      namespace set = settings::mesh_hierarchy;
+      const double left_at = is_to_coarsen()      ? set::surrogate_residual
+                             : is_overstretched() ? set::overstretched_residual
+                                                  : 0;
+      if (left_at > 0) {
+        levels_.back().has_coarser = true;
+        levels_.push_back(surrogate_of(levels_.back(), left_at, solver.coarse_levels()));
+      }
     }
     while (is_to_coarsen()) {
       std::optional<Level> next = coarser(levels_.back(), solver.coarse_levels());
@@ -208,6 +214,20 @@ class HierarchySettling final : public Settling {
       return far_from_rest(*level.model, level.state);
     }
     if (!running_->begins_far_from_rest()) return false;
+    running_.reset();
+    return true;
+  }
+
+  // Whether the last level has tissue stretched so far that its exponential law makes huge forces:
+  // Newton's method follows them in tiny steps.
+  bool is_overstretched() {
+    const Level &level = levels_.back();
+    if (level.options.solver > SolverKind::newton || !level.state.tools.empty()) return false;
+    begin_level();
+    const double rest_force = scale_of(level.state.load) * mean_area(*level.model);
+    if (running_->largest_first_force() <= settings::mesh_hierarchy::overstretched * rest_force) {
+      return false;
+    }
     running_.reset();
     return true;
   }

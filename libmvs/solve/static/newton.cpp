@@ -109,9 +109,11 @@ bool Newton::newton_polish_step(PolishSchedule &polish) {
     // a local subproblem has no masses, and its stability is not that of the valve
     const bool is_local = limit_.is_set();
     if (is_local || at_.residual > settings::stability::early_residual * rest_force()) return false;
-    if (at_.residual > polish.stable_residual) {
+    const bool may_leave = polish.early_leaves < settings::stability::most_early_leaves;
+    if (may_leave && at_.residual > polish.stable_residual) {
       const Stability found = check_stability(false);
       if (!found.is_stable) {
+        ++polish.early_leaves;
         leave(found);
         return true;
       }

@@ -36,6 +36,7 @@ struct PolishSchedule {
   int wait = 0, pause = 1;  // iterations until the next attempt; after the next failure
   // N, of the last iterate with an indefinite Hessian whose equilibrium was found to be stable.
   double stable_residual = 0;
+  uint32_t early_leaves = 0;  // of unstable equilibria before the settle has converged to them
 };
 // A step of all nodes, m.
 struct NewtonStep {

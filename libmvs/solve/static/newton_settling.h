@@ -20,6 +20,7 @@ class NewtonSettling final : public Settling {
   // Sets velocities to zero.
   SolveStats finish(State &state) override;
   bool begins_far_from_rest() const override;
+  double largest_first_force() const override { return newton_.residual(); }
 
  private:
   double seconds_ = 0;

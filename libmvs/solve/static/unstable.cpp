@@ -47,14 +47,15 @@ bool Newton::is_stable(bool margins) {
 }
 
 // Along the mode, to the side where the residual forces push, or to the other side where it came
-// back from that one, as far as the energy falls.
+// back from that one, as far as the energy falls. After it came back from both sides another
+// displacement is tried.
 void Newton::leave(const Stability &unstable) {
   namespace set = settings::stability;
   const double pushed = dot(at_.gradient, unstable.mode) > 0 ? -1 : 1;
   const double turn = unstable_.count() % 2 == 0 ? pushed : -pushed;
   double lowest = std::numeric_limits<double>::infinity();
   std::vector<Vec3> farthest;
-  double way = set::leave_by;
+  double way = set::leave_shares[unstable_.count() / 2] * set::leave_by;
   NewtonStep step;
   while (way <= set::leave_at_most) {
     step.newton = unstable.mode;

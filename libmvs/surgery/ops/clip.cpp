@@ -119,15 +119,6 @@ void sew_pairs(Surgery &s, const std::vector<Pair> &pairs, const std::string &na
   }
 }
 
-// Sets the positions to the open valve: stitches are sewn in an arrested heart, and clips close on
-// open leaflets. Joining leaflets that are pressed on each other would fold them: settling took
-// hundreds of iterations and left crossing creases; from the open valve it takes about 26.
-void open_the_valve(Surgery &s) {
-  const State open = initial_state(s.before);
-  s.state.x = open.x;
-  s.state.v = open.v;
-}
-
 }  // namespace
 
 void operate(Surgery &s, const mvs_op_clip &op) {

@@ -74,6 +74,7 @@ std::string title_of(const Surgery &s, const mvs_op_resect &op, const ResectPlan
 
 void operate(Surgery &s, const mvs_op_resect &op) {
   ResectPlan plan = plan_resection(s, op);
+  open_the_valve(s);
   if (op.base_width != 0) plicate(s, plan.annulus, op.base_width);
   const CutLine line = cut_out(s, plan.flat, plan.outline());
   check_rest(s);

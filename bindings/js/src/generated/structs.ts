@@ -817,7 +817,8 @@ export interface OpClip {
 /**
  * Resects a part of a scallop from its free edge and sews the sides of the gap together: a
  * triangle, a quadrangle, or a given outline. A quadrangle also shortens the annulus below by the
- * width of its base.
+ * width of its base. It is made on the open valve: positions return to the rest shape with zero
+ * velocity.
  */
 export interface OpResect {
   /** [P2] */
