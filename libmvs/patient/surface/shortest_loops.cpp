@@ -9,6 +9,7 @@
 
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
+#include "patient/surface/clusters.h"
 
 namespace mvs::core {
 namespace {
@@ -86,28 +87,6 @@ PathTree paths_from(const EdgeGraph &graph, uint32_t root, double reach) {
   return tree;
 }
 
-// Faces joined across edges, with path halving.
-class FaceUnion {
- public:
-  explicit FaceUnion(size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0u);
-  }
-  bool join(uint32_t a, uint32_t b) {
-    a = root_of(a);
-    b = root_of(b);
-    if (a == b) return false;
-    parent_[std::max(a, b)] = std::min(a, b);
-    return true;
-  }
-
- private:
-  uint32_t root_of(uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  std::vector<uint32_t> parent_;
-};
-
 // The loop from the root along the tree to an edge, over it, and back; without the path that both
 // ways share.
 SurfaceLoop loop_over(const EdgeGraph &graph, const PathTree &tree, uint32_t edge) {
@@ -141,7 +120,8 @@ std::vector<uint32_t> edges_left(const EdgeGraph &graph, const PathTree &tree, d
   for (const uint32_t e : tree.edge) {
     if (e != none) in_tree[e] = 1;
   }
-  FaceUnion faces(graph.faces);
+  std::vector<uint32_t> faces(graph.faces);
+  std::iota(faces.begin(), faces.end(), 0u);
   std::vector<std::pair<double, uint32_t>> short_loops;
   for (uint32_t e = 0; e < graph.edges.size(); ++e) {
     if (in_tree[e] != 0) continue;
@@ -150,14 +130,14 @@ std::vector<uint32_t> edges_left(const EdgeGraph &graph, const PathTree &tree, d
     if (length <= longest) {
       short_loops.push_back({-length, e});
     } else {
-      faces.join(edge.face[0], edge.face[1]);
+      join(faces, edge.face[0], edge.face[1]);
     }
   }
   std::sort(short_loops.begin(), short_loops.end());
   std::vector<uint32_t> left;
   for (const auto &[length, e] : short_loops) {
     const std::array<uint32_t, 2> &face = graph.edges[e].face;
-    if (!faces.join(face[0], face[1])) left.push_back(e);
+    if (!join(faces, face[0], face[1])) left.push_back(e);
   }
   return left;
 }

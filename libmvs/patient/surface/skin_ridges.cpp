@@ -5,6 +5,7 @@
 
 #include "geometry/bvh.h"
 #include "model/sides.h"
+#include "patient/surface/clusters.h"
 
 namespace mvs::core {
 namespace {
@@ -28,11 +29,6 @@ std::vector<Edge> sharp_edges(const LeafletSheet &skin) {
   return edges;
 }
 
-uint32_t root_of(std::vector<uint32_t> &parent, uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
 }  // namespace
 
 SkinRidges skin_ridges(const LeafletSheet &skin, double thickness) {
@@ -40,10 +36,7 @@ SkinRidges skin_ridges(const LeafletSheet &skin, double thickness) {
   const std::vector<Edge> edges = sharp_edges(skin);
   std::vector<uint32_t> parent(n);
   for (uint32_t i = 0; i < n; ++i) parent[i] = i;
-  for (const auto &[a, b] : edges) {
-    const uint32_t p = root_of(parent, a), q = root_of(parent, b);
-    parent[std::max(p, q)] = std::min(p, q);
-  }
+  for (const auto &[a, b] : edges) join(parent, a, b);
   std::vector<double> length(n, 0);
   for (const auto &[a, b] : edges) {
     length[root_of(parent, a)] += (skin.x[a] - skin.x[b]).norm();

@@ -6,19 +6,9 @@
 #include <numeric>
 
 #include "model/sides.h"
+#include "patient/surface/clusters.h"
 
 namespace mvs::core {
-namespace {
-
-uint32_t root_of(std::vector<uint32_t> &parent, uint32_t i) {
-  while (parent[i] != i) {
-    parent[i] = parent[parent[i]];
-    i = parent[i];
-  }
-  return i;
-}
-
-}  // namespace
 
 double median_edge(const std::vector<Vec3> &x, const std::vector<Tri> &triangles) {
   std::vector<double> length;
@@ -51,8 +41,7 @@ std::vector<uint32_t> weld_map(const std::vector<Vec3> &x, double distance) {
     for (size_t q = p + 1; q < n && x[order[q]].x() - x[i].x() <= distance; ++q) {
       const uint32_t j = order[q];
       if ((x[j] - x[i]).squaredNorm() > distance * distance) continue;
-      const uint32_t a = root_of(parent, i), b = root_of(parent, j);
-      parent[std::max(a, b)] = std::min(a, b);
+      join(parent, i, j);
     }
   }
   for (uint32_t i = 0; i < n; ++i) parent[i] = root_of(parent, i);
