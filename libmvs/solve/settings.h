@@ -132,6 +132,10 @@ inline constexpr int polish_trials = 2;
 inline constexpr int patient_trials = 7;
 inline constexpr double polish_backtracking = 0.5, polish_decrease = 0.1;
 
+// Iterations without a lower energy or residual after which Newton's method wanders, and steps in
+// time at most that lead out of it.
+inline constexpr uint32_t wander_iterations = 150, wander_steps = 400;
+
 }  // namespace newton
 
 // Trust region on the energy (Conn, Gould, Toint, Trust-Region Methods, 2000).

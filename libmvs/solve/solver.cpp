@@ -12,9 +12,9 @@
 #include "solve/dynamic/explicit_euler.h"
 #include "solve/dynamic/implicit_euler.h"
 #include "solve/dynamic/settling_in_time.h"
+#include "solve/newton_with_steps.h"
 #include "solve/settings.h"
 #include "solve/static/mesh_hierarchy.h"
-#include "solve/static/newton_settling.h"
 #include "solve/tools/tool_points.h"
 
 namespace mvs::core {
@@ -170,7 +170,14 @@ std::unique_ptr<Settling> Solver::loop_over_nodes(const Model &model, State stat
         model, std::move(stepper), std::move(state), how, max_settle_steps(options),
         options.tolerance(), progress);
   }
-  return std::make_unique<NewtonSettling>(model, *work_->factor, state, options, progress);
+  auto make_steps = [this, &model, options](State start, uint32_t most, const Progress &part) {
+    SolveOptions in_time = options;
+    in_time.solver = SolverKind::implicit_euler;
+    in_time.max_iterations = most;
+    return loop_over_nodes(model, std::move(start), in_time, part);
+  };
+  return std::make_unique<NewtonWithSteps>(model, *work_->factor, state, options, progress,
+                                           std::move(make_steps));
 }
 
 std::unique_ptr<Settling> Solver::begin_settle(const Model &valve, const State &valve_state,

@@ -100,10 +100,12 @@ class Newton {
 
   const std::vector<Vec3> &x() const { return at_.x; }
   double residual() const { return at_.residual; }  // N
+  double energy() const { return at_.energy; }      // J
   // N, of the pressure on a node of mean area.
   double rest_force() const { return pressure_ * mean_area_; }
   bool reached_limit() const { return limit_.reached(); }
   SolveStats &stats() { return stats_; }
+  const SolveStats &stats() const { return stats_; }
 
  private:
   struct Iterate {

@@ -51,7 +51,7 @@ bool NewtonSettling::advance() {
   const bool balanced = arrived && newton_.residual() <= tolerance_;
   converged_ = balanced && (!checks_stability_ || newton_.is_stable(margins_));
   if (converged_ || newton_.stats().iterations == most_ || newton_.reached_limit()) return false;
-  if (newton_.always_returns()) return false;
+  if (newton_.always_returns() || wanders()) return false;
   if (still_ > settings::newton::most_still) return false;
   watch_.look(newton_.x(), newton_.residual());
   ++newton_.stats().iterations;
@@ -61,6 +61,9 @@ bool NewtonSettling::advance() {
   const std::vector<Vec3> before = newton_.x();
   newton_.iterate(polish_);
   if (eliminates_ && arrived) newton_.eliminate(load_, tolerance_);
+  if (arrived) {
+    wander_.look(newton_.stats().iterations, newton_.energy(), newton_.residual());
+  }
   still_ = same_bits(before, newton_.x()) ? still_ + 1 : 0;
   return true;
 }

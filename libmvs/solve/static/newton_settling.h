@@ -7,6 +7,7 @@
 #include "solve/settling.h"
 #include "solve/static/boundary_ramp.h"
 #include "solve/static/newton.h"
+#include "solve/static/wander_watch.h"
 
 namespace mvs::core {
 
@@ -17,6 +18,11 @@ class NewtonSettling final : public Settling {
                  const SolveOptions &options, const Progress &progress,
                  const LocalStart &local = {});
   bool advance() override;
+  // Whether it is to end where Newton's method wanders with iterations left; not at first.
+  void end_where_it_wanders(bool may) { may_wander_ = may; }
+  bool wanders() const {
+    return may_wander_ && wander_.wanders() && newton_.stats().iterations + 2 <= most_;
+  }
   // Sets velocities to zero.
   SolveStats finish(State &state) override;
   bool begins_far_from_rest() const override;
@@ -31,6 +37,8 @@ class NewtonSettling final : public Settling {
   bool eliminates_;    // settles local subproblems after iterations
   bool converged_ = false;
   Load load_;
+  bool may_wander_ = false;
+  WanderWatch wander_;
   uint32_t still_ = 0;  // iterations in a row that moved no node
   Newton newton_;
   BoundaryRamp ramp_;
