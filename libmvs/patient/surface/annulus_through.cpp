@@ -31,6 +31,7 @@ std::vector<Vec3> sorted_around(const std::vector<Vec3> &points) {
   }
   std::sort(order.begin(), order.end());
   std::vector<Vec3> sorted;
+  sorted.reserve(points.size());
   for (const auto &[angle, k] : order) sorted.push_back(points[k]);
   return sorted;
 }

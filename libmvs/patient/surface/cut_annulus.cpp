@@ -82,7 +82,7 @@ CurveDistance distance_from(const CurveOnSurface &on, const Vec3 &p) {
     best = at;
     nearest = k;
   }
-  const size_t next = (nearest + 1) % n;
+  const size_t next = nearest + 1 < n ? nearest + 1 : 0;
   const Vec3 q = on.point[nearest] + best.s * (on.point[next] - on.point[nearest]);
   const Vec3 across = (1 - best.s) * on.across[nearest] + best.s * on.across[next];
   return {std::sqrt(best.distance2), (p - q).dot(across)};
