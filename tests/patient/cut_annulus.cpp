@@ -102,9 +102,13 @@ TEST_CASE("points_by_hand_cut_within_their_error") {
 TEST_CASE("a_wall_beside_a_part_of_the_annulus_is_cut_off") {
   // high walls, whose rims are less like an annulus than the free edge; narrow ones, whose rims lie
   // on the curve for the most part
-  for (const auto &[rows, from, to] : {std::array{5u, 30u, 70u}, {6u, 5u, 65u}, {4u, 10u, 40u}}) {
-    CAPTURE(to - from);
-    const WalledValve valve = with_wall(1600, rows, [&](uint32_t k) { return k > from && k < to; });
+  struct Wall {
+    uint32_t rows, from, to;  // nodes of the annulus
+  };
+  for (const Wall &wall : {Wall{5, 30, 70}, Wall{6, 5, 65}, Wall{4, 10, 40}}) {
+    CAPTURE(wall.from);
+    const WalledValve valve =
+        with_wall(1600, wall.rows, [&](uint32_t k) { return k > wall.from && k < wall.to; });
     REQUIRE(valve.annulus.size() > 80);
     check_leaflets(cut(valve.surface, annulus_points(valve, 6, 0)), valve);
   }

@@ -189,8 +189,8 @@ TEST_CASE("move_to_mid_stops_in_folds_that_are_narrower_than_the_tissue") {
   // waves of 4.8 mm whose crests have a radius of 0.8 mm, and tissue of 4 mm
   Surface s = funnel(120, 48);
   for (size_t i = 0; i < s.x.size(); ++i) {
-    const double wave =
-        0.75e-3 * math::cos(2 * 3.14159265358979 * static_cast<double>(i / 120) / 16);
+    const size_t row = i / 120;
+    const double wave = 0.75e-3 * math::cos(2 * 3.14159265358979 * static_cast<double>(row) / 16);
     s.x[i] += wave * Vec3(-s.x[i].x(), -s.x[i].y(), 2.0 / 3 * s.x[i].head<2>().norm()).normalized();
   }
   Tissue tissue = tissue_of(s);
