@@ -35,6 +35,7 @@ double farthest_from(const std::vector<Vec3> &points, const std::vector<Vec3> &l
 
 std::vector<Vec3> points_of(const LeafletSheet &sheet, const std::vector<uint32_t> &loop) {
   std::vector<Vec3> points;
+  points.reserve(loop.size());
   for (const uint32_t i : loop) points.push_back(sheet.x[i]);
   return points;
 }
