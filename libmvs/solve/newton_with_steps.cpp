@@ -7,14 +7,6 @@
 #include "solve/settings.h"
 
 namespace mvs::core {
-namespace {
-
-uint32_t max_iterations(const SolveOptions &options) {
-  return options.max_iterations > 0 ? options.max_iterations
-                                    : settings::defaults::newton_iterations;
-}
-
-}  // namespace
 
 NewtonWithSteps::NewtonWithSteps(const Model &model, DirectSolver &factor, const State &state,
                                  const SolveOptions &options, const Progress &progress,
@@ -25,7 +17,7 @@ NewtonWithSteps::NewtonWithSteps(const Model &model, DirectSolver &factor, const
       progress_(progress),
       make_steps_(std::move(make_steps)),
       state_(state) {
-  begin_newton(state, max_iterations(options), options.checks_stability);
+  begin_newton(state, options.most_iterations(), options.checks_stability);
 }
 
 Progress NewtonWithSteps::part() {
@@ -53,7 +45,7 @@ bool NewtonWithSteps::advance() {
   is_last_ = true;
   stats.add(spent_);
   spent_ = stats;
-  const uint32_t left = max_iterations(options_) - spent_.iterations;
+  const uint32_t left = options_.most_iterations() - spent_.iterations;
   if (!steps_) {
     // one iteration of Newton's method at least is left after them
     steps_ = make_steps_(next, std::min(left - 1, settings::newton::wander_steps), part());

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <iterator>
 
-#include <iterator>
 #include "energy/settings.h"
 
 namespace mvs::core::settings {
@@ -282,9 +281,9 @@ inline constexpr double surrogate_residual = 1;
 // of its nodes may be far from rest, and those at which it is left: before the rest of the valve
 // follows the other law. Valves of 425 vertices under May-Newman and Yin's law and Fung's (script
 // of the session: 374 settles of 96 random valves, each after a random operation; sums over those
-// that differ): 13,911 iterations for 16,927, CPU time 0.97; clips
-// 0.70 of the iterations, resections, then made on the closed valve, 0.63. Left at 1, transferred
-// chordae took up to 875 iterations for 50, and one clip did not come to rest.
+// that differ): 13,911 iterations for 16,927, CPU time 0.97; clips 0.70 of the iterations,
+// resections, then made on the closed valve, 0.63. Left at 1, transferred chordae took up to 875
+// iterations for 50, and one clip did not come to rest.
 inline constexpr double overstretched = 1000, overstretched_residual = 30;
 // Share of the reported progress that the coarse meshes take: about their share of the time.
 inline constexpr double coarse_progress = 0.25;

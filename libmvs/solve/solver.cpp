@@ -45,12 +45,6 @@ StepOptions settle_options(const SolveOptions &options) {
   return how;
 }
 
-uint32_t max_settle_steps(const SolveOptions &options) {
-  if (options.max_iterations > 0) return options.max_iterations;
-  return options.solver == SolverKind::explicit_euler ? settings::defaults::explicit_steps
-                                                      : settings::defaults::implicit_steps;
-}
-
 // The bits of mvs_stats.skipped that follow from the counts of a whole run.
 uint32_t skipped_in_run(const Profile &work) {
   uint32_t skipped = 0;
@@ -113,6 +107,18 @@ double SolveOptions::tolerance() const {
   return residual > 0 ? residual : settings::defaults::residual;
 }
 
+uint32_t SolveOptions::most_iterations() const {
+  if (max_iterations > 0) return max_iterations;
+  switch (solver) {
+    case SolverKind::explicit_euler:
+      return settings::defaults::explicit_steps;
+    case SolverKind::implicit_euler:
+      return settings::defaults::implicit_steps;
+    default:
+      return settings::defaults::newton_iterations;
+  }
+}
+
 // The solvers of the last model, so that a sequence of steps keeps its matrices.
 struct Solver::Work {
   Work(Backend backend_in, Workers *workers_in)
@@ -161,13 +167,13 @@ std::unique_ptr<Settling> Solver::loop_over_nodes(const Model &model, State stat
     auto stepper = std::make_unique<ImplicitEuler>(model, work_->backend, work_->workers);
     return std::make_unique<SettlingInTime<ImplicitEuler>>(
         model, std::move(stepper), std::move(state), settle_options(options),
-        max_settle_steps(options), options.tolerance(), progress);
+        options.most_iterations(), options.tolerance(), progress);
   }
   if (options.solver == SolverKind::explicit_euler) {
     auto stepper = std::make_unique<ExplicitEuler>(model);
     const StepOptions how = settle_options(with_stable_dt(options, *stepper));
     return std::make_unique<SettlingInTime<ExplicitEuler>>(
-        model, std::move(stepper), std::move(state), how, max_settle_steps(options),
+        model, std::move(stepper), std::move(state), how, options.most_iterations(),
         options.tolerance(), progress);
   }
   auto make_steps = [this, &model, options](State start, uint32_t most, const Progress &part) {

@@ -25,6 +25,8 @@ struct SolveOptions {
 
   // N, the residual at rest, or its default.
   double tolerance() const;
+  // Iterations or steps of a settle, or their default for the solver.
+  uint32_t most_iterations() const;
 };
 
 struct SolveStats {

@@ -5,20 +5,12 @@
 #include "solve/settings.h"
 
 namespace mvs::core {
-namespace {
-
-uint32_t max_iterations(const SolveOptions &options) {
-  return options.max_iterations > 0 ? options.max_iterations
-                                    : settings::defaults::newton_iterations;
-}
-
-}  // namespace
 
 NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const State &state,
                                const SolveOptions &options, const Progress &progress,
                                const LocalStart &local)
     : tolerance_(options.tolerance()),
-      most_(max_iterations(options)),
+      most_(options.most_iterations()),
       checks_stability_(options.checks_stability),
       margins_(options.margins),
       load_(state.load),
