@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "geometry/bvh.h"
-#include "model/compressed_rows.h"
 #include "model/sides.h"
 #include "patient/mesh/surface_walk.h"
 #include "patient/surface/annulus_through.h"
 #include "patient/surface/boundary.h"
+#include "patient/surface/clusters.h"
 #include "patient/surface/level_cut.h"
 #include "patient/surface/manifold.h"
 #include "patient/surface/weld.h"
@@ -88,33 +88,19 @@ CurveDistance distance_from(const CurveOnSurface &on, const Vec3 &p) {
   return {std::sqrt(best.distance2), (p - q).dot(across)};
 }
 
-// Pieces of vertices with equal marks, connected by edges.
-std::vector<uint32_t> pieces_with(const std::vector<Tri> &triangles, const Rows &stars,
-                                  const std::vector<uint8_t> &mark) {
-  std::vector<uint32_t> piece(mark.size(), none);
-  uint32_t count = 0;
-  for (uint32_t start = 0; start < mark.size(); ++start) {
-    if (piece[start] != none || stars[start].empty()) continue;
-    std::vector<uint32_t> open = {start};
-    piece[start] = count;
-    for (size_t k = 0; k < open.size(); ++k) {
-      for (const uint32_t t : stars[open[k]]) {
-        for (const uint32_t j : triangles[t]) {
-          if (piece[j] != none || mark[j] != mark[start]) continue;
-          piece[j] = count;
-          open.push_back(j);
-        }
-      }
+// The pieces of vertices on one side of the level, connected by edges: of each vertex the first one
+// of its piece.
+std::vector<uint32_t> pieces_of_sides(const LeafletSheet &sheet, const std::vector<double> &level) {
+  std::vector<uint32_t> piece(level.size());
+  std::iota(piece.begin(), piece.end(), 0u);
+  for (const Tri &t : sheet.triangles) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = t[k], b = t[(k + 1) % 3];
+      if ((level[a] > 0) == (level[b] > 0)) join(piece, a, b);
     }
-    ++count;
   }
+  for (uint32_t i = 0; i < piece.size(); ++i) piece[i] = root_of(piece, i);
   return piece;
-}
-
-std::vector<uint8_t> above(const std::vector<double> &level) {
-  std::vector<uint8_t> marks(level.size());
-  for (size_t i = 0; i < level.size(); ++i) marks[i] = level[i] > 0;
-  return marks;
 }
 
 // The largest loop that lies on a side in the mean; nullptr.
@@ -172,14 +158,12 @@ LeafletSide leaflet_side(const std::vector<RimLoop> &rims, const CurveLevel &at,
 
 // Makes the level negative in pieces beyond the curve that hardly reach there, that have the free
 // edge, or that begin far from the curve, as in folds beside it.
-void lower_other_pieces(const LeafletSheet &sheet, const Rows &stars,
-                        const std::vector<uint32_t> &free_edge, CurveLevel &at) {
+void lower_other_pieces(const LeafletSheet &sheet, const std::vector<uint32_t> &free_edge,
+                        CurveLevel &at) {
   std::vector<double> &level = at.level;
-  const std::vector<uint32_t> piece = pieces_with(sheet.triangles, stars, above(level));
+  const std::vector<uint32_t> piece = pieces_of_sides(sheet, level);
   std::vector<double> reach(level.size(), 0);
-  for (size_t i = 0; i < level.size(); ++i) {
-    if (piece[i] != none) reach[piece[i]] = std::max(reach[piece[i]], level[i]);
-  }
+  for (size_t i = 0; i < level.size(); ++i) reach[piece[i]] = std::max(reach[piece[i]], level[i]);
   for (const uint32_t i : free_edge) reach[piece[i]] = 0;
   for (const Tri &t : sheet.triangles) {
     for (size_t k = 0; k < 3; ++k) {
@@ -191,14 +175,14 @@ void lower_other_pieces(const LeafletSheet &sheet, const Rows &stars,
     }
   }
   for (size_t i = 0; i < level.size(); ++i) {
-    if (level[i] > 0 && piece[i] != none && reach[piece[i]] < least_reach) level[i] = -level[i];
+    if (level[i] > 0 && reach[piece[i]] < least_reach) level[i] = -level[i];
   }
 }
 
 // Makes the level positive in all pieces but the one with most of the free edge.
-void raise_behind(const LeafletSheet &sheet, const Rows &stars,
-                  const std::vector<uint32_t> &free_edge, std::vector<double> &level) {
-  const std::vector<uint32_t> piece = pieces_with(sheet.triangles, stars, above(level));
+void raise_behind(const LeafletSheet &sheet, const std::vector<uint32_t> &free_edge,
+                  std::vector<double> &level) {
+  const std::vector<uint32_t> piece = pieces_of_sides(sheet, level);
   std::vector<size_t> count(level.size(), 0);
   for (const uint32_t i : free_edge) count[piece[i]] += level[i] <= 0;
   const size_t leaflets =
@@ -258,10 +242,9 @@ bool cut_along_annulus(LeafletSheet &sheet, const RimLandmarks &landmarks, Findi
   const LeafletSide side = leaflet_side(rims, at, landmarks.tips);
   if (!side.free_edge) return false;
   for (double &value : at.level) value *= -side.sign;
-  const Rows stars = rows_of(sheet.x.size(), sheet.triangles);
-  lower_other_pieces(sheet, stars, side.free_edge->loop, at);
+  lower_other_pieces(sheet, side.free_edge->loop, at);
   if (*std::max_element(at.level.begin(), at.level.end()) <= 0) return false;
-  raise_behind(sheet, stars, side.free_edge->loop, at.level);
+  raise_behind(sheet, side.free_edge->loop, at.level);
   const double reach = *std::max_element(at.level.begin(), at.level.end());
   LeafletSheet leaflets;
   if (!leaflets_below(sheet, curve, at.level, snap, leaflets) &&

@@ -1,7 +1,7 @@
 // Sharp edges, joined at their ends.
 #include "patient/surface/skin_ridges.h"
 
-#include <algorithm>
+#include <numeric>
 
 #include "geometry/bvh.h"
 #include "model/sides.h"
@@ -35,7 +35,7 @@ SkinRidges skin_ridges(const LeafletSheet &skin, double thickness) {
   const size_t n = skin.x.size();
   const std::vector<Edge> edges = sharp_edges(skin);
   std::vector<uint32_t> parent(n);
-  for (uint32_t i = 0; i < n; ++i) parent[i] = i;
+  std::iota(parent.begin(), parent.end(), 0u);
   for (const auto &[a, b] : edges) join(parent, a, b);
   std::vector<double> length(n, 0);
   for (const auto &[a, b] : edges) {
