@@ -1,21 +1,21 @@
-// A flail leaflet: a free edge that stands in the atrium.
+// Free edges of scallops; that of a flail leaflet stands in the atrium.
 import type { Picture, Topology } from './protocol';
 import { heightOf } from './view/mesh';
 import { linesOf } from './view/seams';
 
-/** mm of the highest point of a scallop's free edge above the plane of the annulus; seams are not free. */
-export function edgeHeight(
+/** mm of the highest point of each scallop's free edge above the plane of the annulus, by its name; seams are not free. */
+export function edgeHeights(
   topology: Topology,
   { positions }: Picture,
   frame: number[],
-  scallop: string,
-): number {
+): Map<string, number> {
   const free = new Set(linesOf(topology).free.flat());
-  const which = topology.scallops.findIndex((part) => part.name === scallop);
-  let highest = -Infinity;
+  const heights = new Map<string, number>();
   topology.triangles.forEach((node, k) => {
-    if (topology.triangleScallop[Math.floor(k / 3)] !== which || !free.has(node)) return;
-    highest = Math.max(highest, heightOf(positions, node, frame));
+    const scallop = topology.scallops[topology.triangleScallop[Math.floor(k / 3)]];
+    if (!scallop || !free.has(node)) return;
+    const height = heightOf(positions, node, frame);
+    heights.set(scallop.name, Math.max(height, heights.get(scallop.name) ?? height));
   });
-  return highest;
+  return heights;
 }

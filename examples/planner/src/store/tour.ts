@@ -1,7 +1,7 @@
 // The tour: opening its valves, and measuring how far a sealed valve opens, which is one of the goals.
 import { effect } from '@preact/signals';
 import { shippedVertices } from '../shipped';
-import { edgeHeight } from '../flail';
+import { edgeHeights } from '../flail';
 import { tourTexts } from '../text/texts';
 import { percentOfLimit } from '../notable';
 import type { FoundingResult } from '../protocol';
@@ -53,7 +53,8 @@ export function flailHeight(): number | null {
   const scallop = flailOf(state.tour.value?.number ?? 0);
   const { picture, figures } = state.main.value!;
   const topology = state.topologyOf(picture);
-  return scallop && topology ? edgeHeight(topology, picture, figures.frame, scallop) : null;
+  if (!scallop || !topology) return null;
+  return edgeHeights(topology, picture, figures.frame).get(scallop) ?? null;
 }
 
 /** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */

@@ -26,10 +26,14 @@ function ofOpening({ hash }: Figures): string[] {
   return word ? [verdictTexts.openingIs(cost!.openArea, word)] : [];
 }
 
+/** Whether the load of a chord is a fault, which the verdict names. */
+export const isOverloaded = ({ measures }: Figures): boolean =>
+  percentOfLimit(measures.chordLoad) > faultyLoad();
+
 /** Chordae beyond their limit, if the load of one of them is a fault. */
-function ofChordae({ chords, measures }: Figures): string[] {
-  if (percentOfLimit(measures.chordLoad) <= faultyLoad()) return [];
-  const beyond = beyondLimit(chords);
+function ofChordae(figures: Figures): string[] {
+  if (!isOverloaded(figures)) return [];
+  const beyond = beyondLimit(figures.chords);
   return [verdictTexts.chordsBeyond(beyond.length, percentOfLimit(shareOfLimit(beyond[0])))];
 }
 

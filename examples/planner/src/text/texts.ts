@@ -210,12 +210,12 @@ export const t = {
   severalFiles: (name: string) => `One file at a time: ${name} was taken.`,
   importBegun: (triangles: number) =>
     `Surface with ${triangles} triangles. Mark both commissures, then build the valve.`,
-  /** The result of what was done, for the status line: `done` names it. */
+  /** The result of an operation, for the status line: `done` names it; all figures are known. */
   statusLine: (done: string, headline: string, f: Figures, more: string) =>
     [
       `${done ? `${done}: ` : ''}${headline}.`,
-      f.known !== 'shape' && f.measures.orifice > 0 ? `Leak ${number(f.measures.orifice)} mm².` : '',
-      f.known === 'shape' ? '' : `Coaptation ${number(f.measures.coaptationMean)} mm.`,
+      f.measures.orifice > 0 ? `Leak ${number(f.measures.orifice)} mm².` : '',
+      `Coaptation ${number(f.measures.coaptationMean)} mm.`,
       more ? `${more}.` : '',
     ]
       .filter(Boolean)

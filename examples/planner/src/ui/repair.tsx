@@ -207,7 +207,7 @@ function Chosen() {
   const part = topology?.scallops.find((item) => item.id === choice.id);
   const region = figures.regions.find((item) => item.name === part?.name);
   if (!part || !region) return null;
-  const edge = shownEdges().get(part.name);
+  const edge = shownEdges.value.get(part.name);
   return (
     <div class="chosen-card" data-testid="chosen">
       <LetGo />

@@ -12,7 +12,7 @@ export function Scallops({ figures }: { figures: Figures }) {
   const waiting = figures.known !== 'all';
   const regions = waiting ? (before?.regions ?? []) : figures.regions;
   const dots = (text: string) => (waiting ? '…' : text);
-  const edges = shownEdges();
+  const edges = shownEdges.value;
   const ranges = waiting ? undefined : state.shownSpread.value?.regions;
   return (
     <Section title={tableTexts.scallops} open>

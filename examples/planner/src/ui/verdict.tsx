@@ -2,9 +2,8 @@
 // come.
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import * as state from '../store/state';
-import { faultyLoad } from '../store/limits';
 import { showChord } from '../store/tour';
-import { relieved, verdictOf } from '../store/verdict';
+import { isOverloaded, relieved, verdictOf } from '../store/verdict';
 import { figure, tipTexts, valveTexts, verdictTexts, where } from '../text/texts';
 import type { Figures } from '../protocol';
 import { Spread } from './parts';
@@ -66,7 +65,7 @@ function Beyond({ figures }: { figures: Figures }) {
   const beyond = beyondLimit(figures.chords);
   if (!beyond.length) return null;
   const words = verdictTexts;
-  const counted = percentOfLimit(figures.measures.chordLoad) > faultyLoad() && figures.known !== 'shape';
+  const counted = isOverloaded(figures) && figures.known !== 'shape';
   return (
     <div class={counted ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
       {!counted && <div>{words.chordsOver(beyond.length)}</div>}
