@@ -1,30 +1,15 @@
 // Figures of the panel and colours of the maps beside the measures of the native library on the same valve, to the last digit
 // shown: tenting, prolapse, coaptation, annulus, scallops, strain. A flail leaflet, so that none of them is 0.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { before, describe, it } from 'node:test';
-import { unzipSync } from 'fflate';
 import { closed, figures, sharePlanner } from './browser.mjs';
+import { repeated } from './native.mjs';
 import { openPanel, save } from './person.mjs';
-
-const mvs = (...words) => String(execFileSync(process.env.MVS_COMMAND, words));
 
 /** Repeats a session with the native command: its measures, and the valve as OBJ. */
 function repeatNatively(session) {
-  const folder = mkdtempSync(join(tmpdir(), 'figures-'));
-  const at = (name) => join(folder, name);
-  for (const name of ['valve.obj', 'plan.json'])
-    writeFileSync(at(name), unzipSync(readFileSync(session))[name]);
-  mvs('plan', 'replay', at('plan.json'), '--on', at('valve.obj'), '-o', at('closed.h5'));
-  mvs('convert', at('closed.h5'), '-o', at('closed.obj'));
-  return {
-    ...JSON.parse(mvs('measure', at('closed.h5'), '--json')),
-    regions: JSON.parse(mvs('leak', at('closed.h5'), '--json')).regions,
-    obj: readFileSync(at('closed.obj'), 'utf8'),
-  };
+  const { json, obj } = repeated(session);
+  return { ...json('measure'), regions: json('leak').regions, obj: obj() };
 }
 
 /**

@@ -1,30 +1,11 @@
 // Sessions: saved, repeated by the native command, opened again, with their checkpoints.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
 import { figures, sharePlanner, temporaryFile } from './browser.mjs';
+import { repeated } from './native.mjs';
 import { answered, apply, begin, open, openPanel, save, startAfresh, undo } from './person.mjs';
-
-/** Repeats a session with the native command; returns the hash that it finds. */
-function nativeHash(session) {
-  const folder = mkdtempSync(join(tmpdir(), 'session-'));
-  for (const [name, bytes] of Object.entries(unzipSync(readFileSync(session)))) {
-    if (!name.includes('/')) writeFileSync(join(folder, name), bytes);
-  }
-  const told = execFileSync(process.env.MVS_COMMAND, [
-    'plan',
-    'replay',
-    join(folder, 'plan.json'),
-    '--on',
-    join(folder, 'valve.obj'),
-    '--json',
-  ]);
-  return JSON.parse(String(told)).hash;
-}
 
 describe('sessions', () => {
   let page;
@@ -41,7 +22,7 @@ describe('sessions', () => {
       await begin(page, 'ring');
       await apply(page);
       const path = await save(page);
-      assert.equal(nativeHash(path), (await figures(page)).hash);
+      assert.equal(repeated(path).hash, (await figures(page)).hash);
     },
   );
 

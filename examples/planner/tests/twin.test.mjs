@@ -1,25 +1,14 @@
 // The twin of the picture as text: every scallop, chord and device of a repaired valve, with the figures that the native command gives
 // as JSON for the saved session, and a way to each by the keyboard alone.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import { join } from 'node:path';
 import { before, describe, it } from 'node:test';
-import { unzipSync } from 'fflate';
 import { closed, sharePlanner } from './browser.mjs';
+import { repeated } from './native.mjs';
 import { answered, apply, openPanel, save, startAfresh, tabTo } from './person.mjs';
-
-const mvs = (...words) => String(execFileSync(process.env.MVS_COMMAND, words));
 
 /** What the native command says of a saved session, which it repeats. */
 function nativeOf(session) {
-  const folder = mkdtempSync(join(tmpdir(), 'twin-'));
-  const at = (name) => join(folder, name);
-  for (const name of ['valve.obj', 'plan.json'])
-    writeFileSync(at(name), unzipSync(readFileSync(session))[name]);
-  mvs('plan', 'replay', at('plan.json'), '--on', at('valve.obj'), '-o', at('closed.h5'));
-  const json = (...words) => JSON.parse(mvs(...words, at('closed.h5'), '--json'));
+  const { json } = repeated(session);
   return {
     regions: json('leak').regions,
     chords: json('chords').chords,
