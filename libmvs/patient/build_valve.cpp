@@ -16,13 +16,13 @@
 #include "patient/fit/fit_over_levels.h"
 #include "patient/fit/thickness_range.h"
 #include "patient/mesh/remesh_sheet.h"
+#include "patient/skin/mid_surface.h"
+#include "patient/skin/skin_holes.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
 #include "patient/surface/mend_crossings.h"
 #include "patient/surface/mend_free_edge.h"
-#include "patient/surface/mid_surface.h"
 #include "patient/surface/rims.h"
-#include "patient/surface/skin_holes.h"
 
 namespace mvs::core {
 namespace {

@@ -1,11 +1,8 @@
-// Holes, missing rims and handles of sheets.
+// Holes and missing rims of sheets.
 #include "patient/findings.h"
 #include "patient/normal_numbers.h"
-#include "patient/surface/cut_handles.h"
 #include "patient/surface/fill_hole.h"
-#include "patient/surface/pinched_gaps.h"
 #include "patient/surface/rims.h"
-#include "patient/surface/shortest_loops.h"
 
 #include <doctest/doctest.h>
 
@@ -28,16 +25,6 @@ using namespace mvs::core;
 using namespace mvs::core::test;
 
 namespace {
-
-// Drops the triangles around some vertices.
-Surface without_stars(Surface s, const std::vector<uint32_t> &vertices) {
-  std::erase_if(s.triangles, [&](const Tri &t) {
-    return std::any_of(t.begin(), t.end(), [&](uint32_t i) {
-      return std::find(vertices.begin(), vertices.end(), i) != vertices.end();
-    });
-  });
-  return s;
-}
 
 double area_of(const LeafletSheet &sheet) {
   double area = 0;
@@ -239,46 +226,6 @@ TEST_CASE("a_second_orifice_is_no_hole") {
                        doctest::Contains("less than 40 mm2 within one leaflet"), Error);
 }
 
-// A funnel, `size` times as large, with a tube that joins two windows on opposite sides.
-LeafletSheet with_tube(double size) {
-  Surface s = without_stars(funnel(48, 12), {48 * 6, 48 * 6 + 24});
-  for (Vec3 &p : s.x) p *= size;
-  LeafletSheet sheet = cleaned(s);
-  std::vector<std::vector<uint32_t>> windows;
-  for (const std::vector<uint32_t> &loop : boundary_loops(sheet)) {
-    if (loop.size() == 6) windows.push_back(loop);
-  }
-  REQUIRE(windows.size() == 2);
-  const std::vector<uint32_t> &a = windows[0];
-  std::vector<uint32_t> b(windows[1].rbegin(), windows[1].rend());
-  for (size_t k = 0; k < 6; ++k) {
-    const size_t m = (k + 1) % 6;
-    sheet.triangles.push_back({a[m], a[k], b[k]});
-    sheet.triangles.push_back({a[m], b[k], b[m]});
-  }
-  sheet.label.assign(sheet.triangles.size(), LeafletLabel::unknown);
-  return sheet;
-}
-
-TEST_CASE("a_narrow_tube_is_cut_and_a_wide_one_is_refused") {
-  Findings findings;
-  LeafletSheet narrow = with_tube(1), wide = with_tube(3);
-  CHECK(handle_count(narrow, 2) == 1);
-  const std::vector<SurfaceLoop> loops = shortest_loops(narrow, longest_handle);
-  REQUIRE(!loops.empty());
-  // around the tube: the six sides of a window
-  CHECK(loops[0].vertices.size() == 6);
-  const SheetRims rims = find_rims(narrow, {}, findings);
-  REQUIRE(find_finding(findings, "cut_handles") != nullptr);
-  CHECK(find_finding(findings, "cut_handles")->value[0] == loops[0].length);
-  CHECK(handle_count(narrow, 2) == 0);
-  CHECK(rims.annulus.size() == 48);
-  CHECK(rims.free_edge.size() == 48);
-  CHECK(shortest_loops(narrow, longest_handle).empty());
-  CHECK_THROWS_WITH_AS(find_rims(wide, {}, findings), doctest::Contains("1 handles more than 12"),
-                       Error);
-}
-
 TEST_CASE("new_vertices_of_the_filling_of_a_crumpled_hole_keep_apart") {
   size_t made = 0;
   for (uint64_t seed = 0; seed < 40; ++seed) {
@@ -309,55 +256,6 @@ TEST_CASE("new_vertices_of_the_filling_of_a_crumpled_hole_keep_apart") {
   CHECK(made > 100);
 }
 
-TEST_CASE("gaps_that_open_to_a_rim_in_one_point_are_filled") {
-  // a triangle and a larger gap, each with one corner on a rim, at both rims of a funnel
-  constexpr uint32_t round = 60, down = 8;
-  const Surface whole = funnel(round, down);
-  const double area = surface_area(whole.x, whole.triangles);
-  for (const uint32_t rim : {0u, down * round}) {
-    for (const uint32_t wide : {1u, 3u}) {
-      const uint32_t pinch = rim + 20;
-      const auto is_near = [&](uint32_t i) {  // a corner between the rim and rows of `wide` cells
-        const uint32_t row = i / round, column = i % round;
-        const uint32_t depth = rim == 0 ? row : down - row;
-        return i == pinch || (depth >= 1 && depth <= wide && column >= 19 && column <= 20 + wide);
-      };
-      Surface s = whole;
-      std::erase_if(s.triangles,
-                    [&](const Tri &t) { return std::all_of(t.begin(), t.end(), is_near); });
-      const size_t gone = whole.triangles.size() - s.triangles.size();
-      REQUIRE(gone >= wide);
-      LeafletSheet sheet = cleaned(s);
-      const size_t separate = sheet.x.size();
-      Findings findings;
-      fill_pinched_gaps(sheet, findings);
-      INFO("rim ", rim, " wide ", wide);
-      REQUIRE(find(findings, "pinched_gaps"));
-      CHECK(find(findings, "pinched_gaps")->value.size() == 1);
-      CHECK(boundary_loops(sheet).size() == 2);
-      CHECK(surface_area(sheet.x, sheet.triangles) == doctest::Approx(area).epsilon(2e-3));
-      CHECK(find_intersections(sheet.x, sheet.triangles).empty());
-      // the rim passes the place once
-      CHECK(std::count(sheet.x.begin(), sheet.x.end(), whole.x[pinch]) == 1);
-      CHECK(sheet.x.size() >= separate - 1);
-      CHECK(sheet.label.size() == sheet.triangles.size());
-    }
-  }
-}
-
-TEST_CASE("rims_that_touch_in_a_point_around_a_wide_gap_stay") {
-  // half of the lower rim is pulled together in one point: two orifices, each no hole by its length
-  constexpr uint32_t round = 60, down = 8;
-  Surface s = funnel(round, down);
-  s.x[down * round] = s.x[down * round + round / 2] = Vec3(0, 0, -12e-3);
-  LeafletSheet sheet = cleaned(s);
-  const LeafletSheet before = sheet;
-  Findings findings;
-  fill_pinched_gaps(sheet, findings);
-  CHECK(findings.empty());
-  CHECK(sheet.triangles == before.triangles);
-}
-
 TEST_CASE("holes_filled_before_and_after_a_cut_are_one_finding") {
   constexpr uint32_t round = 60, down = 8;
   Surface s = funnel(round, down);
@@ -382,47 +280,4 @@ TEST_CASE("holes_filled_before_and_after_a_cut_are_one_finding") {
   CHECK(findings[0].name == "filled_holes");
   CHECK(findings[0].value.size() == 2);
   CHECK(findings[0].sentence.starts_with("2 holes, "));
-}
-
-TEST_CASE("rims_follow_the_cut_of_a_handle_at_the_edge") {
-  // a tube in place of two triangles, each with one corner on the free edge: all loops around it
-  // pass one of these corners
-  constexpr uint32_t round = 60, down = 8, edge = down * round;
-  Surface s = funnel(round, down);
-  const auto take = [&](uint32_t corner) {
-    for (size_t t = 0; t < s.triangles.size(); ++t) {
-      Tri tri = s.triangles[t];
-      if (std::count_if(tri.begin(), tri.end(), [](uint32_t i) { return i >= edge; }) != 1)
-        continue;
-      const auto at = std::find(tri.begin(), tri.end(), corner);
-      if (at == tri.end()) continue;
-      std::rotate(tri.begin(), at, tri.end());
-      s.triangles.erase(s.triangles.begin() + static_cast<std::ptrdiff_t>(t));
-      return tri;
-    }
-    return Tri{none, none, none};
-  };
-  const auto [v, a, b] = take(edge + 10);
-  const auto [w, c, d] = take(edge + 20);
-  REQUIRE(v != none);
-  REQUIRE(w != none);
-  for (const Tri &t :
-       {Tri{v, a, d}, Tri{v, d, w}, Tri{a, b, c}, Tri{a, c, d}, Tri{b, v, w}, Tri{b, w, c}}) {
-    s.triangles.push_back(t);
-  }
-  LeafletSheet sheet = cleaned(s);
-  const size_t before = boundary_loops(sheet)[1].size();
-  Findings findings;
-  SheetRims rims = find_rims(sheet, {}, findings);
-  REQUIRE(find(findings, "cut_handles"));
-  CHECK(rims.free_edge.size() > before);
-  std::vector<std::vector<uint32_t>> loops = boundary_loops(sheet);
-  REQUIRE(loops.size() == 2);
-  for (std::vector<uint32_t> *rim : {&rims.annulus, &rims.free_edge}) {
-    std::sort(rim->begin(), rim->end());
-    CHECK(std::any_of(loops.begin(), loops.end(), [&](std::vector<uint32_t> loop) {
-      std::sort(loop.begin(), loop.end());
-      return loop == *rim;
-    }));
-  }
 }

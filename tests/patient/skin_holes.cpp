@@ -1,5 +1,5 @@
 // Holes of closed skins.
-#include "patient/surface/skin_holes.h"
+#include "patient/skin/skin_holes.h"
 
 #include <doctest/doctest.h>
 

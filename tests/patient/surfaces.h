@@ -35,6 +35,16 @@ inline double next_share(uint64_t &state) {
   return static_cast<double>(next_random(state) >> 11) * 0x1p-52 - 1;
 }
 
+// Drops the triangles around some vertices.
+inline Surface without_stars(Surface s, const std::vector<uint32_t> &vertices) {
+  std::erase_if(s.triangles, [&](const Tri &t) {
+    return std::any_of(t.begin(), t.end(), [&](uint32_t i) {
+      return std::find(vertices.begin(), vertices.end(), i) != vertices.end();
+    });
+  });
+  return s;
+}
+
 // Three points for each triangle, with coordinates in single precision in mm, as in STL.
 inline Surface soup(const Surface &surface) {
   Surface out;

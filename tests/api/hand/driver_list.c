@@ -1,5 +1,5 @@
 /* Drivers are listed, and the doctor reports what each of them needs. */
-#include "check.h"
+#include "tests/api/check.h"
 
 #define TRAJECTORIES MVS_SOURCE_DIR "/haptic_drivers/replay/trajectories/"
 

@@ -2,7 +2,7 @@
 #ifndef TESTS_HOOK_H
 #define TESTS_HOOK_H
 
-#include "saved.h"
+#include "tests/api/saved.h"
 
 static mvs_sim *sim;
 

@@ -1,7 +1,7 @@
 // Steps, noise and jagged rims of fine surfaces.
 #pragma once
 
-#include "patient/surface/skin_ridges.h"
+#include "patient/skin/skin_ridges.h"
 
 namespace mvs::core {
 

@@ -1,5 +1,5 @@
 // Least-area fillings of the holes of a skin.
-#include "patient/surface/skin_holes.h"
+#include "patient/skin/skin_holes.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
  * */
 #include <stdlib.h>
 
-#include "check.h"
+#include "tests/api/check.h"
 
 static mvs_sim *make_sim(void) {
   mvs_sim *sim = NULL;

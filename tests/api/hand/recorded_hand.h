@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "check.h"
+#include "tests/api/check.h"
 #include "tests/founding.h"
 
 #define TRAJECTORIES MVS_SOURCE_DIR "/haptic_drivers/replay/trajectories/"

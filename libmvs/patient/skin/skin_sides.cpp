@@ -1,5 +1,5 @@
 // Rays, parallel triangles, components.
-#include "patient/surface/skin_sides.h"
+#include "patient/skin/skin_sides.h"
 
 #include <algorithm>
 #include <cmath>

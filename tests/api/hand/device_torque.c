@@ -2,7 +2,7 @@
  * limits. The devices are those of the driver hand. */
 #include <math.h>
 
-#include "check.h"
+#include "tests/api/check.h"
 #include "tests/founding.h"
 
 static mvs_sim *sim;

@@ -1,5 +1,5 @@
 // Sharp edges, joined at their ends.
-#include "patient/surface/skin_ridges.h"
+#include "patient/skin/skin_ridges.h"
 
 #include <numeric>
 

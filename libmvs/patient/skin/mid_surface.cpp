@@ -1,5 +1,5 @@
 // Offsets against smoothed normals.
-#include "patient/surface/mid_surface.h"
+#include "patient/skin/mid_surface.h"
 
 #include <algorithm>
 #include <cmath>

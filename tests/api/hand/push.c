@@ -2,7 +2,7 @@
  * not depend on earlier tools. */
 #include <math.h>
 
-#include "check.h"
+#include "tests/api/check.h"
 #include "tests/founding.h"
 
 static mvs_sim *sim;

@@ -7,11 +7,11 @@
 #include "model/compressed_rows.h"
 #include "model/sides.h"
 #include "patient/findings.h"
+#include "patient/skin/mid_surface.h"
+#include "patient/skin/skin_sides.h"
+#include "patient/skin/smooth_skin.h"
 #include "patient/surface/cut_handles.h"
 #include "patient/surface/manifold.h"
-#include "patient/surface/mid_surface.h"
-#include "patient/surface/skin_sides.h"
-#include "patient/surface/smooth_skin.h"
 #include "patient/surface/weld.h"
 
 namespace mvs::core {

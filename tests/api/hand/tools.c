@@ -4,8 +4,8 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-#include "check.h"
-#include "saved.h"
+#include "tests/api/check.h"
+#include "tests/api/saved.h"
 
 static mvs_sim *sim;
 

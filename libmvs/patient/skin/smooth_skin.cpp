@@ -1,5 +1,5 @@
 // Taubin's filter on skins, Laplace's on boundaries.
-#include "patient/surface/smooth_skin.h"
+#include "patient/skin/smooth_skin.h"
 
 #include <algorithm>
 #include <cmath>
