@@ -5,10 +5,6 @@
 
 namespace {
 
-bool contains(const std::string &text, const std::string &part) {
-  return text.find(part) != text.npos;
-}
-
 Options with_fault(const std::string &fault, const std::string &lasting) {
   return {{"fault", fault},          {"fault_at", "0.1"}, {"fault_for", lasting}, {"velocity", "1"},
           {"amplitude", "0.01,0,0"}, {"frequency", "1"},  {"device", "touch"}};
@@ -102,7 +98,7 @@ TEST_CASE("an_unplugged_device_is_lost_until_it_returns") {
     const bool gone = ms >= 100 && ms < 150;
     CHECK_EQ(code, gone ? MVS_DRIVER_E_LOST : MVS_DRIVER_OK);
     CHECK_EQ(hand.plugin.write(0, 0, 0), gone ? MVS_DRIVER_E_LOST : MVS_DRIVER_OK);
-    if (gone) CHECK(contains(hand.plugin.error(), "unplugged"));
+    if (gone) CHECK(has(hand.plugin.error(), "unplugged"));
   }
 }
 
@@ -122,13 +118,13 @@ TEST_CASE("a_device_that_cannot_be_opened_reports_why") {
   for (const auto &[fault, code] : codes) {
     Plugin plugin("hand", {{"fault", fault}});
     CHECK_EQ(plugin.open(), code);
-    CHECK(contains(plugin.error(), fault));
+    CHECK(has(plugin.error(), fault));
     CHECK_EQ(plugin.list().empty(), fault == "absent");
   }
   Plugin plugin("hand", {{"fault", "uncalibrated"}});
   REQUIRE_EQ(plugin.open(), MVS_DRIVER_OK);
   CHECK_EQ(plugin.api.calibrate(plugin.device), MVS_DRIVER_E_CALIBRATION);
-  CHECK(contains(plugin.error(), "into its holder"));
+  CHECK(has(plugin.error(), "into its holder"));
   Plugin other("hand");
   CHECK_EQ(other.open("foot"), MVS_DRIVER_E_ABSENT);
 }
@@ -150,7 +146,7 @@ TEST_CASE("the_devices_have_the_limits_of_the_published_tables") {
     CHECK_GE(info.rate, 1000);
     CHECK_GT(info.max_damping, 0);
     CHECK_GE(info.workspace_max[0], 0.04);
-    CHECK(contains(info.model, "(simulated)"));
+    CHECK(has(info.model, "(simulated)"));
   }
   Hand other(Options{{"device", "falcon"}, {"force", "2"}, {"stiffness", "50"}, {"rate", "333"}});
   CHECK_EQ(other.plugin.info().peak_force, 2);
@@ -213,7 +209,7 @@ TEST_CASE("a_force_with_nan_has_no_effect_and_is_reported") {
   Hand hand(ideal({}));
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     CHECK_EQ(hand.plugin.write(0, bad, 0), MVS_DRIVER_E_FAULT);
-    CHECK(contains(hand.plugin.error(), "not finite"));
+    CHECK(has(hand.plugin.error(), "not finite"));
     CHECK_EQ(hand.tick().position[1], 0);
     CHECK_EQ(hand.state.flags & MVS_DRIVER_FLAG_FORCE_ON, 0);
   }
@@ -255,7 +251,7 @@ TEST_CASE("invalid_options_of_the_hand_are_refused") {
     CHECK_EQ(plugin.open(), MVS_DRIVER_E_OPTION);
     CHECK_EQ(plugin.device, nullptr);
     INFO(plugin.error());
-    CHECK(contains(plugin.error(), options.begin()->first));
+    CHECK(has(plugin.error(), options.begin()->first));
     CHECK_EQ(plugin.doctor().at(0).verdict, 0);
   }
 }

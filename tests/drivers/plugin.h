@@ -10,6 +10,11 @@
 #include <string>
 #include <vector>
 
+// Whether a sentence holds these words.
+inline bool has(const std::string &sentence, const std::string &words) {
+  return sentence.find(words) != std::string::npos;
+}
+
 class Plugin {
  public:
   // `driver` is a name in the folder of drivers, or a path; options are those of an application.
