@@ -12,7 +12,6 @@ namespace hd {
 namespace {
 
 constexpr unsigned kNone = 0xFFFFFFFF;
-constexpr double kMaxForce = 3.3;  // N
 
 void take_script(HdStandIn &in) {
   take_environment("HD_STAND_IN", {{"period_ns", &in.period_ns},

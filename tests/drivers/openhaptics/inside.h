@@ -10,6 +10,8 @@
 
 namespace hd {
 
+constexpr double kMaxForce = 3.3;  // N
+
 struct ErrorInfo {
   unsigned code;
   int internal;

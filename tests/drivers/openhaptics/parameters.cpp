@@ -10,7 +10,6 @@ namespace {
 
 constexpr double kTurn = 2 * 3.14159265358979323846 / 1000;  // rad a tick
 constexpr double kRadius = 30;                               // mm
-constexpr double kMaxForce = 3.3;                            // N
 
 // State may be read and forces set within a frame only.
 Device *in_frame(const char *what) {
