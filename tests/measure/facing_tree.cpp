@@ -34,7 +34,7 @@ struct Fixture {
 
 TEST_CASE("pairs_with_opposite_normals_are_found_once") {
   const Fixture f;
-  const FacingTree tree(f.triangles(), f.x, f.surface);
+  const FacingTree tree(*f.model, f.x, f.surface);
   const auto may_face = [&](uint32_t a, uint32_t b) {
     return f.surface.normal[a].dot(f.surface.normal[b]) <= cosine &&
            tree.box_of(a).distance2(tree.box_of(b)) <= reach * reach;
@@ -60,7 +60,7 @@ TEST_CASE("pairs_with_opposite_normals_are_found_once") {
 
 TEST_CASE("triangles_near_a_point_are_found_by_their_normals") {
   const Fixture f;
-  const FacingTree tree(f.triangles(), f.x, f.surface);
+  const FacingTree tree(*f.model, f.x, f.surface);
   size_t all = 0;
   for (uint32_t v = 0; v < f.x.size(); ++v) {
     const Vec3 &p = f.x[v], &normal = f.surface.node_normal[v];

@@ -1,16 +1,12 @@
 // Volumes of the hierarchy.
 #include "measure/coaptation/facing_tree.h"
 
+#include "measure/tissue/sheet_topology.h"
+
 namespace mvs::core {
-namespace {
 
-constexpr uint32_t faced_in_leaf = 4;  // triangles
-
-}  // namespace
-
-FacingTree::FacingTree(const std::vector<Tri> &triangles, const std::vector<Vec3> &x,
-                       const Surface &surface)
-    : BoxedTriangles(triangles, x), bvh_(x, triangles, faced_in_leaf) {
+FacingTree::FacingTree(const Model &model, const std::vector<Vec3> &x, const Surface &surface)
+    : BoxedTriangles(model.valve.triangles, x), bvh_(*sheet_topology(model)) {
   const BvhTopology &topology = bvh_.topology();
   bvh_.refit([&](uint32_t leaf, Volume &volume) {
     for (uint32_t k = topology.leaf_start[leaf]; k < topology.leaf_start[leaf + 1]; ++k) {

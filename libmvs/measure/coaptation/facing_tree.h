@@ -8,6 +8,7 @@
 
 #include "geometry/bvh.h"
 #include "measure/tissue/surface.h"
+#include "model/model.h"
 
 namespace mvs::core {
 
@@ -16,7 +17,7 @@ namespace mvs::core {
 class FacingTree : public BoxedTriangles {
  public:
   // Keeps references to all: they must outlive the tree.
-  FacingTree(const std::vector<Tri> &triangles, const std::vector<Vec3> &x, const Surface &surface);
+  FacingTree(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
 
   // Calls visit(triangle) for at least every triangle nearer to p than sqrt(limit2) whose normal
   // has at most this cosine with `normal`, near boxes first; the visitor may lower limit2.
