@@ -8,7 +8,6 @@
 namespace mvs::core {
 namespace {
 
-constexpr uint32_t triangles_in_leaf = 4;
 constexpr size_t most_kept = 4;
 
 struct Kept {
@@ -40,7 +39,7 @@ std::shared_ptr<const BvhTopology> sheet_topology(const Model &model) {
     }
   }
   // outside of the lock: two threads may make the same topology, and either will do
-  auto made = std::make_shared<const BvhTopology>(valve.rest, valve.triangles, triangles_in_leaf);
+  auto made = std::make_shared<const BvhTopology>(valve.rest, valve.triangles, sheet_leaf);
   const std::lock_guard<std::mutex> lock(mutex);
   if (last.size() == most_kept) last.erase(last.begin());
   last.push_back({valve.rest, valve.triangles, made});

@@ -8,6 +8,8 @@
 
 namespace mvs::core {
 
+inline constexpr uint32_t sheet_leaf = 4;  // triangles, of each leaf but the last
+
 // The topology of a TriangleBvh or FacingTree over the triangles at rest, from any thread. No
 // result of a search depends on it, and it serves folded leaflets as well, as neighbours stay
 // neighbours. The process keeps those of the last few meshes, as a mesh stays while its valve is
