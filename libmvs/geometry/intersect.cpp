@@ -153,6 +153,23 @@ uint32_t shared_first(Tri &s, Tri &t) {
   return shared;
 }
 
+std::vector<Edge> crossing_pairs(const std::vector<Vec3> &x, const std::vector<Tri> &triangles,
+                                 const TriangleBvh &bvh) {
+  std::vector<TrianglePlane> plane;
+  plane.reserve(triangles.size());
+  for (const Tri &t : triangles) plane.emplace_back(x[t[0]], x[t[1]], x[t[2]]);
+  std::vector<Edge> crossing;
+  bvh.for_near_pairs(0, [&](uint32_t a, uint32_t b) {
+    if (!bvh.box_of(a).overlaps(bvh.box_of(b))) return;
+    if (is_beside(plane[a], triangles[a], triangles[b], x)) return;
+    if (is_beside(plane[b], triangles[b], triangles[a], x)) return;
+    const uint32_t s = std::min(a, b), t = std::max(a, b);
+    if (triangles_cross(x, triangles[s], triangles[t])) crossing.push_back({s, t});
+  });
+  std::sort(crossing.begin(), crossing.end());
+  return crossing;
+}
+
 }  // namespace
 
 int orient3d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d) {
@@ -207,20 +224,12 @@ bool triangles_cross(const std::vector<Vec3> &x, const Tri &first, const Tri &se
 
 std::vector<Edge> find_intersections(const std::vector<Vec3> &x,
                                      const std::vector<Tri> &triangles) {
-  const TriangleBvh bvh(triangles, x);
-  std::vector<TrianglePlane> plane;
-  plane.reserve(triangles.size());
-  for (const Tri &t : triangles) plane.emplace_back(x[t[0]], x[t[1]], x[t[2]]);
-  std::vector<Edge> crossing;
-  bvh.for_near_pairs(0, [&](uint32_t a, uint32_t b) {
-    if (!bvh.box_of(a).overlaps(bvh.box_of(b))) return;
-    if (is_beside(plane[a], triangles[a], triangles[b], x)) return;
-    if (is_beside(plane[b], triangles[b], triangles[a], x)) return;
-    const uint32_t s = std::min(a, b), t = std::max(a, b);
-    if (triangles_cross(x, triangles[s], triangles[t])) crossing.push_back({s, t});
-  });
-  std::sort(crossing.begin(), crossing.end());
-  return crossing;
+  return crossing_pairs(x, triangles, TriangleBvh(triangles, x));
+}
+
+std::vector<Edge> find_intersections(const std::vector<Vec3> &x, const std::vector<Tri> &triangles,
+                                     const BvhTopology &topology) {
+  return crossing_pairs(x, triangles, TriangleBvh(triangles, x, topology));
 }
 
 }  // namespace mvs::core

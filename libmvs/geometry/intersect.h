@@ -9,6 +9,8 @@
 
 namespace mvs::core {
 
+struct BvhTopology;
+
 // Returns the sign (-1, 0, 1) of the volume of tetrahedron a b c d: 1 if d is on the side of
 // triangle a b c that its normal (b - a) x (c - a) points to.
 int orient3d_sign(const Vec3 &a, const Vec3 &b, const Vec3 &c, const Vec3 &d);
@@ -31,5 +33,8 @@ bool triangles_cross(const std::vector<Vec3> &x, const Tri &first, const Tri &se
 
 // Returns the pairs of triangles that cross, lower index first, sorted.
 std::vector<Edge> find_intersections(const std::vector<Vec3> &x, const std::vector<Tri> &triangles);
+// The same with a topology of these triangles, which saves its construction.
+std::vector<Edge> find_intersections(const std::vector<Vec3> &x, const std::vector<Tri> &triangles,
+                                     const BvhTopology &topology);
 
 }  // namespace mvs::core

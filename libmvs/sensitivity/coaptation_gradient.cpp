@@ -173,7 +173,7 @@ void add_area(const Tri &t, const std::vector<Vec3> &x, const Vec3 &normal, doub
 
 double coaptation_area_gradient(const Model &model, const std::vector<Vec3> &x, NodeField &g) {
   const Surface surface = surface_of(model.valve.triangles, x);
-  const FacingTree tree(model.valve.triangles, x, surface);
+  const FacingTree tree(model, x, surface);
   FacingWeight facing(model, x, surface, tree);
   SampleWeight sample(model, x);
   double total = 0;

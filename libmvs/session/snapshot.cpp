@@ -6,6 +6,7 @@
 #include "base/struct_fields.h"
 #include "geometry/intersect.h"
 #include "measure/fields.h"
+#include "measure/tissue/sheet_topology.h"
 
 namespace {
 
@@ -140,7 +141,9 @@ const TentingBillow &mvs_snapshot::tenting_billow() const {
 }
 uint32_t mvs_snapshot::crossings() const {
   return crossings_.get([this] {
-    return static_cast<uint32_t>(find_intersections(state.x, model->valve.triangles).size());
+    const Valve &valve = model->valve;
+    const auto sheet = sheet_topology(*model);
+    return static_cast<uint32_t>(find_intersections(state.x, valve.triangles, *sheet).size());
   });
 }
 const mvs_measures &mvs_snapshot::measures() const {

@@ -38,7 +38,8 @@ Scene make_scene() {
   Scene scene;
   const mvs_load_case load = light_load();
   MUST(mvs_create(nullptr, &scene.sim));
-  // another annulus each time: the process keeps the surfaces of the last few (annulus_map.h)
+  // another annulus each time: the process keeps what depends on the last few (annulus_map.h,
+  // sheet_topology.h)
   valve.nodes[valve.annulus[0]][2] += 1e-12;
   MUST(mvs_set_valve(scene.sim, &valve.desc));
   MUST(mvs_set_load(scene.sim, &load));
@@ -274,7 +275,7 @@ std::string save_scene(uint32_t format) {
 
 int main() {
   make_funnel(&valve);
-  // fills what the process keeps (annulus_map.h): it would count as leaked
+  // fills what the process keeps (annulus_map.h, sheet_topology.h): it would count as leaked
   for (int k = 0; k < 4; ++k) {
     const Scene scene = make_scene();
     mvs_measures measures = {};

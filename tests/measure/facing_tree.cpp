@@ -1,9 +1,13 @@
-// The hierarchy with normals finds every triangle that may face a point or another triangle.
+// The hierarchy with normals finds every triangle that may face a point or another triangle; its
+// topology is kept while the mesh stays, and decides nothing.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 #include "anatomy/parametric.h"
+#include "geometry/intersect.h"
 #include "measure/coaptation/facing_tree.h"
 #include "measure/coaptation/facing_weight.h"
 
@@ -34,7 +38,7 @@ struct Fixture {
 
 TEST_CASE("pairs_with_opposite_normals_are_found_once") {
   const Fixture f;
-  const FacingTree tree(f.triangles(), f.x, f.surface);
+  const FacingTree tree(*f.model, f.x, f.surface);
   const auto may_face = [&](uint32_t a, uint32_t b) {
     return f.surface.normal[a].dot(f.surface.normal[b]) <= cosine &&
            tree.box_of(a).distance2(tree.box_of(b)) <= reach * reach;
@@ -60,7 +64,7 @@ TEST_CASE("pairs_with_opposite_normals_are_found_once") {
 
 TEST_CASE("triangles_near_a_point_are_found_by_their_normals") {
   const Fixture f;
-  const FacingTree tree(f.triangles(), f.x, f.surface);
+  const FacingTree tree(*f.model, f.x, f.surface);
   size_t all = 0;
   for (uint32_t v = 0; v < f.x.size(); ++v) {
     const Vec3 &p = f.x[v], &normal = f.surface.node_normal[v];
@@ -82,6 +86,31 @@ TEST_CASE("triangles_near_a_point_are_found_by_their_normals") {
     all += expected.size();
   }
   CHECK(all > 0);
+}
+
+TEST_CASE("variants_of_a_valve_have_one_topology_and_another_mesh_has_its_own") {
+  const Fixture f;
+  const auto topology = sheet_topology(*f.model);
+  Valve valve = f.model->valve;
+  valve.chords.pop_back();
+  CHECK(sheet_topology(*make_model(valve, f.model.get())) == topology);
+  valve.rest[valve.triangles[0][0]] += Vec3(1e-6, 0, 0);
+  valve.open[valve.triangles[0][0]] += Vec3(1e-6, 0, 0);
+  valve.loaded[valve.triangles[0][0]] += Vec3(1e-6, 0, 0);
+  CHECK(sheet_topology(*make_model(valve)) != topology);
+  std::vector<uint32_t> all = topology->order;
+  std::sort(all.begin(), all.end());
+  CHECK(all.size() == f.triangles().size());
+  CHECK(std::adjacent_find(all.begin(), all.end()) == all.end());
+}
+
+TEST_CASE("crossings_do_not_depend_on_the_topology") {
+  Fixture f;
+  // waves of 4 mm, across the open valve: leaflets pass through each other
+  for (Vec3 &p : f.x) p += 4e-3 * Vec3(std::sin(900 * p[1]), std::sin(900 * p[2]), 0);
+  const std::vector<Edge> found = find_intersections(f.x, f.triangles());
+  CHECK(!found.empty());
+  CHECK(find_intersections(f.x, f.triangles(), *sheet_topology(*f.model)) == found);
 }
 
 // The bounds leave out no point that is near, and most that are not: brute force over random points

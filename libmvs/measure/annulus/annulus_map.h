@@ -44,6 +44,7 @@ class AnnulusMap {
   // The share of a cell that is inside the annulus: 0 to 1.
   double share(size_t cell) const { return shares_[cell]; }
   bool inside(size_t cell) const { return shares_[cell] > 0; }
+  const std::vector<double> &shares() const { return shares_; }
   // The parts of a row inside the annulus, one after the other.
   const std::vector<Interval> &intervals(size_t row) const { return intervals_[row]; }
   // The columns of a row from the first cell inside to behind the last one; 0 and 0 without any.

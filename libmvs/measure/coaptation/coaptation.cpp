@@ -137,7 +137,7 @@ void summarise(const std::vector<CoaptationLine> &lines, Coaptation &coaptation)
 
 Coaptation measure_coaptation(const Model &model, const std::vector<Vec3> &x) {
   const Surface surface = surface_of(model.valve.triangles, x);
-  const FacingTree tree(model.valve.triangles, x, surface);
+  const FacingTree tree(model, x, surface);
   const FacingSurface nearest(model, x, surface, tree);
   const Frame frame = valve_frame(model, x);
   Coaptation coaptation;

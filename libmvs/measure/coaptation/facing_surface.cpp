@@ -54,6 +54,7 @@ Partner FacingSurface::find(const Vec3 &p, const Vec3 &normal, const Tri &own) c
   double limit2 = reach_ * reach_;
   tree_.visit_near(p, normal, facing, limit2, [&](uint32_t t) {
     if (surface_.normal[t].dot(normal) > facing) return;
+    if (tree_.box_of(t).distance2(p) > limit2) return;
     if (share_a_node(model_.valve.triangles[t], own)) return;
     const TrianglePoint q = tree_.closest_on(t, p);
     if (q.distance2 > limit2) return;

@@ -3,11 +3,15 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <vector>
 
 #include "geometry/bvh.h"
+#include "measure/tissue/sheet_topology.h"
 #include "measure/tissue/surface.h"
+#include "model/model.h"
 
 namespace mvs::core {
 
@@ -16,7 +20,7 @@ namespace mvs::core {
 class FacingTree : public BoxedTriangles {
  public:
   // Keeps references to all: they must outlive the tree.
-  FacingTree(const std::vector<Tri> &triangles, const std::vector<Vec3> &x, const Surface &surface);
+  FacingTree(const Model &model, const std::vector<Vec3> &x, const Surface &surface);
 
   // Calls visit(triangle) for at least every triangle nearer to p than sqrt(limit2) whose normal
   // has at most this cosine with `normal`, near boxes first; the visitor may lower limit2.
@@ -39,10 +43,35 @@ class FacingTree : public BoxedTriangles {
       return a.box.distance2(b.box) > limit2 ||
              least_cosine(a.normals, b.normals) > cosine + rounding;
     };
-    bvh_.for_near_triangles(apart, visit);
+    bvh_.for_near_leaves(
+        [](const Volume &) { return false; }, apart,
+        [&](uint32_t a, uint32_t b) {
+          const BvhTopology &topology = bvh_.topology();
+          const uint32_t first_a = topology.leaf_start[a], first_b = topology.leaf_start[b];
+          const uint32_t count_b = topology.leaf_start[b + 1] - first_b;
+          for (uint32_t i = first_a; i < topology.leaf_start[a + 1]; ++i) {
+            const uint32_t after = a == b ? i - first_a + 1 : 0;
+            uint32_t bits = near_of_leaf(leaves_[a], i - first_a, leaves_[b], cosine, limit2);
+            bits &= ((1u << count_b) - 1) & ~((1u << after) - 1);
+            for (; bits != 0; bits &= bits - 1) {
+              const auto j = static_cast<uint32_t>(std::countr_zero(bits));
+              visit(topology.order[i], topology.order[first_b + j]);
+            }
+          }
+        });
   }
 
+  // Normals and boxes of the triangles of a leaf by coordinate; a smaller leaf repeats its last.
+  static constexpr uint32_t in_leaf = sheet_leaf;
+  struct Leaf {
+    std::array<std::array<double, in_leaf>, 3> normal, low, high;
+  };
+
  private:
+  // Bit j is set for at least every triangle j of a leaf that triangle i of another one may face.
+  static uint32_t near_of_leaf(const Leaf &a, uint32_t i, const Leaf &b, double cosine,
+                               double limit2);
+
   struct Volume {
     Aabb box, normals;
     void add(const Volume &other) {
@@ -69,6 +98,7 @@ class FacingTree : public BoxedTriangles {
   }
 
   Bvh<Volume> bvh_;
+  std::vector<Leaf> leaves_;
 };
 
 }  // namespace mvs::core

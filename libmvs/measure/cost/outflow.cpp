@@ -56,7 +56,7 @@ double Outflow::distance_to(const std::vector<Vec3> &septum) const {
 
 Outflow measure_outflow(const Model &model, const std::vector<Vec3> &x) {
   const Surface surface = surface_of(model.valve.triangles, x);
-  const FacingTree tree(model.valve.triangles, x, surface);
+  const FacingTree tree(model, x, surface);
   FacingWeight facing(model, x, surface, tree);
   const Begin anterior = find_coaptation(model, central_profile(model, x, true), facing);
   const Begin posterior = find_coaptation(model, central_profile(model, x, false), facing);

@@ -7,6 +7,7 @@
 
 #include "measure/regions/line_regions.h"
 #include "measure/regions/region_search.h"
+#include "measure/tissue/sheet_topology.h"
 #include "measure/tissue/surface.h"
 
 namespace mvs::core {
@@ -58,7 +59,7 @@ void list_cells(const AtrialSurface &atrial, int first_column, int first_row,
 std::vector<uint32_t> tissue_of_cells(const Model &model, const AtrialSurface &atrial,
                                       const RegionMap &map) {
   std::vector<uint32_t> tissue(atrial.heights.size(), none);
-  const TriangleBvh tree(model.valve.triangles, atrial.local);
+  const TriangleBvh tree(model.valve.triangles, atrial.local, *sheet_topology(model));
   RegionSearch search(tree, map);
   std::vector<RegionPlace> cells;
   for (int row = 0; row < AnnulusMap::across; row += block) {

@@ -89,13 +89,15 @@ std::vector<double> roll_ball(const AnnulusMap &map, const std::vector<double> &
   constexpr size_t width = R::Avx512::width;
   const size_t padded = across + 2 * side + width;
   std::vector<double> from(padded * (across + 2 * rows), -HUGE_VAL), pairs(padded * (rows + 1));
+  const double *share = map.shares().data();
   const auto start_of = [&](size_t row) { return &from[(row + rows) * padded + side]; };
   for (size_t row = 0; row < across; ++row) {
     double *start = start_of(row);
     for (size_t c = map.first_inside(row); c < map.end_inside(row); ++c) {
       const size_t cell = row * across + c;
       // a cell that is hardly inside is too low to hold the ball
-      if (map.inside(cell)) start[c] = sign * heights[cell] - 2 * radius * (1 - map.share(cell));
+      const double lowered = sign * heights[cell] - 2 * radius * (1 - share[cell]);
+      start[c] = share[cell] > 0 ? lowered : -HUGE_VAL;
     }
   }
   std::vector<double> result(heights.size(), -HUGE_VAL);
@@ -107,7 +109,7 @@ std::vector<double> roll_ball(const AnnulusMap &map, const std::vector<double> &
          &pairs[side], rolled.data());
     for (size_t c = first; c < end; ++c) {
       const size_t cell = row * across + c;
-      if (map.inside(cell)) result[cell] = sign * rolled[c];
+      result[cell] = share[cell] > 0 ? sign * rolled[c] : -HUGE_VAL;
     }
   }
   return result;

@@ -3,10 +3,13 @@
 #include "measure/tenting/upper_envelope.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "base/bit_cast.h"
+#include "base/simd.h"
 #include "measure/tenting/row_sections.h"
 
 namespace mvs::core {
@@ -123,18 +126,83 @@ double limited_mean(const std::vector<Stretch> &envelope, double length, double 
   return limited > mean ? std::min(limited, mean_of_upper_half(envelope, length, buffer)) : mean;
 }
 
+constexpr size_t across = AnnulusMap::across;
+
+// The sums of the sections of each cell of a row.
+struct RowSums {
+  std::array<double, across> covered, height, lowest, highest;
+  std::array<uint64_t, across> ends;
+
+  void clear() {
+    covered.fill(0);
+    height.fill(0);
+    lowest.fill(HUGE_VAL);
+    highest.fill(-HUGE_VAL);
+    ends.fill(0);
+  }
+};
+
+// The cells of a row of the raster, and where their results go.
+struct PlainCells {
+  double width, most;   // m
+  const double *share;  // of each cell inside the annulus
+  double *covered, *height;
+};
+
+// Writes the cells of a row below one layer of tissue or none, without a fold or a border. Sets
+// others[c] where a cell is left to the envelope, and 0 elsewhere.
+template <typename V>
+MVS_INLINE void write_plain(const RowSums &sums, const PlainCells &cells, int64_t *others) {
+  using Value = typename V::Value;
+  using Mask = typename V::Mask;
+  const Value zero = {}, one = zero + 1;
+  for (size_t c = 0; c < across; c += V::width) {
+    Value length, height, lowest, highest, share, off;
+    Mask ends;
+    load<V>(length, &sums.covered[c]);
+    load<V>(height, &sums.height[c]);
+    load<V>(lowest, &sums.lowest[c]);
+    load<V>(highest, &sums.highest[c]);
+    load<V>(share, cells.share + c);
+    std::memcpy(&ends, &sums.ends[c], sizeof ends);
+    const Value covered = length / cells.width;
+    magnitude_of<Value>(covered - 1, off);
+    const Mask plain = (ends == 0) & (share == one);
+    const Mask layer = plain & (off < zero + one_layer) & (highest - lowest <= zero + cells.most);
+    const Mask rest = (share > zero) & ~layer & ~(plain & (covered < zero + one_layer));
+    store<V>(cells.covered + c, layer ? one : zero);
+    store<V>(cells.height + c, layer ? height / length : zero);
+    std::memcpy(others + c, &rest, sizeof rest);
+  }
+}
+
 // One row of the raster, with buffers that are reused.
 class Row {
  public:
   Row(const AnnulusMap &map, double most, VisibleTissue &result)
-      : map_(map), result_(result), most_(most) {}
+      : map_(map), result_(result), most_(most) {
+    for (size_t c = 0; c <= across; ++c) {
+      border_[c] = map.low_u() + static_cast<double>(c) * map.width();
+    }
+  }
 
   void fill(size_t row, const Section *begin, const Section *end) {
+    // gcc selects elements of 512 bits one by one
+    static const auto plain = simd_kernel<&write_plain<Double2>, &write_plain<Double4>>();
+    const size_t start = row * across;
     row_ = row;
-    sums_.fill({});
+    sums_.clear();
+    first_part_.fill(none);
     parts_.clear();
     for (const Section *s = begin; s != end; ++s) add(*s);
-    for (size_t c = map_.first_inside(row); c < map_.end_inside(row); ++c) write(c);
+    std::array<int64_t, across> others;
+    plain(sums_,
+          {map_.width(), most_, map_.shares().data() + start, result_.covered.data() + start,
+           result_.height.data() + start},
+          others.data());
+    for (size_t c = map_.first_inside(row); c < map_.end_inside(row); ++c) {
+      if (others[c] != 0) write_envelope(c);
+    }
   }
 
  private:
@@ -144,62 +212,41 @@ class Row {
     uint32_t next;
   };
 
-  // The sums of the sections of a cell, and the head of its list in parts_.
-  struct CellSums {
-    double covered = 0, height = 0, lowest = HUGE_VAL, highest = -HUGE_VAL;
-    uint64_t ends = 0;
-    uint32_t first_part = none;
-  };
-
-  double border(size_t column) const {
-    return map_.low_u() + static_cast<double>(column) * map_.width();
-  }
   size_t column_of(double u) const {
     const double column = std::floor((u - map_.low_u()) / map_.width());
-    return static_cast<size_t>(std::clamp(column, 0.0, AnnulusMap::across - 1.0));
+    return static_cast<size_t>(std::clamp(column, 0.0, across - 1.0));
   }
 
   // Adds a section to the sums of its cells. Sections that begin where another one ends cancel in
   // `ends`: what remains shows that a cell has a fold or a border.
   void add(const Section &s) {
     const size_t first = column_of(s.from), last = column_of(s.to);
-    sums_[first].ends += bit_cast<uint64_t>(s.from);
-    sums_[last].ends -= bit_cast<uint64_t>(s.to);
+    sums_.ends[first] += bit_cast<uint64_t>(s.from);
+    sums_.ends[last] -= bit_cast<uint64_t>(s.to);
+    auto number = static_cast<uint32_t>(parts_.size());
+    parts_.resize(parts_.size() + (last - first + 1));
     double from = s.from, at_from = s.at_from;
-    for (size_t c = first; c < last; ++c) {
-      const double to = border(c + 1), at_to = s.height(to);
-      add_part(s, c, to - from, at_from, at_to);
+    for (size_t c = first; c <= last; ++c, ++number) {
+      const double to = c < last ? border_[c + 1] : s.to;
+      const double at_to = c < last ? s.height(to) : s.at_to;
+      const double length = to - from;
+      parts_[number] = {&s, first_part_[c]};
+      first_part_[c] = number;
+      sums_.covered[c] += length;
+      sums_.height[c] += 0.5 * length * (at_from + at_to);
+      sums_.lowest[c] = std::min(sums_.lowest[c], std::min(at_from, at_to));
+      sums_.highest[c] = std::max(sums_.highest[c], std::max(at_from, at_to));
       from = to;
       at_from = at_to;
     }
-    add_part(s, last, s.to - from, at_from, s.at_to);
-  }
-  void add_part(const Section &s, size_t column, double length, double at_from, double at_to) {
-    CellSums &cell = sums_[column];
-    parts_.push_back({&s, cell.first_part});
-    cell.first_part = static_cast<uint32_t>(parts_.size() - 1);
-    cell.covered += length;
-    cell.height += 0.5 * length * (at_from + at_to);
-    cell.lowest = std::min(cell.lowest, std::min(at_from, at_to));
-    cell.highest = std::max(cell.highest, std::max(at_from, at_to));
   }
 
-  void write(size_t column) {
-    const size_t cell = row_ * AnnulusMap::across + column;
-    if (!map_.inside(cell)) return;
-    const CellSums &sums = sums_[column];
-    const double covered = sums.covered / map_.width();
-    const bool is_plain = sums.ends == 0 && map_.share(cell) == 1;
-    if (is_plain && covered < one_layer) return;
-    if (is_plain && std::abs(covered - 1) < one_layer && sums.highest - sums.lowest <= most_) {
-      result_.covered[cell] = 1;
-      result_.height[cell] = sums.height / sums.covered;
-      return;
-    }
+  void write_envelope(size_t column) {
+    const size_t cell = row_ * across + column;
     envelope_.clear();
     for (const AnnulusMap::Interval &inside : map_.intervals(row_)) {
-      add_envelope(column, std::max(border(column), inside.from),
-                   std::min(border(column + 1), inside.to));
+      add_envelope(column, std::max(border_[column], inside.from),
+                   std::min(border_[column + 1], inside.to));
     }
     double length = 0;
     for (const Stretch &s : envelope_) length += s.length;
@@ -213,7 +260,7 @@ class Row {
     if (!(from < to)) return;
     near_.clear();
     places_.assign({from, to});
-    for (uint32_t k = sums_[column].first_part; k != none; k = parts_[k].next) {
+    for (uint32_t k = first_part_[column]; k != none; k = parts_[k].next) {
       const Section *s = parts_[k].section;
       if (!(s->from < to && s->to > from && s->from < s->to)) continue;
       near_.push_back(s);
@@ -236,8 +283,10 @@ class Row {
   VisibleTissue &result_;
   double most_;
   size_t row_ = 0;
+  std::array<double, across + 1> border_;
+  RowSums sums_;
+  std::array<uint32_t, across> first_part_;  // of each cell: the head of its list in parts_
   std::vector<Part> parts_;
-  std::array<CellSums, AnnulusMap::across> sums_;
   std::vector<const Section *> near_, layers_;
   std::vector<double> places_;
   std::vector<Stretch> envelope_;
@@ -247,11 +296,11 @@ class Row {
 
 VisibleTissue visible_tissue(const AnnulusMap &map, const std::vector<Tri> &triangles,
                              const std::vector<Vec3> &local, double most) {
-  VisibleTissue result{std::vector<double>(AnnulusMap::across * AnnulusMap::across, 0),
-                       std::vector<double>(AnnulusMap::across * AnnulusMap::across, 0)};
+  VisibleTissue result{std::vector<double>(across * across, 0),
+                       std::vector<double>(across * across, 0)};
   const Sections sections = cut_triangles(map, triangles, local);
   Row row(map, most, result);
-  for (size_t r = 0; r < AnnulusMap::across; ++r) {
+  for (size_t r = 0; r < across; ++r) {
     row.fill(r, sections.items.data() + sections.first[r],
              sections.items.data() + sections.first[r + 1]);
   }
