@@ -14,7 +14,7 @@ import numpy as np
 import mvs
 from .findings import finding
 from .mesh import Sheet, areas
-from .valve import ImageValve
+from .valve import ImageValve, distances, leaflet_mesh
 
 CANDIDATES = ("bilinear", "prot", "may_newman_yin")
 """The default first. Fung-type leaflets are left out: their fits take several times as long."""
@@ -34,14 +34,19 @@ def search_edge(sheet: Sheet) -> float:
 
 
 def fitted_distance(build: Callable[[], ImageValve]) -> Optional[float]:
-    """The RMS distance, m, of a fitted valve from the loaded leaflets; None without a clean closure."""
+    """The RMS distance, m, of the loaded leaflets from a fitted valve; None without a clean closure.
+
+    Not the other way round: where the labels lack tissue, as along the free edge, a valve without error is far
+    from them whatever its tissue.
+    """
     try:
         made = build()
     except mvs.Error:
         return None
-    if not made.converged or made.closed.measures.intersections:
+    if made.loaded is None or not made.converged or made.closed.measures.intersections:
         return None
-    return next(float(one.values[0]) for one in made.findings if one.name == "closed_distance")
+    away = distances(made.loaded.points, *leaflet_mesh(made.closed))
+    return float(np.sqrt((away**2).mean()))
 
 
 def chosen_tissue(away: Mapping[str, float]) -> tuple[str, mvs.Finding]:
@@ -59,6 +64,6 @@ def chosen_tissue(away: Mapping[str, float]) -> tuple[str, mvs.Finding]:
     clear = all(away[law] * CLEARLY_NEARER >= away[best] for law in order if law != best)
     return best, finding(
         "tissue", mvs.FindingSource.MEASURED, 0.6 if clear else 0.4,
-        f"{best}: closed with it and fitted chordae a coarse valve lies near the leaflets in the loaded image (RMS: "
-        f"{words}; the default stays unless another is a tenth nearer); give --leaflet if the tissue is known",
+        f"{best}: so far do the leaflets in the loaded image lie from a coarse valve with fitted chordae (RMS: {words}; "
+        "the default stays unless another tissue is a tenth nearer); give --leaflet if the tissue is known",
         [away[law] for law in order], "m")
