@@ -100,7 +100,8 @@ def add_build(commands: Any) -> None:
     build = parser.add_argument_group("valve").add_argument
     build("--edge", type=float, metavar="MM", help="of the triangles [1,000 vertices]")
     build("--chords", type=int, metavar="N", help="chord segments where none are seen, about [100]")
-    build("--leaflet", metavar="LAW", help="tissue of the leaflets [bilinear]")
+    build("--leaflet", metavar="LAW",
+          help="tissue of the leaflets [bilinear; that which is nearest to the loaded image]")
     build("--thickness", type=float, metavar="MM", help="of the leaflets [measured; normal tissue where labels are narrow]")
     build("--coaptation-length", type=float, metavar="MM",
           help="overlap in the middle for which rest lengths are chosen [8]")

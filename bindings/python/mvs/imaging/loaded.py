@@ -17,6 +17,7 @@ from .labels import (ANTERIOR, POSTERIOR, LabelSettings, Tell, choose_segments, 
 from .mesh import Sheet, areas, largest_piece
 from .needs import need
 from .reading import LabelMap
+from .spurs import without_spurs
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -113,7 +114,8 @@ def closed_surface(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
         if not mask.any():
             raise ArgumentError(f"the {word} leaflet is missing in the loaded image", "loaded")
         named = f"{word} leaflet: " if word else ""
-        sheets.append(_largest_sheet(labels.image, mask, settings, lambda step: tell(named + step)))
+        sheet = _largest_sheet(labels.image, mask, settings, lambda step: tell(named + step))
+        sheets.append(without_spurs(sheet, f"{word} leaflet" if word else "leaflets", findings))
     points = np.vstack([sheet.points for sheet in sheets])
     first = np.cumsum([0, *(len(sheet.points) for sheet in sheets)])
     triangles = np.vstack([sheet.triangles + k for sheet, k in zip(sheets, first)])

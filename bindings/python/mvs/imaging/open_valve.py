@@ -6,11 +6,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mvs import ArgumentError, FindingSource
-from mvs.mesh import shortest_paths
 from .findings import finding
 from .labels import Leaflets, LabelSettings
-from .mesh import (Points, areas, edges_with_triangles, in_largest_piece, loop_length, loops_by_length, pieces, spanned,
-                   unique_edges)
+from .mesh import areas, edges_with_triangles, loop_length, loops_by_length, spanned
+from .spurs import cut_spurs
 
 
 LONG_HOLE_SHARE, LONG_HOLE_AREA, OTHER_LEAFLET = 0.4, 40e-6, 0.1
@@ -63,58 +62,6 @@ def _is_long_hole(found: Leaflets, loop: NDArray[np.int64], length: float, longe
     label = np.bincount(found.leaflet[at_rim], minlength=3)[1:]
     return bool(length < LONG_HOLE_SHARE * longest and area < LONG_HOLE_AREA
                 and label.min() <= OTHER_LEAFLET * label.sum())
-
-
-SPUR_WIDTH = 1.5
-"""Widths of the tissue: narrower ribbons of mid-surface are spurs. Fingers of labels are about as wide as
-thick, their mid-surface is narrower, and leaflets are ten times as wide."""
-
-
-def cut_spurs(found: Leaflets) -> None:
-    """Cuts ribbons off whose outline is a hole: a spur stands on the leaflet, and its mid-surface is a fin that
-    opens the sheet at its root. Its filling would lie on the fin and cross it.
-
-    An opening of the sheet at holes: places farther than half a ribbon's width from all holes stay, and what is
-    within that width of them. Rims of holes without spurs stay as they are.
-    """
-    sheet = found.sheet
-    loops = loops_by_length(sheet)
-    if len(loops) < 3:
-        return
-    half = 0.5 * SPUR_WIDTH * float(np.median(sheet.values["thickness"]))
-    edges, _ = unique_edges(sheet.triangles)
-    core = _far_from(sheet.points, edges, np.unique(np.concatenate(loops[2:])), half)
-    rows = np.flatnonzero(core[sheet.triangles].all(axis=1))
-    if not len(rows):
-        return
-    size = areas(sheet.points, sheet.triangles)
-    largest = rows[in_largest_piece(sheet, rows, size[rows])]
-    # paths along edges are up to a sixth longer than straight ones (in regular triangles), and the first points
-    # beyond a distance lie an edge beyond it
-    edge = np.percentile(np.linalg.norm(sheet.points[edges[:, 0]] - sheet.points[edges[:, 1]], axis=1), 99)
-    lost = _far_from(sheet.points, edges, np.unique(sheet.triangles[largest]), 7 / 6 * half + float(edge))
-    kept = ~lost[sheet.triangles].any(axis=1)
-    rows = np.flatnonzero(kept)
-    kept[rows] = in_largest_piece(sheet, rows, size[rows])
-    ribbons = np.flatnonzero(~kept)
-    piece = pieces(sheet.triangles[ribbons], len(sheet.points))
-    area = np.bincount(piece, size[ribbons])
-    kept[ribbons[area[piece] < half**2]] = True  # corners of a rim
-    area = area[area >= half**2]
-    if not len(area):
-        return
-    found.sheet, found.leaflet = sheet.part(kept), found.leaflet[kept]
-    found.findings.append(finding(
-        "spurs", FindingSource.GUESSED, 0.7,
-        f"{len(area)} ribbons of tissue narrower than {2e3 * half:.1f} mm that stand on the leaflets beside a hole, "
-        f"{1e6 * area.sum():.0f} mm2, were cut off as spurs of the labels", area.tolist(), "m2"))
-
-
-def _far_from(points: Points, edges: NDArray[np.int64], sources: NDArray[np.int64],
-              distance: float) -> NDArray[np.bool_]:
-    """Which points are farther from all sources than a distance, along edges."""
-    path, _ = shortest_paths(points, edges, sources)
-    return np.asarray(path > distance)
 
 
 def fill_hole(found: Leaflets, loop: NDArray[np.int64]) -> None:

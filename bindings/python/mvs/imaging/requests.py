@@ -10,8 +10,9 @@ import numpy as np
 import mvs
 from .console import Console
 from .findings import LENGTHS, finding, read_known
+from .fitted_tissue import CANDIDATES, chosen_tissue, fitted_distance, search_edge
 from .grid import spacing_of
-from .labels import (ANTERIOR, POSTERIOR, UNKNOWN, LabelSettings, leaflets_in)
+from .labels import ANTERIOR, POSTERIOR, UNKNOWN, Leaflets, LabelSettings, leaflets_in
 from .landmarks import read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
@@ -68,6 +69,9 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
                                      _landmarks(chosen, "loaded_"))
         surface.points = motion(surface.points)
         found.append(how)
+        if "leaflet" not in options:
+            options["leaflet"], tissue = _tissue(leaflets, landmarks, surface, options, console)
+            found.append(tissue)
     console.stage("building and closing the valve")
     made = build(leaflets, landmarks, surface, chosen.image.name.split(".")[0],
                  lambda done, _: console.share(done), findings=tuple(found), **options)
@@ -76,6 +80,21 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
         made.image = scanned(image)
         made.loaded_image = scanned(loaded, motion) if loaded is not None else None
     return made
+
+
+def _tissue(leaflets: Leaflets, landmarks: dict[str, Any], loaded: Sheet, options: dict[str, Any],
+            console: Console) -> tuple[str, mvs.Finding]:
+    """The law of the leaflets by a fit with each on a coarse mesh."""
+    coarse = {**options, "edge": search_edge(leaflets.sheet), "leak": False}
+    away: dict[str, float] = {}
+    for law in CANDIDATES:
+        console.stage(f"fitting chordae with the tissue {law}")
+        distance = fitted_distance(lambda: build(
+            leaflets, landmarks, loaded, progress=lambda done, _: console.share(done),
+            **{**coarse, "leaflet": law}))
+        if distance is not None:
+            away[law] = distance
+    return chosen_tissue(away)
 
 
 LEAST_LOST = 1.4e-3

@@ -1,0 +1,66 @@
+"""mvs.imaging: the tissue law is that whose fitted closure is nearest to the loaded labels."""
+
+import types
+
+import mvs
+import numpy as np
+import pytest
+
+pytest.importorskip("pyvista", reason="needs the extra imaging (PyVista)")
+
+from mvs.imaging.fitted_tissue import (  # noqa: E402
+    CANDIDATES, CLEARLY_NEARER, SEARCH_VERTICES, chosen_tissue, fitted_distance, search_edge)
+from mvs.imaging.mesh import Sheet  # noqa: E402
+
+
+def test_a_law_that_is_clearly_nearer_takes_the_place_of_the_default():
+    law, said = chosen_tissue({"bilinear": 1.33e-3, "prot": 0.85e-3, "may_newman_yin": 0.80e-3})
+    assert law == "may_newman_yin" and said.name == "tissue" and said.source == mvs.FindingSource.MEASURED
+    assert list(said.values) == [0.80e-3, 0.85e-3, 1.33e-3]  # nearest first, as the sentence has them
+    assert "may_newman_yin 0.80 mm, prot 0.85 mm, bilinear 1.33 mm" in said.sentence
+    alone, sure = chosen_tissue({"bilinear": 1.33e-3, "may_newman_yin": 0.80e-3})
+    assert alone == law and sure.confidence > said.confidence  # no second law is as near
+
+
+def test_the_default_stays_where_others_are_hardly_nearer():
+    near = 1e-3 * CLEARLY_NEARER
+    assert chosen_tissue({"bilinear": 1e-3, "prot": 1.001 * near})[0] == "bilinear"
+    assert chosen_tissue({"bilinear": 1e-3, "prot": 0.999 * near})[0] == "prot"
+
+
+def square(side, above=0.0):
+    """Two triangles, side in m, at a height in m."""
+    points = np.array([[0, 0, above], [side, 0, above], [side, side, above], [0, side, above]])
+    return Sheet(points, np.array([[0, 1, 2], [0, 2, 3]]), {})
+
+
+def closure(sheet, loaded, converged=True, crossings=0):
+    """A build whose closed leaflets are a sheet."""
+    closed = types.SimpleNamespace(measures=types.SimpleNamespace(intersections=crossings),
+                                   node_position=sheet.points, triangle_nodes=sheet.triangles)
+    return lambda: types.SimpleNamespace(converged=converged, closed=closed, loaded=loaded)
+
+
+def test_tissue_that_the_labels_lack_is_no_distance():
+    """The leaflets are three times as large as their labels and lie 1 mm from them."""
+    assert fitted_distance(closure(square(30e-3), square(10e-3, above=1e-3))) == pytest.approx(1e-3, rel=1e-6)
+
+
+def test_laws_without_a_clean_closure_are_left_out():
+    def refused():
+        raise mvs.OpError("the surface has one boundary")
+
+    sheet, labels = square(30e-3), square(30e-3, above=1e-3)
+    assert fitted_distance(closure(sheet, labels)) is not None
+    assert fitted_distance(closure(sheet, labels, converged=False)) is None
+    assert fitted_distance(closure(sheet, labels, crossings=2)) is None
+    assert fitted_distance(refused) is None
+    assert chosen_tissue({"prot": 2e-3})[0] == "prot"  # the default is none of those at rest
+    law, said = chosen_tissue({})
+    assert law == CANDIDATES[0] == "bilinear" and said.source == mvs.FindingSource.ASSUMED and said.confidence < 0.3
+
+
+def test_the_mesh_of_the_comparison_has_the_stated_vertices():
+    side = 30e-3
+    # equilateral triangles of that side, two for each vertex, fill the square
+    assert side**2 / (search_edge(square(side)) ** 2 * np.sqrt(3) / 2) == pytest.approx(SEARCH_VERTICES)
