@@ -72,7 +72,9 @@ function chordLabel(topology: Topology, x: Float32Array): Label[] {
   const at = [0, 1, 2].map((c) => 0.5 * (x[3 * a + c] + x[3 * b + c]));
   const chord = state.figures.value?.chords[k];
   const load = chord?.over ? percentOfLimit(shareOfLimit(chord)) : null;
-  const text = chord ? markTexts.chord(chord.name, chord.rest, load) : topology.chords[k].name;
+  const text = chord
+    ? markTexts.chord(chord.name, chord.rest, load, chord.artificial)
+    : topology.chords[k].name;
   return [{ text, at, kind: 'chord' }];
 }
 
