@@ -20,19 +20,48 @@ export interface BorderLine {
 /** Rounds of smoothing: after fewer the zigzag of an irregular mesh is still seen, after more short borders lean to their ends. */
 const rounds = 4;
 
-/** Neighbours of each node along sides of the triangles. */
-function neighboursOf({ nodes, triangles }: Topology): Set<number>[] {
-  const neighbours = Array.from({ length: nodes }, () => new Set<number>());
-  triangles.forEach((node, i) => {
-    const next = triangles[i % 3 === 2 ? i - 2 : i + 1];
-    neighbours[node].add(next);
-    neighbours[next].add(node);
+/** Sides of the triangles, `ends` in pairs, with cotangent weights: a smoothed linear function stays what it is on a flat irregular mesh. */
+function weighted(
+  { nodes, triangles }: Topology,
+  x: Float32Array,
+): { ends: Uint32Array; weights: Float32Array } {
+  const found = new Map<number, number>();
+  const apart = (p: number, q: number) => [0, 1, 2].map((c) => x[3 * p + c] - x[3 * q + c]);
+  for (let t = 0; t < triangles.length; t += 3) {
+    for (let k = 0; k < 3; ++k) {
+      const [a, b, corner] = [0, 1, 2].map((step) => triangles[t + ((k + step) % 3)]);
+      const [u, v] = [apart(a, corner), apart(b, corner)];
+      const dot = u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+      const cross = Math.hypot(
+        u[1] * v[2] - u[2] * v[1],
+        u[2] * v[0] - u[0] * v[2],
+        u[0] * v[1] - u[1] * v[0],
+      );
+      const key = Math.min(a, b) * nodes + Math.max(a, b);
+      found.set(key, (found.get(key) ?? 0) + dot / Math.max(cross, 1e-9));
+    }
+  }
+  const ends = Uint32Array.from([...found.keys()].flatMap((key) => [Math.floor(key / nodes), key % nodes]));
+  // opposite obtuse angles give a negative weight, with which smoothing could diverge
+  return { ends, weights: Float32Array.from(found.values(), (weight) => Math.max(weight, 0.01)) };
+}
+
+/** One round: the mean of a node's value and of the weighted mean of its neighbours. */
+function smooth(row: Float32Array, { ends, weights }: ReturnType<typeof weighted>): Float32Array {
+  const sum = new Float32Array(row.length);
+  const total = new Float32Array(row.length);
+  weights.forEach((weight, k) => {
+    const [a, b] = [ends[2 * k], ends[2 * k + 1]];
+    sum[a] += weight * row[b];
+    sum[b] += weight * row[a];
+    total[a] += weight;
+    total[b] += weight;
   });
-  return neighbours;
+  return row.map((own, node) => (total[node] ? 0.5 * (own + sum[node] / total[node]) : own));
 }
 
 /** Share of each scallop at each node, smoothed: rows of nodes. */
-function sharesOf(topology: Topology): Float32Array[] {
+function sharesOf(topology: Topology, x: Float32Array): Float32Array[] {
   const { nodes, triangles, triangleScallop, scallops } = topology;
   const count = new Float32Array(nodes);
   let shares = scallops.map(() => new Float32Array(nodes));
@@ -41,22 +70,14 @@ function sharesOf(topology: Topology): Float32Array[] {
     count[node] += 1;
   });
   for (const row of shares) row.forEach((sum, node) => (row[node] = count[node] ? sum / count[node] : 0));
-  const neighbours = neighboursOf(topology);
-  for (let k = 0; k < rounds; ++k) {
-    shares = shares.map((row) =>
-      row.map((own, node) => {
-        let sum = 0;
-        for (const other of neighbours[node]) sum += row[other];
-        return neighbours[node].size ? 0.5 * own + (0.5 * sum) / neighbours[node].size : own;
-      }),
-    );
-  }
+  const sides = weighted(topology, x);
+  for (let k = 0; k < rounds; ++k) shares = shares.map((row) => smooth(row, sides));
   return shares;
 }
 
-/** Pieces of the borders of all scallops, each within one triangle. */
-export function bordersOf(topology: Topology): BorderLine[] {
-  const shares = sharesOf(topology);
+/** Pieces of the borders of all scallops, each within one triangle; `x`: positions of the nodes in any pose. */
+export function bordersOf(topology: Topology, x: Float32Array): BorderLine[] {
+  const shares = sharesOf(topology, x);
   const largest = new Uint32Array(topology.nodes);
   shares.forEach((row, s) =>
     row.forEach((share, node) => {
