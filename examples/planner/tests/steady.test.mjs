@@ -79,6 +79,9 @@ describe('planner layout', () => {
 
   it('shows_the_keys_of_the_colours_beside_a_notice', async () => {
     await startAfresh(page);
+    // with a preview there are buttons that compare
+    await begin(page, 'band');
+    await page.getByRole('button', { name: 'Before', exact: true }).waitFor();
     await inWindows(async (size) => {
       const text = '“Valve 3: dilated, and a short chord” is finished. Its repair can be opened once more.';
       await page.evaluate((words) => {
@@ -104,6 +107,7 @@ describe('planner layout', () => {
       });
       assert.ok(top < 20, `${size}: ${top}`);
     });
+    await page.keyboard.press('Escape');
   });
 
   it('writes_no_word_of_the_section_over_a_curve_or_another_word', async () => {

@@ -17,12 +17,21 @@ export function Opening({ kind }: { kind: string }) {
   const warn = !!word || (now && least !== null && now.openArea < least);
   // the annulus became smaller and the opening did not
   const elsewhere = ofAnnulus.has(kind) && now && before && now.openArea >= before.openArea;
+  const why = [
+    word && (small === null ? openingTexts.narrow(word) : verdictTexts.smallAnnulus(small)),
+    elsewhere && openingTexts.elsewhere,
+  ].filter((text) => !!text);
   return (
-    <p class={`opens${warn ? ' warn' : ''}`} data-testid="opening" title={openingTexts.help}>
+    <p
+      class={`opens${warn ? ' warn' : ''}`}
+      data-testid="opening"
+      title={[openingTexts.help, ...why].join(' ')}
+    >
       {openingTexts.opens(now?.openArea)}
       <span class="was"> {openingTexts.beside(before?.openArea, least)}</span>
-      {word && <small>{small === null ? openingTexts.narrow(word) : verdictTexts.smallAnnulus(small)}</small>}
-      {elsewhere && <small>{openingTexts.elsewhere}</small>}
+      {why.map((text) => (
+        <small>{text}</small>
+      ))}
     </p>
   );
 }
