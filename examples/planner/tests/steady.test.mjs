@@ -77,6 +77,20 @@ describe('planner layout', () => {
     await page.keyboard.press('Escape');
   });
 
+  it('keeps_the_buttons_of_every_form_at_one_place', async () => {
+    // shorter and longer than the panel
+    const tops = new Set();
+    for (const kind of ['band', 'ring', 'clip', 'resect', 'neochord']) {
+      await begin(page, kind);
+      await answered(page, 100);
+      const { y, height } = await page.getByRole('button', { name: 'Apply', exact: true }).boundingBox();
+      tops.add(Math.round(y + height));
+      await page.keyboard.press('Escape');
+      await page.keyboard.press('Escape');
+    }
+    assert.equal(tops.size, 1, [...tops].join(', '));
+  });
+
   it('shows_the_keys_of_the_colours_beside_a_notice', async () => {
     await startAfresh(page);
     // with a preview there are buttons that compare
