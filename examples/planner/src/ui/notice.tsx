@@ -20,12 +20,12 @@ function coversFocus(box: HTMLElement): boolean {
 }
 
 /** Lets what stands at the top of the picture, the keys of its colours, begin below the notices. */
-function makeRoom(box: HTMLElement | null): void {
+function makeRoom(box: HTMLElement): void {
   const stage = document.querySelector<HTMLElement>('.stage');
   if (!stage) return;
-  const [at, of] = [box?.getBoundingClientRect(), stage.getBoundingClientRect()];
-  const above = !!box && !!at!.height && !box.classList.contains('low') && at!.top < of.top + of.height / 2;
-  stage.style.setProperty('--notices', above ? `${Math.max(0, at!.bottom - of.top)}px` : '0px');
+  const [at, of] = [box.getBoundingClientRect(), stage.getBoundingClientRect()];
+  const above = at.height > 0 && at.top < of.top + of.height / 2;
+  stage.style.setProperty('--notices', above ? `${Math.max(0, at.bottom - of.top)}px` : '0px');
 }
 
 /** Notices at the top of the picture, or, where they would cover the control that has the focus, further down. */
