@@ -135,6 +135,15 @@ describe('planner copies for recovery', () => {
     await page.getByLabel(/Keep a copy/).check();
   };
   const offered = (page) => page.getByTestId('recovery');
+  // the copy is read from the browser's storage before the page is busy with it
+  const recovered = async (page) => {
+    await page.getByRole('button', { name: 'Recover it' }).click();
+    await page
+      .getByTestId('notice')
+      .getByText(/^Session opened/)
+      .waitFor();
+    await closed(page);
+  };
 
   it('keeps_a_left_copy_while_another_plan_is_made', async () => {
     await withPlanner({}, async ({ page, context }) => {
@@ -145,8 +154,7 @@ describe('planner copies for recovery', () => {
       await offered(next).waitFor();
       // who works on before an answer loses nothing
       assert.notEqual(await operate(next, 'band'), left);
-      await next.getByRole('button', { name: 'Recover it' }).click();
-      await answered(next, 300);
+      await recovered(next);
       assert.equal(await hash(next), left);
     });
   });
@@ -164,8 +172,7 @@ describe('planner copies for recovery', () => {
       const found = [];
       for (let k = 0; k < 2; ++k) {
         const next = await fresh(context);
-        await next.getByRole('button', { name: 'Recover it' }).click();
-        await answered(next, 300);
+        await recovered(next);
         found.push(await hash(next));
       }
       assert.deepEqual(found.sort(), [first, second].sort());

@@ -1,10 +1,11 @@
 // The twin of the picture as text: every scallop, chord and device of a repaired valve, with the figures that the native command gives
 // as JSON for the saved session, and a way to each by the keyboard alone.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import { before, describe, it } from 'node:test';
-import { closed, sharePlanner } from './browser.mjs';
+import { closed, sharePlanner, temporaryFile } from './browser.mjs';
 import { repeated } from './native.mjs';
-import { answered, apply, openPanel, save, startAfresh, tabTo } from './person.mjs';
+import { answered, apply, open, openPanel, save, startAfresh, tabTo } from './person.mjs';
 
 /** What the native command says of a saved session, which it repeats. */
 function nativeOf(session) {
@@ -53,6 +54,11 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     });
     await add('band', { factor: 0.92 });
     await add('clip', { position: 0.2 });
+    // said once the opening of the narrowed valve is measured
+    await page
+      .getByTestId('status')
+      .getByText(/^Join A2 and P2 by clip/)
+      .waitFor({ state: 'attached' });
     said = (await page.getByTestId('status').innerText()).replace(/\s+/g, ' ');
     native = nativeOf(await save(page));
     await openPanel(page, 'Valve');
@@ -121,7 +127,8 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     );
     const stitches = native.chords.filter(({ kind }) => kind === 'suture');
     assert.ok(stitches.length > 2 && stitches.every(({ name }) => /^clip/.test(name)));
-    assert.match(rows.get('Clip'), /^joins A2 and P2 over \d mm, strongest pull /);
+    // the width of the form, although the outermost stitches of the closed valve are further apart
+    assert.match(rows.get('Clip'), /^joins A2 and P2, 5 mm wide, strongest pull /);
     assert.ok(rows.get('Clip').endsWith(pull(Math.max(...stitches.map(({ tension_N: n }) => n)))));
     assert.match(rows.get('Posterior band'), /^\d\d mm long$/);
     assert.equal(rows.size, 3);
@@ -175,5 +182,20 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
       await listed(/resect/, 'scallop'),
       native.regions.filter(({ kind }) => kind !== 'commissure').map(({ name }) => name),
     );
+  });
+
+  it('names_a_clip_by_its_chosen_width_in_the_history_and_by_its_stitches_without_one', async () => {
+    await openPanel(page, 'Plan');
+    const steps = await page.getByTestId('history').locator('li').allInnerTexts();
+    assert.equal(steps.at(-1).replace(/\s+/g, ' '), 'Join A2 and P2 by clip, 5 mm wide');
+    const [download] = await Promise.all([
+      page.waitForEvent('download'),
+      page.getByRole('button', { name: 'Valve as OBJ' }).click(),
+    ]);
+    const path = temporaryFile('clip.obj', readFileSync(await download.path()));
+    await open(page, path);
+    await openPanel(page, 'Valve');
+    const rows = new Map(await rowsOf('devices'));
+    assert.match(rows.get('Clip'), /^joins A2 and P2, outermost stitches \d mm apart, strongest pull /);
   });
 });

@@ -1,9 +1,13 @@
 // The verdict never says plainly “Sealed” where the open valve is narrow or chordae are far beyond their limit: in the card, the
 // report, the comparison of plans and the status line, by the same words.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { mkdtempSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
 import { beforeEach, describe, it } from 'node:test';
 import { closed, figures, sharePlanner } from './browser.mjs';
-import { answered, apply, begin, openPanel, startAfresh, undo } from './person.mjs';
+import { answered, apply, begin, open, openPanel, startAfresh, undo } from './person.mjs';
 
 /** Waits until the opening of the valve of the plan is measured, which the page does by itself. */
 async function opened(page) {
@@ -179,4 +183,96 @@ describe('planner verdict', () => {
     assert.match(await status(), /^Repeated: Sealed\b/);
     await undo(page);
   });
+
+  it('tells_a_result_that_narrows_the_valve_once', async () => {
+    await page.evaluate(() => {
+      const status = document.querySelector('[data-testid=status]');
+      window.heard = [];
+      new MutationObserver(() => window.heard.push(status.innerText)).observe(status, {
+        characterData: true,
+        childList: true,
+        subtree: true,
+      });
+    });
+    await begin(page, 'clip');
+    // applied before the opening of the preview is measured
+    await apply(page);
+    const area = await opened(page);
+    await page.waitForTimeout(300);
+    const heard = (await page.evaluate(() => window.heard)).map(flat).filter((text) => /^Join/.test(text));
+    assert.equal(heard.length, 1, heard.join(' | '));
+    if (area < 180) assert.match(heard[0], /opens to [\d.]+ cm²/);
+    assert.doesNotMatch(heard[0], /not measured/);
+    await undo(page);
+  });
+
+  it('says_that_an_artificial_chord_is_compared_with_a_native_one', async () => {
+    await page.evaluate(() => {
+      const topology = window.planner.state.topologyOf(window.planner.state.main.value.picture);
+      const id = (list, name) => list.find((part) => part.name === name).id;
+      const site = { scallop: id(topology.scallops, 'P2'), along: 0.5, height: 0.95 };
+      window.planner.edit('neochord', { head: id(topology.heads, 'PM1'), site, length: 14 });
+    });
+    await closed(page);
+    await apply(page);
+    const { chords } = await figures(page);
+    const share = ({ tension, tensionLimit }) => tension / tensionLimit;
+    const worst = chords.filter(({ over }) => over).sort((a, b) => share(b) - share(a))[0];
+    assert.ok(worst.artificial && share(worst) > 1.2, JSON.stringify(worst));
+    const percent = Math.round(100 * share(worst));
+    const count = new Set(chords.filter(({ over }) => over).map(({ name }) => name)).size;
+    const words =
+      count === 1
+        ? `artificial chord at ${percent} % of a native limit`
+        : `${count} chordae over limit, up to ${percent} % (artificial, of a native limit)`;
+    assert.ok((await card()).includes(words), await card());
+    assert.ok((await inReport()).all.includes(words));
+    await page.getByTestId('verdict').getByRole('button', { name: worst.name }).click();
+    const facts = flat(await page.getByTestId('chosen').innerText());
+    assert.match(facts, new RegExp(`Share of a native limit ${percent} %`));
+    assert.match(facts, /No limit of ePTFE is known here/);
+    await page.keyboard.press('Escape');
+    await undo(page);
+  });
 });
+
+describe(
+  'planner verdict on a child',
+  { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND is not set' },
+  () => {
+    let page;
+    sharePlanner((shared) => ({ page } = shared));
+
+    it('says_that_limits_of_stenosis_are_those_of_adults', async () => {
+      // 0.6 of the size of the shipped valve
+      const sizes = {
+        'annulus-ap': 16,
+        'annulus-cc': 21,
+        'saddle-height': 3.3,
+        'anterior-height': 15,
+        'posterior-height': 8.4,
+        'commissure-height': 4.8,
+        'papillary-depth': 14,
+        'papillary-separation': 12,
+        'coaptation-depth': 3,
+      };
+      const path = join(mkdtempSync(join(tmpdir(), 'planner-')), 'child.obj');
+      const given = Object.entries(sizes).flatMap(([name, mm]) => [`--${name}`, String(mm)]);
+      execFileSync(process.env.MVS_COMMAND, ['generate', ...given, '-o', path]);
+      await open(page, path);
+      await closed(page);
+      await begin(page, 'clip');
+      await apply(page);
+      const area = await opened(page);
+      assert.ok(area < 155, `${area} mm²`);
+      await page.waitForTimeout(100);
+      const verdict = page.getByTestId('verdict');
+      assert.match(
+        (await verdict.innerText()).replace(/\s+/g, ' '),
+        /opens to [\d.]+ cm²: (very )?severe stenosis for an adult/,
+      );
+      const help = await verdict.locator('.verdict-but').first().getAttribute('title');
+      assert.match(help, /those of adults\. This annulus is smaller, 2\d mm side to side/);
+    });
+  },
+);

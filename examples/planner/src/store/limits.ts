@@ -1,16 +1,36 @@
 // What a valve is judged by: how far it opens, where that was measured, and the load of chordae that is allowed.
+import { signal } from '@preact/signals';
 import { percentOfLimit } from '../notable';
-import type { Cost } from '../protocol';
+import type { Cost, Shown } from '../protocol';
 import * as state from './state';
 
 /** Operations that narrow the open valve. */
 export const narrowing = new Set(['ring', 'band', 'annulus_scale', 'clip', 'resect']);
+
+/** Vertices above which it takes too long to measure an opening unasked. */
+const most = 2500;
+
+/** Whether the opening of a valve is measured by itself where that is needed. */
+export const measuresItself = ({ picture }: Shown): boolean => picture.positions.length <= 3 * most;
+
+/** The valve whose opening could not be measured, by its hash. */
+export const unmeasurable = signal('');
 
 /** The opening of a closed valve if it was measured. */
 export function openingOf(hash: string | undefined): Cost | null {
   if (!hash) return null;
   if (state.cost.value?.hash === hash) return state.cost.value;
   return state.openings.value.get(hash) ?? null;
+}
+
+/** mm from commissure to commissure below which an annulus is smaller than an adult's: those measured in adults are 35 to 39 mm wide, and
+ *  rings for adults begin at 24. */
+const leastAdult = 28;
+
+/** The width of the annulus before the first operation, mm, where it is smaller than an adult's: limits of stenosis hold for adults. */
+export function smallAnnulus(): number | null {
+  const cc = state.first.value?.figures.measures.annulusCc;
+  return cc !== undefined && cc < leastAdult ? cc : null;
 }
 
 /** The least open area that the tour asks for, mm2; null where it is not known. */

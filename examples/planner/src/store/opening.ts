@@ -3,15 +3,13 @@
 import { effect, untracked } from '@preact/signals';
 import type { CostRequest } from '../calls';
 import type { Cost, Shown } from '../protocol';
-import { narrowing, openingOf } from './limits';
+import { measuresItself, narrowing, openingOf, unmeasurable } from './limits';
 import { fail, request } from './requests';
 import * as state from './state';
 import { isNarrowed } from './verdict';
 
 /** ms without a change of the form before the worker is taken for it; it cannot be interrupted. */
 const rest = 400;
-/** Vertices above which it takes too long to be done unasked. */
-const most = 2500;
 
 /** Remembers the opening of the closed valve that was measured, among the last ones. */
 export function keepOpening(found: Cost): void {
@@ -28,7 +26,7 @@ let comparing = false;
 
 /** Measures the openings of the present plan and of the one that it is compared with, unless they take too long. */
 async function measureCompared(name: string, other: Shown, main: Shown): Promise<void> {
-  if (comparing || main.picture.positions.length > 3 * most) return;
+  if (comparing || !measuresItself(main)) return;
   comparing = true;
   try {
     if (!openingOf(other.figures.hash)) await measure(`checkpoint ${name}`);
@@ -75,10 +73,11 @@ function watchNarrowed(): void {
     const idle = !draft.value && !busy.value && !motion.value && !handing.value && !surface.value;
     if (!idle || figures?.known !== 'all' || !figures.measures.atRest) return;
     if (!isNarrowed(figures) || openingOf(figures.hash) || asked === figures.hash) return;
-    if (main.value!.picture.positions.length > 3 * most) return;
+    if (!measuresItself(main.value!)) return;
     timer = window.setTimeout(() => {
       asked = figures.hash;
-      measure('main').catch(fail);
+      const { hash } = figures;
+      measure('main').catch((error) => ((unmeasurable.value = hash), fail(error)));
     }, rest);
   });
 }
@@ -102,7 +101,7 @@ export function watchOpening(): void {
       preview.value?.figures.known === 'all' &&
       !pending.value &&
       !busy.value &&
-      preview.value.picture.positions.length <= 3 * most;
+      measuresItself(preview.value);
     if (ready) timer = window.setTimeout(() => void measureBoth(), rest);
   });
 }

@@ -3,28 +3,43 @@ import { effect, untracked } from '@preact/signals';
 import { t, verdictTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import * as state from './state';
-import { headline, relieved } from './verdict';
+import { measuresItself, unmeasurable } from './limits';
+import { headline, relieved, verdictOf } from './verdict';
 
 /** What the present valve comes from. */
 let done = '';
+
+/** A result that is said once the opening of its valve is measured, so that it is said once. */
+let held: Figures | null = null;
 
 const lineOf = (what: string, before: Figures | null, now: Figures): string => {
   const slack = relieved(before, now);
   return t.statusLine(what, headline(now), now, slack.length ? verdictTexts.relieved(slack) : '');
 };
 
+function speak(now: Figures): void {
+  held = null;
+  state.status.value = lineOf(done, state.earlier.value?.figures ?? null, now);
+}
+
+/** Whether the opening of the valve of the plan is still to come, so that its verdict would change. */
+const waits = (now: Figures): boolean =>
+  verdictOf(now).unmeasured && measuresItself(state.main.value!) && unmeasurable.value !== now.hash;
+
 /** Says the result for the valve of the plan; `what` names what was done, which later figures of the valve belong to as well. */
 export function sayResult(now: Figures, what = done): void {
   done = what;
+  held = null;
   if (now.known !== 'all') return;
-  state.status.value = lineOf(done, state.earlier.value?.figures ?? null, now);
+  if (waits(now)) held = now;
+  else speak(now);
 }
 
 export function sayPreview(now: Figures): void {
   state.status.value = lineOf(t.previewed, state.main.value?.figures ?? null, now);
 }
 
-/** Says the result once more where the opening, which is measured later, changes the verdict. */
+/** Says a result that was held once its opening is known, and any result again where an opening that was asked for changes its verdict. */
 export function watchResult(): void {
   let said: Figures | null = null;
   let sentence = '';
@@ -32,7 +47,8 @@ export function watchResult(): void {
     const figures = state.main.value?.figures;
     if (!figures || figures.known !== 'all' || state.draft.value || state.coming.value) return;
     const now = headline(figures);
-    if (said === figures && now !== sentence) untracked(() => sayResult(figures));
+    const due = held === figures ? !waits(figures) : said === figures && now !== sentence;
+    if (due) untracked(() => speak(figures));
     [said, sentence] = [figures, now];
   });
 }

@@ -3,7 +3,7 @@
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import type { Figures } from '../protocol';
 import { grade, headlineOf, stenosis, verdictTexts, where } from '../text/texts';
-import { faultyLoad, narrowing, openingOf } from './limits';
+import { faultyLoad, narrowing, openingOf, smallAnnulus } from './limits';
 
 export interface Verdict {
   /** 0 sealed to 4; null where the figures are not final. */
@@ -23,7 +23,7 @@ export const isNarrowed = ({ history }: Figures): boolean =>
 function ofOpening({ hash }: Figures): string[] {
   const cost = openingOf(hash);
   const word = cost ? stenosis(cost.openArea) : '';
-  return word ? [verdictTexts.openingIs(cost!.openArea, word)] : [];
+  return word ? [verdictTexts.openingIs(cost!.openArea, word, smallAnnulus() !== null)] : [];
 }
 
 /** Whether the load of a chord is a fault, which the verdict names. */
@@ -34,7 +34,8 @@ export const isOverloaded = ({ measures }: Figures): boolean =>
 function ofChordae(figures: Figures): string[] {
   if (!isOverloaded(figures)) return [];
   const beyond = beyondLimit(figures.chords);
-  return [verdictTexts.chordsBeyond(beyond.length, percentOfLimit(shareOfLimit(beyond[0])))];
+  const [most] = beyond;
+  return [verdictTexts.chordsBeyond(beyond.length, percentOfLimit(shareOfLimit(most)), most.artificial)];
 }
 
 export function verdictOf(figures: Figures): Verdict {

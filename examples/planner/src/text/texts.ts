@@ -170,6 +170,16 @@ export function wordsOf(kind: string, help: string): Words {
   return operationWords[kind] ?? { title: kind.replace(/_/g, ' '), short: help };
 }
 
+/** How the library ends the title of a clip: its stitches, and the width that was chosen in mm. */
+const clipWidth = /, \d+ stitches over (\d+(?:\.\d+)?) mm/;
+
+/** The chosen width in mm of the clip with this name, from the titles of a plan; null where it was set before the plan. */
+export function chosenWidth(name: string, titles: string[]): number | null {
+  const title = titles.find((text) => text.split(clipWidth)[0].endsWith(` by ${name}`));
+  const width = title && clipWidth.exec(title);
+  return width ? +width[1] : null;
+}
+
 /** Sentences of the library with its units turned into those of the page. */
 export function say(sentence: string): string {
   return sentence
@@ -178,6 +188,7 @@ export function say(sentence: string): string {
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
+    .replace(clipWidth, (_, v: string) => `, ${+v} mm wide`)
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
     .replace(/^mvs_\w+: /, '');
@@ -463,10 +474,20 @@ export const verdictTexts = {
   chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
   but: ', but',
   butHelp: 'A sealed valve may still open too little, or hang on chordae that may tear.',
-  openingIs: (area: number, word: string) => `opens to ${number(area / 100)} cm²: ${word}`,
+  /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
+  openingIs: (area: number, word: string, adult: boolean) =>
+    `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}`,
+  smallAnnulus: (cc: number) =>
+    `Limits of stenosis are those of adults. This annulus is smaller, ${number(cc, 0)} mm side to side: a child’s valve needs less, in proportion to the body, which is not known here.`,
   openingUnknown: 'its opening is not measured yet',
-  chordsBeyond: (count: number, percent: number) =>
-    count === 1 ? `1 chord at ${percent} % of its limit` : `${count} chordae over limit, up to ${percent} %`,
+  /** `artificial`: the most loaded one is; its limit is that of a native chord. */
+  chordsBeyond: (count: number, percent: number, artificial: boolean) => {
+    if (count > 1)
+      return `${count} chordae over limit, up to ${percent} %${artificial ? ' (artificial, of a native limit)' : ''}`;
+    return artificial
+      ? `artificial chord at ${percent} % of a native limit`
+      : `1 chord at ${percent} % of its limit`;
+  },
   relieved: (chords: { name: string; percent: number }[]) =>
     `${listOf(chords.map(({ name, percent }) => `${name} (before ${percent} %)`))} ${chords.length === 1 ? 'is' : 'are'} slack`,
   relievedHelp:
@@ -474,6 +495,8 @@ export const verdictTexts = {
   chordOver: (name: string, percent: number) => `${name} ${percent} %`,
   limitHelp:
     'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it a chord may tear. A healthy valve may have one just at its limit.',
+  artificialHelp:
+    'No limit of ePTFE is known here. An artificial chord is compared with the limit of a native chord of the free edge, as a measure of how much more it pulls than what it replaces; whether thread and stitches hold is not calculated.',
 };
 
 export const leaveTexts = {
@@ -590,7 +613,7 @@ export const valveTexts = {
   spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
-  openAreaHelp: 'Smallest opening at 5 mmHg',
+  openAreaHelp: 'Smallest opening at 5 mmHg. In adults 1.5 cm² or less is a severe stenosis (ACC/AHA 2014).',
   annulusPull: 'Pull on the annulus',
   measureOpen: 'Measure the open area',
   flow: 'Flow through the open valve',
@@ -620,6 +643,7 @@ export const tableTexts = {
   leakHint: 'A leak between two leaflets counts by half for the scallop on either side.',
   chordae: (count: number) => `Chordae (${count})`,
   chordaeHint: 'The most loaded first. Choose one to shorten, lengthen or cut it.',
+  artificialHint: 'Artificial chordae: % of the limit of a native one.',
   chord: 'Chord',
   length: 'Length without pull, mm',
   pull: 'Pull, mN',
@@ -649,8 +673,9 @@ export const deviceTexts = {
     const given = /^(?:ring|band|clip)(\d*)$/.exec(name);
     return given ? `${kind} ${given[1]}`.trimEnd() : `${kind} ${name}`;
   },
-  clip: (clip: { between: string[]; width: number; pull: number }) =>
-    `joins ${listOf(clip.between)} over ${number(clip.width, 0)} mm, strongest pull ${millinewton(clip.pull)}`,
+  /** `width`: as it was chosen; `apart`: its outermost stitches in the closed valve. */
+  clip: (clip: { between: string[]; width: number | null; apart: number; pull: number }) =>
+    `joins ${listOf(clip.between)}, ${clip.width === null ? `outermost stitches ${number(clip.apart, 0)} mm apart` : `${+number(clip.width)} mm wide`}, strongest pull ${millinewton(clip.pull)}`,
   suture: (of: string[]) => `closes the cut in ${listOf(of)}`,
   neochord: (chord: { rest: number; tension: number; heads: string; scallops: string }) =>
     `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${millinewton(chord.tension)}` : 'slack'}`,
@@ -700,8 +725,8 @@ export const formTexts = {
 /** Names in the picture, of handles too. */
 export const markTexts = {
   plane: (through: string[]) => `Section plane through ${listOf(through)}: drag`,
-  chord: (name: string, length: number, percent: number | null) =>
-    `${name}  ${number(length)} mm${percent === null ? '' : `, ${percent} % of its limit`}`,
+  chord: (name: string, length: number, percent: number | null, artificial: boolean) =>
+    `${name}  ${number(length)} mm${percent === null ? '' : `, ${percent} % of ${artificial ? 'a native' : 'its'} limit`}`,
   clip: 'Clip: drag',
   turn: (angle: number) => (angle ? `Turn: ${number(angle, 0)}°` : 'Turn: drag'),
 };
@@ -712,7 +737,7 @@ export const openingTexts = {
   narrow: (word: string) =>
     word === 'narrow'
       ? 'Narrow: a mean flow of 200 ml/s loses more than 5 mmHg.'
-      : `${word[0].toUpperCase()}${word.slice(1)}: 1.5 cm² or less is severe, 1.0 cm² or less very severe (ACC/AHA 2014).`,
+      : `${word[0].toUpperCase()}${word.slice(1)}: in adults 1.5 cm² or less is severe, 1.0 cm² or less very severe (ACC/AHA 2014).`,
   elsewhere:
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   beside: (before: number | undefined, least: number | null) =>
@@ -759,6 +784,7 @@ export const repairTexts = {
   stretch: 'Stretch',
   slack: 'slack',
   limit: 'Share of its limit',
+  nativeLimit: 'Share of a native limit',
   limitIn: (limit: string) => `limit ${limit}`,
   becomes: (was: string, now: string) => `${was} → ${now}`,
   letGo: 'Let go of this part',
@@ -836,6 +862,7 @@ export const reportTexts = {
   before: 'Before',
   after: 'After',
   section: 'Section through the middle',
+  thin: 'grey line: annulus',
   dashed: 'dashed: before',
   line: 'line: after',
   views: { surgeon: 'From the atrium', ventricle: 'From the ventricle' },
@@ -864,25 +891,32 @@ export const dialogTexts = {
 
 export const sectionTexts = {
   label: 'Section through the leaflets',
-  posterior: 'posterior',
+  posterior: 'posterior →',
   atrium: 'atrium',
   ventricle: 'ventricle',
-  annulus: 'annulus',
-  anterior: 'anterior',
+  annulus: 'plane of the annulus',
+  anterior: '← anterior',
   scale: '10 mm',
   healthy: 'before its illness',
   now: 'now',
   before: 'before',
   preview: 'preview',
   plane: (mm: number, through: string[]) =>
-    `Plane through ${listOf(through)}, ${number(Math.abs(mm))} mm from the middle`,
+    `Plane through ${listOf(through)}, ${mm === 0 ? 'in the middle' : `${number(Math.abs(mm))} mm from the middle towards the ${formTexts.sides[mm > 0 ? 0 : 1]} commissure`}`,
   middle: 'To the middle',
   cut: 'Slice the picture at this plane',
 };
 
 export const gestureTexts = {
-  chord: (chord: { name: string; rest: number; tension: number; strain: number; percent: number | null }) =>
-    `${chord.name}: ${number(chord.rest)} mm without pull, ${chord.strain > 0 ? `pull ${millinewton(chord.tension)}, stretch ${number(100 * chord.strain)} %` : 'slack'}${chord.percent === null ? '' : `, ${chord.percent} % of its limit`}`,
+  chord: (chord: {
+    name: string;
+    rest: number;
+    tension: number;
+    strain: number;
+    percent: number | null;
+    artificial: boolean;
+  }) =>
+    `${chord.name}: ${number(chord.rest)} mm without pull, ${chord.strain > 0 ? `pull ${millinewton(chord.tension)}, stretch ${number(100 * chord.strain)} %` : 'slack'}${chord.percent === null ? '' : `, ${chord.percent} % of ${chord.artificial ? 'a native' : 'its'} limit`}`,
 };
 
 /** Words for the values of a choice, where those of the library are not a surgeon's. */

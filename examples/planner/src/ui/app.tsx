@@ -7,7 +7,7 @@ import { appTexts, barTexts, help, planTexts, t, tips, tipTexts } from '../text/
 import type { Preset } from '../view/camera';
 import { Viewport } from '../view/viewport';
 import { Dialogs } from './dialogs';
-import { Notice, Recovery } from './notice';
+import { Notices } from './notice';
 import { Button } from './parts';
 import { ImportPanel } from './import';
 import { onKey, showPanel, tabs } from './keys';
@@ -244,8 +244,7 @@ export function App() {
         {state.status.value}
       </div>
       <Tip />
-      <Notice />
-      <Recovery />
+      <Notices />
       <Dialogs />
     </div>
   );

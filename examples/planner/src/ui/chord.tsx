@@ -35,7 +35,8 @@ export function ChordFacts({ chord, after, brief }: { chord: Chord; after?: Chor
     const value = was === now ? was : repairTexts.becomes(was, now);
     return now === repairTexts.slack ? value : `${value}\u00a0${unit}`;
   };
-  const { over } = after ?? chord;
+  const { over, artificial } = after ?? chord;
+  const help = artificial ? verdictTexts.artificialHelp : verdictTexts.limitHelp;
   return (
     <>
       <h3>{repairTexts.chord(chord.name)}</h3>
@@ -43,17 +44,17 @@ export function ChordFacts({ chord, after, brief }: { chord: Chord; after?: Chor
       <dl>
         {(brief ? briefFacts : facts).map(([label, of, unit, limit]) => (
           <>
-            <dt>{label}</dt>
+            <dt>{artificial && label === repairTexts.limit ? repairTexts.nativeLimit : label}</dt>
             <dd
               class={label === repairTexts.limit && over ? 'over' : undefined}
-              title={label === repairTexts.limit ? verdictTexts.limitHelp : undefined}
+              title={label === repairTexts.limit ? help : undefined}
             >
               {fact(of, unit)} {limit && <small>{limit(after ?? chord)}</small>}
             </dd>
           </>
         ))}
       </dl>
-      {over && !brief && <p class="beyond">{verdictTexts.limitHelp}</p>}
+      {over && !brief && <p class="beyond">{help}</p>}
     </>
   );
 }

@@ -1,7 +1,7 @@
 // Rings, bands, clips, artificial chordae and sutures as a table: the twin of what the picture shows of them.
 import { clipOf, cutOf, suture } from '../notable';
 import * as state from '../store/state';
-import { deviceTexts, tipTexts } from '../text/texts';
+import { chosenWidth, deviceTexts, tipTexts } from '../text/texts';
 import type { Chord, Figures, Picture, Topology } from '../protocol';
 import { clipWidths } from '../view/clips';
 import { isClosed } from '../view/heart';
@@ -57,11 +57,13 @@ function devicesOf(topology: Topology, picture: Picture, figures: Figures): Devi
     figures: ringFigures(ringPoints(picture, r), figures.frame),
   }));
   const widths = clipWidths(topology, picture, figures.frame);
+  const titles = figures.history.filter((entry) => !entry.undone).map((entry) => entry.title);
   const clips = stitchesBy(figures, clipOf).map(([name, stitches]) => ({
     name: named(names.clip, name),
     figures: deviceTexts.clip({
       between: scallopsOf(stitches),
-      width: widths.get(name) ?? 0,
+      width: chosenWidth(name, titles),
+      apart: widths.get(name) ?? 0,
       pull: Math.max(...stitches.map(({ tension }) => tension)),
     }),
   }));

@@ -87,6 +87,11 @@ export function OperationForm() {
       )}
       <div class="form-foot">
         <Opening kind={draft.kind} />
+        <p class="hint trying">
+          {ready && state.outdated.value && (
+            <span data-testid="trying">{state.early.value ? t.notSeen : t.previewing}</span>
+          )}
+        </p>
         <button
           type="submit"
           class="button main"
@@ -97,11 +102,6 @@ export function OperationForm() {
           <span>{appTexts.apply}</span>
         </button>
         <Button onClick={discard}>{appTexts.discard}</Button>
-        {ready && state.outdated.value && (
-          <span class="hint" data-testid="trying">
-            {state.early.value ? t.notSeen : t.previewing}
-          </span>
-        )}
       </div>
     </form>
   );

@@ -19,13 +19,17 @@ function coversFocus(box: HTMLElement): boolean {
   return control.height < innerHeight / 2 && overlap(control, box.getBoundingClientRect());
 }
 
-/** A notice at the top of the picture, or, where it would cover the control that has the focus, further down. */
-function Floating(props: {
-  kind: string;
-  role: 'alert' | 'status';
-  id: string;
-  children: ComponentChildren;
-}) {
+/** Lets what stands at the top of the picture, the keys of its colours, begin below the notices. */
+function makeRoom(box: HTMLElement): void {
+  const stage = document.querySelector<HTMLElement>('.stage');
+  if (!stage) return;
+  const [at, of] = [box.getBoundingClientRect(), stage.getBoundingClientRect()];
+  const above = at.height > 0 && at.top < of.top + of.height / 2;
+  stage.style.setProperty('--notices', above ? `${Math.max(0, at.bottom - of.top)}px` : '0px');
+}
+
+/** Notices at the top of the picture, or, where they would cover the control that has the focus, further down. */
+export function Notices() {
   const box = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => {
     const makeWay = () => {
@@ -34,27 +38,45 @@ function Floating(props: {
       classList.remove('low');
       classList.toggle('low', coversFocus(box.current));
       if (coversFocus(box.current)) classList.remove('low');
+      makeRoom(box.current);
     };
     // the browser scrolls to the control after it has got the focus
     const later = () => requestAnimationFrame(makeWay);
+    const size = new ResizeObserver(makeWay);
+    size.observe(box.current!);
     makeWay();
     window.addEventListener('focusin', later);
     window.addEventListener('resize', later);
     document.addEventListener('scroll', later, true);
     return () => {
+      size.disconnect();
       window.removeEventListener('focusin', later);
       window.removeEventListener('resize', later);
       document.removeEventListener('scroll', later, true);
     };
-  });
+  }, []);
   return (
-    <div ref={box} class={`notice ${props.kind}`} role={props.role} data-testid={props.id}>
+    <div ref={box} class="notices">
+      <Notice />
+      <Recovery />
+    </div>
+  );
+}
+
+function Floating(props: {
+  kind: string;
+  role: 'alert' | 'status';
+  id: string;
+  children: ComponentChildren;
+}) {
+  return (
+    <div class={`notice ${props.kind}`} role={props.role} data-testid={props.id}>
       {props.children}
     </div>
   );
 }
 
-export function Notice() {
+function Notice() {
   const notice = state.notice.value;
   useEffect(() => {
     if (notice?.kind !== 'info') return;
@@ -77,7 +99,7 @@ export function Notice() {
   );
 }
 
-export function Recovery() {
+function Recovery() {
   const [kept] = recoverable.value;
   if (!kept || !state.ready.value) return null;
   return (

@@ -1,7 +1,7 @@
 // In the form of an operation that narrows the valve: how far it would open, beside the valve before and the goal.
-import { leastOpening, narrowing, openingOf } from '../store/limits';
+import { leastOpening, narrowing, openingOf, smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
-import { openingTexts, stenosis } from '../text/texts';
+import { openingTexts, stenosis, verdictTexts } from '../text/texts';
 
 /** Operations that make the annulus smaller. */
 const ofAnnulus = new Set(['ring', 'band']);
@@ -13,15 +13,25 @@ export function Opening({ kind }: { kind: string }) {
   const before = openingOf(state.main.value?.figures.hash);
   const least = leastOpening();
   const word = now ? stenosis(now.openArea) : '';
-  const small = !!word || (now && least !== null && now.openArea < least);
+  const small = smallAnnulus();
+  const warn = !!word || (now && least !== null && now.openArea < least);
   // the annulus became smaller and the opening did not
   const elsewhere = ofAnnulus.has(kind) && now && before && now.openArea >= before.openArea;
+  const why = [
+    word && (small === null ? openingTexts.narrow(word) : verdictTexts.smallAnnulus(small)),
+    elsewhere && openingTexts.elsewhere,
+  ].filter((text) => !!text);
   return (
-    <p class={`opens${small ? ' warn' : ''}`} data-testid="opening" title={openingTexts.help}>
+    <p
+      class={`opens${warn ? ' warn' : ''}`}
+      data-testid="opening"
+      title={[openingTexts.help, ...why].join(' ')}
+    >
       {openingTexts.opens(now?.openArea)}
       <span class="was"> {openingTexts.beside(before?.openArea, least)}</span>
-      {word && <small>{openingTexts.narrow(word)}</small>}
-      {elsewhere && <small>{openingTexts.elsewhere}</small>}
+      {why.map((text) => (
+        <small>{text}</small>
+      ))}
     </p>
   );
 }

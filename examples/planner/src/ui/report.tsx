@@ -101,8 +101,8 @@ async function sectionPlot(): Promise<string> {
 <path d="${lines(before)}" stroke="#8795a1" stroke-width=".35" stroke-dasharray="1 .8"/>
 <path d="${lines(after)}" stroke="#b5493b" stroke-width=".45"/></g>
 ${word(left, y + 1.3 * size, 'start', sectionTexts.anterior)}${word(right, y + 1.3 * size, 'end', sectionTexts.posterior)}${word(x + width / 2, y + 1.3 * size, 'middle', sectionTexts.atrium)}
-${word(left, -0.4 * size, 'start', sectionTexts.annulus)}${word(left + 5, bottom - 0.7 * size, 'middle', sectionTexts.scale)}
-${word(right, bottom - 0.7 * size, 'end', reportTexts.dashed)}${word(right, bottom + 0.6 * size, 'end', reportTexts.line, '#b5493b')}</svg>`;
+${word(x + width / 2, bottom - 0.7 * size, 'middle', sectionTexts.ventricle)}${word(left + 5, bottom - 0.7 * size, 'middle', sectionTexts.scale)}
+${word(left, bottom + 0.9 * size, 'start', reportTexts.thin)}${word(x + width / 2, bottom + 0.9 * size, 'middle', reportTexts.dashed)}${word(right, bottom + 0.9 * size, 'end', reportTexts.line, '#b5493b')}</svg>`;
 }
 
 /** The report as the body of an HTML page. */

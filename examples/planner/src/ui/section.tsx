@@ -105,9 +105,6 @@ export function SectionPlot() {
         aria-label={sectionTexts.label}
       >
         <line x1={left} y1="0" x2={right} y2="0" class="plot-axis" />
-        <text x={left} y={-0.4 * box.text} {...text}>
-          {sectionTexts.annulus}
-        </text>
         <text x={left} y={box.y + 1.3 * box.text} {...text}>
           {sectionTexts.anterior}
         </text>
@@ -130,7 +127,7 @@ export function SectionPlot() {
         <text x={left + 5} y={bottom - 0.7 * box.text} text-anchor="middle" {...text}>
           {sectionTexts.scale}
         </text>
-        <text x={right} y={bottom - 0.7 * box.text} text-anchor="end" {...text}>
+        <text x={box.x + box.width / 2} y={bottom - 0.7 * box.text} text-anchor="middle" {...text}>
           {sectionTexts.ventricle}
         </text>
       </svg>
@@ -141,6 +138,10 @@ export function SectionPlot() {
             {curve.name}
           </span>
         ))}
+        <span>
+          <i class="key key-axis" />
+          {sectionTexts.annulus}
+        </span>
       </div>
       <label class="slider" title={tipTexts.plane}>
         <span>{sectionTexts.plane(state.sectionAt.value, through())}</span>
@@ -153,9 +154,9 @@ export function SectionPlot() {
           onInput={(event) => (state.sectionAt.value = +event.currentTarget.value)}
         />
       </label>
-      {state.sectionAt.value !== 0 && (
-        <Button onClick={() => (state.sectionAt.value = 0)}>{sectionTexts.middle}</Button>
-      )}
+      <Button disabled={state.sectionAt.value === 0} onClick={() => (state.sectionAt.value = 0)}>
+        {sectionTexts.middle}
+      </Button>
       <label class="check" title={tips[sectionTexts.cut]}>
         <input
           type="checkbox"

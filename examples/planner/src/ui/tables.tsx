@@ -70,7 +70,9 @@ export function Chordae({ figures }: { figures: Figures }) {
     .sort((a, b) => b.share - a.share);
   return (
     <Section title={tableTexts.chordae(chordae.length)} tip={tipTexts.chordae}>
-      <p class="hint">{tableTexts.chordaeHint}</p>
+      <p class="hint">
+        {tableTexts.chordaeHint} {chordae.some((chord) => chord.artificial) && tableTexts.artificialHint}
+      </p>
       <div class="scroll">
         <table class="table" data-testid="chords">
           <thead>

@@ -1,6 +1,7 @@
 // The verdict in large letters over all panels: sealed or leaking, where and how much; dots stand for what is still to
 // come.
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
+import { smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
 import { showChord } from '../store/tour';
 import { isOverloaded, relieved, verdictOf } from '../store/verdict';
@@ -19,6 +20,7 @@ export function Verdict() {
     );
   const shape = figures.known === 'shape';
   const { level, word, but, unmeasured } = verdictOf(figures);
+  const small = smallAnnulus();
   const tag = tagOf();
   const grading = level === null ? 'none' : but.length && !level ? 'but' : level;
   return (
@@ -35,7 +37,10 @@ export function Verdict() {
         {tag && <span class="tag">{tag}</span>}
       </div>
       {but.map((reservation) => (
-        <strong class="verdict-but" title={verdictTexts.butHelp}>
+        <strong
+          class="verdict-but"
+          title={small === null ? verdictTexts.butHelp : verdictTexts.smallAnnulus(small)}
+        >
           {reservation}
         </strong>
       ))}
@@ -67,7 +72,10 @@ function Beyond({ figures }: { figures: Figures }) {
   const words = verdictTexts;
   const counted = isOverloaded(figures) && figures.known !== 'shape';
   return (
-    <div class={counted ? 'verdict-warn' : 'verdict-note'} title={words.limitHelp}>
+    <div
+      class={counted ? 'verdict-warn' : 'verdict-note'}
+      title={beyond.some((chord) => chord.artificial) ? words.artificialHelp : words.limitHelp}
+    >
       {!counted && <div>{words.chordsOver(beyond.length)}</div>}
       <div class="beyond-names">
         {beyond.slice(0, named).map((chord) => (

@@ -72,12 +72,17 @@ function chordLabel(topology: Topology, x: Float32Array): Label[] {
   const at = [0, 1, 2].map((c) => 0.5 * (x[3 * a + c] + x[3 * b + c]));
   const chord = state.figures.value?.chords[k];
   const load = chord?.over ? percentOfLimit(shareOfLimit(chord)) : null;
-  const text = chord ? markTexts.chord(chord.name, chord.rest, load) : topology.chords[k].name;
+  const text = chord
+    ? markTexts.chord(chord.name, chord.rest, load, chord.artificial)
+    : topology.chords[k].name;
   return [{ text, at, kind: 'chord' }];
 }
 
 /** mm behind the leaflets at which the name of a papillary muscle is still shown. */
 const tolerance = 4;
+
+/** Pixels between the middle of a handle and its name. */
+const besideHandle = 24;
 
 export class Labels {
   private layer: HTMLElement;
@@ -146,7 +151,10 @@ export class Labels {
         taken.some(({ x, y, width, height }) => Math.hypot(x + width / 2 - px, y + height / 2 - py) < 32);
       element.hidden = covered || (label.kind === 'head' && this.hidden(view, label, px, py));
       if (!element.hidden) taken.push({ x: px - 12, y: py - 9, width: 24, height: 18 });
-      element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(${label.kind === 'handle' ? '24px' : '-50%'}, -50%)`;
+      // of a handle beside it, on its left where the picture ends on its right
+      const leaves = label.kind === 'handle' && px + besideHandle + element.offsetWidth > view.width;
+      const beside = leaves ? `calc(-100% - ${besideHandle}px)` : `${besideHandle}px`;
+      element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(${label.kind === 'handle' ? beside : '-50%'}, -50%)`;
     });
   }
 

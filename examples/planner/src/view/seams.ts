@@ -1,14 +1,13 @@
-// Lines on the leaflets: edges between two scallops, the free edge, and seams.
+// Lines on the leaflets: borders of scallops, the free edge, and seams.
 import type { Picture, Topology } from '../protocol';
 import { suture } from '../notable';
+import { bordersOf, type BorderLine, type OnSide } from './borders';
 import { tissue } from './colours';
 import { halfThickness } from './leaflets';
 import { point, Shapes, type Colour, type Mesh } from './mesh';
 
 /** Pairs of nodes, which depend on the connectivity alone. */
 interface Lines {
-  /** Edges between two scallops. */
-  borders: [number, number][];
   /** Edges of the free edge. */
   free: [number, number][];
   /** Edges of a cut that are sewn together. */
@@ -20,37 +19,31 @@ const kept = new WeakMap<Topology, Lines>();
 /** The lines of a valve; those of each connectivity are found once. */
 export function linesOf(topology: Topology): Lines {
   let lines = kept.get(topology);
-  if (!lines) kept.set(topology, (lines = { borders: bordersOf(topology), ...edgesOf(topology) }));
+  if (!lines) kept.set(topology, (lines = edgesOf(topology)));
   return lines;
 }
 
-function bordersOf({ nodes, triangles, triangleScallop }: Topology): [number, number][] {
-  const borders: [number, number][] = [];
-  const owner = new Map<number, number>();
-  for (let t = 0; t < triangleScallop.length; ++t) {
-    for (let k = 0; k < 3; ++k) {
-      const [a, b] = [triangles[3 * t + k], triangles[3 * t + ((k + 1) % 3)]];
-      const key = Math.min(a, b) * nodes + Math.max(a, b);
-      const other = owner.get(key);
-      if (other === undefined) owner.set(key, triangleScallop[t]);
-      else if (other !== triangleScallop[t]) borders.push([a, b]);
-    }
-  }
-  return borders;
-}
-
 /** The free edge, of which a cut is part: an edge is sewn where stitches begin or end at one of its nodes. */
-function edgesOf({ chordKind, chordNodes, freeEdge }: Topology): Pick<Lines, 'free' | 'sewn'> {
+function edgesOf({ chordKind, chordNodes, freeEdge }: Topology): Lines {
   const stitched = new Set<number>();
   chordKind.forEach((kind, k) => {
     if (kind === suture) stitched.add(chordNodes[2 * k]).add(chordNodes[2 * k + 1]);
   });
-  const lines: Pick<Lines, 'free' | 'sewn'> = { free: [], sewn: [] };
+  const lines: Lines = { free: [], sewn: [] };
   freeEdge.forEach((node, k) => {
     const next = freeEdge[(k + 1) % freeEdge.length];
     lines[stitched.has(node) || stitched.has(next) ? 'sewn' : 'free'].push([node, next]);
   });
   return lines;
+}
+
+const keptBorders = new WeakMap<Topology, BorderLine[]>();
+
+/** Borders of scallops, found in the first pose that is drawn of a connectivity: tissue keeps its angles nearly in all others. */
+function bordersIn(topology: Topology, x: Float32Array): BorderLine[] {
+  let borders = keptBorders.get(topology);
+  if (!borders) keptBorders.set(topology, (borders = bordersOf(topology, x)));
+  return borders;
 }
 
 /** mm: nodes of the free edge that are further apart are not neighbours but ends of two leaflets. */
@@ -60,8 +53,10 @@ const longest = 8;
 export function seams(topology: Topology, picture: Picture, leaflet: Mesh): Mesh {
   const shapes = new Shapes();
   const x = picture.positions;
-  const { borders, free, sewn } = linesOf(topology);
-  for (const [a, b] of borders) shapes.tube(point(x, a), point(x, b), 0.1, tissue.seam, 4);
+  const { free, sewn } = linesOf(topology);
+  const at = ({ a, b, share }: OnSide) =>
+    [0, 1, 2].map((c) => x[3 * a + c] + share * (x[3 * b + c] - x[3 * a + c]));
+  for (const { from, to } of bordersIn(topology, x)) shapes.tube(at(from), at(to), 0.1, tissue.seam, 4);
   const near = ([a, b]: [number, number]) =>
     Math.hypot(...[0, 1, 2].map((c) => x[3 * a + c] - x[3 * b + c])) < longest;
   for (const [a, b] of free.filter(near)) shapes.tube(point(x, a), point(x, b), 0.2, tissue.edge, 5);
