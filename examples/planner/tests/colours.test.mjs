@@ -5,7 +5,7 @@ import { dirname, join } from 'node:path';
 import { describe, it } from 'node:test';
 import { fileURLToPath } from 'node:url';
 import { transformWithEsbuild } from 'vite';
-import { difference, labOf, visions } from './vision.mjs';
+import { difference, labOf, visions } from './fixtures/vision.mjs';
 
 const source = join(dirname(fileURLToPath(import.meta.url)), '../src');
 const file = join(source, 'view/colours.ts');

@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { closed, figures, sharePlanner } from './browser.mjs';
-import { answered, apply, begin, openPanel, startAfresh, undo } from './person.mjs';
+import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
+import { answered, apply, begin, openPanel, startAfresh, undo } from './fixtures/person.mjs';
 
 describe('planner as a customer judges it', () => {
   let page;

@@ -2,7 +2,7 @@
 // ring, the gradient of a flow, devices, a file that follows the plan, the way back to a plan that was left.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, figures, sharePlanner, temporaryFile } from './browser.mjs';
+import { closed, figures, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
 import {
   answered,
   apply,
@@ -16,7 +16,7 @@ import {
   save,
   startAfresh,
   undo,
-} from './person.mjs';
+} from './fixtures/person.mjs';
 
 describe('planner features', () => {
   let page;

@@ -2,9 +2,9 @@
 // shown: tenting, prolapse, coaptation, annulus, scallops, strain. A flail leaflet, so that none of them is 0.
 import assert from 'node:assert/strict';
 import { before, describe, it } from 'node:test';
-import { closed, figures, sharePlanner } from './browser.mjs';
-import { repeated } from './native.mjs';
-import { openPanel, save } from './person.mjs';
+import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
+import { repeated } from './fixtures/native.mjs';
+import { openPanel, save } from './fixtures/person.mjs';
 
 /** Repeats a session with the native command: its measures, and the valve as OBJ. */
 function repeatNatively(session) {

@@ -2,8 +2,8 @@
 // previews and applies.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, figures, sharePlanner } from './browser.mjs';
-import { answered, apply, openPanel } from './person.mjs';
+import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
+import { answered, apply, openPanel } from './fixtures/person.mjs';
 
 /**
  * Stands between page and worker as a later version of the library would: one operation, and its fields, have new names, labels

@@ -1,8 +1,8 @@
 // Tissue that is grasped and pushed with the pointer while the valve lives.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { answered, startAfresh } from './person.mjs';
-import { figures, sharePlanner } from './browser.mjs';
+import { answered, startAfresh } from './fixtures/person.mjs';
+import { figures, sharePlanner } from './fixtures/browser.mjs';
 
 /** mm by which the nodes have moved from the closed valve, the farthest of them; 0 while nothing lives. */
 function moved(page) {

@@ -4,8 +4,8 @@ import { readFileSync } from 'node:fs';
 import { beforeEach, describe, it } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { strFromU8, unzipSync } from 'fflate';
-import { closed, figures, page_path, sharePlanner, temporaryFile, withPlanner } from './browser.mjs';
-import { answered, apply, begin, openPanel, save, open, startAfresh, undo } from './person.mjs';
+import { closed, figures, page_path, sharePlanner, temporaryFile, withPlanner } from './fixtures/browser.mjs';
+import { answered, apply, begin, openPanel, save, open, startAfresh, undo } from './fixtures/person.mjs';
 
 /** Waits until a page holds the expected value. */
 async function eventually(look, expected, limit = 20_000) {

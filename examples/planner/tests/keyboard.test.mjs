@@ -4,8 +4,8 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { strFromU8, unzipSync } from 'fflate';
-import { closed, figures, reopenAfterCrash, temporaryFile, withPlanner } from './browser.mjs';
-import { answered, focused, openForm, save, tabTo, undo } from './person.mjs';
+import { closed, figures, reopenAfterCrash, temporaryFile, withPlanner } from './fixtures/browser.mjs';
+import { answered, focused, openForm, save, tabTo, undo } from './fixtures/person.mjs';
 
 const hash = async (page) => (await figures(page)).hash;
 

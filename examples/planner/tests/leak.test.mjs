@@ -1,8 +1,8 @@
 // A leak is graded by its orifice, located, and drawn with a jet that leads from its place into the atrium.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { figures, withPlanner } from './browser.mjs';
-import { answered, cameraRests, openPanel } from './person.mjs';
+import { figures, withPlanner } from './fixtures/browser.mjs';
+import { answered, cameraRests, openPanel } from './fixtures/person.mjs';
 
 /**
  * Grades of a regurgitant orifice in mm²: mild below 20, moderate to 40 with a border at 30 within it, severe from 40

@@ -1,8 +1,8 @@
 // The tour beside its goals: the valve before its illness, the chord of the hint, how far a ring lets the valve open.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, sharePlanner } from './browser.mjs';
-import { answered, begin, cameraRests, openPanel, startAfresh } from './person.mjs';
+import { closed, sharePlanner } from './fixtures/browser.mjs';
+import { answered, begin, cameraRests, openPanel, startAfresh } from './fixtures/person.mjs';
 
 describe('planner to learn with', () => {
   let page;

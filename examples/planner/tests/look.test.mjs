@@ -1,7 +1,7 @@
 // The picture and its labels: before and after, names beside what they name, views of a surface, the printed report.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, sharePlanner, temporaryFile } from './browser.mjs';
+import { closed, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
 import {
   answered,
   apply,
@@ -12,7 +12,7 @@ import {
   open,
   openLeaflets,
   openPanel,
-} from './person.mjs';
+} from './fixtures/person.mjs';
 
 /** Whether a line meets a box, by its points. */
 function passes(a, b, box) {

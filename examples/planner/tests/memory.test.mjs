@@ -1,8 +1,8 @@
 // What the page keeps of previews is bounded, and what it shows stays whole.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, figures, withPlanner } from './browser.mjs';
-import { answered, begin, openPanel } from './person.mjs';
+import { closed, figures, withPlanner } from './fixtures/browser.mjs';
+import { answered, begin, openPanel } from './fixtures/person.mjs';
 
 describe('planner memory', () => {
   it('keeps_the_connectivity_of_few_previews_and_of_every_valve_that_is_shown', async () => {

@@ -1,8 +1,8 @@
 // An artificial chord by the mouse alone, from the card of the operation and from a papillary head.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, figures, withPlanner } from './browser.mjs';
-import { answered, cameraRests, edgePlace, headPlace, openPanel } from './person.mjs';
+import { closed, figures, withPlanner } from './fixtures/browser.mjs';
+import { answered, cameraRests, edgePlace, headPlace, openPanel } from './fixtures/person.mjs';
 
 /** Presses a control in its middle, as a hand does. */
 async function press(page, control) {

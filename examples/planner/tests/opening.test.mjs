@@ -1,8 +1,8 @@
 // How far a valve opens is kept for the valve that was measured, also where another operation was quicker.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, sharePlanner } from './browser.mjs';
-import { apply, begin, undo } from './person.mjs';
+import { closed, sharePlanner } from './fixtures/browser.mjs';
+import { apply, begin, undo } from './fixtures/person.mjs';
 
 /** Holds questions for the opening of the applied valve back until `window.letGo` is called, as a slow worker would. */
 function holdQuestions() {

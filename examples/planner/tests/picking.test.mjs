@@ -1,8 +1,8 @@
 // A click chooses what is drawn under it: the pixels of the picture are the reference, not the code that picks.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { withPlanner } from './browser.mjs';
-import { cameraRests } from './person.mjs';
+import { withPlanner } from './fixtures/browser.mjs';
+import { cameraRests } from './fixtures/person.mjs';
 
 /**
  * Places in the window whose pixels, with all their neighbours within 2, show a papillary head or a chord, by their

@@ -3,8 +3,8 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { openBrowser, openPlanner } from './browser.mjs';
-import { answered, apply, begin, cameraRests, openPanel } from './person.mjs';
+import { openBrowser, openPlanner } from './fixtures/browser.mjs';
+import { answered, apply, begin, cameraRests, openPanel } from './fixtures/person.mjs';
 
 const target = resolve(dirname(fileURLToPath(import.meta.url)), '../../pictures/planner.png');
 const size = { width: 1280, height: 720 };

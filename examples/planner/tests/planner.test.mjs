@@ -4,7 +4,7 @@ import { readFileSync, statSync } from 'node:fs';
 import { dirname, resolve } from 'node:path';
 import { describe, it } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { closed, figures, openBrowser, page_path, sharePlanner } from './browser.mjs';
+import { closed, figures, openBrowser, page_path, sharePlanner } from './fixtures/browser.mjs';
 import {
   answered,
   apply,
@@ -15,7 +15,7 @@ import {
   openPanel,
   shareOfTissue,
   undo,
-} from './person.mjs';
+} from './fixtures/person.mjs';
 
 const library = resolve(dirname(fileURLToPath(import.meta.url)), '../../../build/js/dist/index.mjs');
 

@@ -2,7 +2,7 @@
 // a section plane that is dragged.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, sharePlanner } from './browser.mjs';
+import { closed, sharePlanner } from './fixtures/browser.mjs';
 import {
   apply,
   begin,
@@ -12,7 +12,7 @@ import {
   openPanel,
   startAfresh,
   undo,
-} from './person.mjs';
+} from './fixtures/person.mjs';
 
 describe('planner read and touched', () => {
   let page;

@@ -3,8 +3,8 @@
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { closed, openBrowser, openPlanner } from './browser.mjs';
-import { apply, begin, cameraRests, openPanel } from './person.mjs';
+import { closed, openBrowser, openPlanner } from './fixtures/browser.mjs';
+import { apply, begin, cameraRests, openPanel } from './fixtures/person.mjs';
 
 const folder = join(dirname(fileURLToPath(import.meta.url)), 'references');
 

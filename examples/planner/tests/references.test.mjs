@@ -1,7 +1,7 @@
 // The rasteriser draws the pictures that were looked at when `node tests/references.mjs` made them.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { openBrowser } from './browser.mjs';
+import { openBrowser } from './fixtures/browser.mjs';
 import { drawPictures, readReference } from './references.mjs';
 
 /**

@@ -1,8 +1,8 @@
 // Both renderers show the same: the leak, also where leaflets hide it.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, withPlanner } from './browser.mjs';
-import { apply, cameraRests, chordNames, openPanel } from './person.mjs';
+import { closed, withPlanner } from './fixtures/browser.mjs';
+import { apply, cameraRests, chordNames, openPanel } from './fixtures/person.mjs';
 
 /** How often dark blue begins or ends along a chord in its image, within 6 pixels of the line between its nodes: its tube ends below the leaflet. */
 function bandsOf(page, name) {

@@ -3,9 +3,9 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
-import { figures, sharePlanner, temporaryFile } from './browser.mjs';
-import { repeated } from './native.mjs';
-import { answered, apply, begin, open, openPanel, save, startAfresh, undo } from './person.mjs';
+import { figures, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
+import { repeated } from './fixtures/native.mjs';
+import { answered, apply, begin, open, openPanel, save, startAfresh, undo } from './fixtures/person.mjs';
 
 describe('sessions', () => {
   let page;

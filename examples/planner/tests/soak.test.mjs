@@ -1,7 +1,7 @@
 // Random events: the page makes no error, loses no memory, and its valve stays at rest. The events follow a seed.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, figures, openBrowser, openPlanner } from './browser.mjs';
+import { closed, figures, openBrowser, openPlanner } from './fixtures/browser.mjs';
 
 const events = Number(process.env.PLANNER_EVENTS ?? 10_000);
 const seed = Number(process.env.PLANNER_SEED ?? 1);

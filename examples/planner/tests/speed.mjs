@@ -5,9 +5,9 @@ import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { closed, openBrowser, page_path } from './browser.mjs';
-import { begin, open } from './person.mjs';
-import { cpuBetween, traced } from './trace.mjs';
+import { closed, openBrowser, page_path } from './fixtures/browser.mjs';
+import { begin, open } from './fixtures/person.mjs';
+import { cpuBetween, traced } from './fixtures/trace.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const library = resolve(here, '../../../build/js/dist/index.mjs');

@@ -2,8 +2,8 @@
 // leave the keys of the colours in sight, and the words of the section plot stand beside its curves.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, sharePlanner } from './browser.mjs';
-import { answered, apply, begin, cameraRests, openPanel, startAfresh } from './person.mjs';
+import { closed, sharePlanner } from './fixtures/browser.mjs';
+import { answered, apply, begin, cameraRests, openPanel, startAfresh } from './fixtures/person.mjs';
 
 const windows = [
   [1280, 800],

@@ -2,9 +2,9 @@
 // outlive a crash.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, figures, reopenAfterCrash, temporaryFile, withPlanner } from './browser.mjs';
-import { answered, cameraRests, open, openLeaflets, openPanel } from './person.mjs';
-import { traced } from './trace.mjs';
+import { closed, figures, reopenAfterCrash, temporaryFile, withPlanner } from './fixtures/browser.mjs';
+import { answered, cameraRests, open, openLeaflets, openPanel } from './fixtures/person.mjs';
+import { traced } from './fixtures/trace.mjs';
 
 /** A funnel with a saddle-shaped annulus, 40 mm wide, as binary STL of 100,000 triangles. */
 function largeSurface() {

@@ -1,7 +1,7 @@
 // Stumbles of surgeons new to the page: names, figures and forms that did not say what the picture showed.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { closed, figures, sharePlanner } from './browser.mjs';
+import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
 import {
   answered,
   apply,
@@ -12,7 +12,7 @@ import {
   openPanel,
   shareOfTissue,
   undo,
-} from './person.mjs';
+} from './fixtures/person.mjs';
 
 describe('planner as a surgeon reads it', () => {
   let page;

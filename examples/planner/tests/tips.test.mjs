@@ -4,8 +4,8 @@ import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { beforeEach, describe, it } from 'node:test';
 import { fileURLToPath } from 'node:url';
-import { closed, sharePlanner, temporaryFile } from './browser.mjs';
-import { answered, apply, begin, open, openLeaflets, openPanel, startAfresh } from './person.mjs';
+import { closed, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
+import { answered, apply, begin, open, openLeaflets, openPanel, startAfresh } from './fixtures/person.mjs';
 
 /** The seen controls of the page with their visible words and their tooltips; closed parts of panels are opened. */
 function controls(page, within = 'body') {

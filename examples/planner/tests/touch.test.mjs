@@ -1,8 +1,8 @@
 // Fingers are less exact than a mouse.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
-import { withPlanner } from './browser.mjs';
-import { cameraRests, chordNames, chordPlace } from './person.mjs';
+import { withPlanner } from './fixtures/browser.mjs';
+import { cameraRests, chordNames, chordPlace } from './fixtures/person.mjs';
 
 describe('planner under a finger', () => {
   it('picks_a_chord_with_a_finger_beside_it', async () => {

@@ -16,7 +16,7 @@ import { createServer, request } from 'node:http';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { openBrowser, page_path } from './browser.mjs';
+import { openBrowser, page_path } from './fixtures/browser.mjs';
 
 const folder = process.env.PLANNER_TRIAL ?? join(tmpdir(), 'planner-trial');
 const socket = join(folder, 'socket');

@@ -3,9 +3,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { before, describe, it } from 'node:test';
-import { closed, sharePlanner, temporaryFile } from './browser.mjs';
-import { repeated } from './native.mjs';
-import { answered, apply, open, openPanel, save, startAfresh, tabTo } from './person.mjs';
+import { closed, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
+import { repeated } from './fixtures/native.mjs';
+import { answered, apply, open, openPanel, save, startAfresh, tabTo } from './fixtures/person.mjs';
 
 /** What the native command says of a saved session, which it repeats. */
 function nativeOf(session) {

@@ -6,8 +6,8 @@ import { mkdtempSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, figures, sharePlanner } from './browser.mjs';
-import { answered, apply, begin, open, openPanel, startAfresh, undo } from './person.mjs';
+import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
+import { answered, apply, begin, open, openPanel, startAfresh, undo } from './fixtures/person.mjs';
 
 /** Waits until the opening of the valve of the plan is measured, which the page does by itself. */
 async function opened(page) {
