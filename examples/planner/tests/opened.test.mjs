@@ -5,7 +5,16 @@ import { readFileSync } from 'node:fs';
 import { afterEach, describe, it } from 'node:test';
 import { strFromU8, unzipSync } from 'fflate';
 import { closed, figures, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
-import { answered, apply, begin, open, openLeaflets, openPanel, save, startAfresh } from './fixtures/person.mjs';
+import {
+  answered,
+  apply,
+  begin,
+  open,
+  openLeaflets,
+  openPanel,
+  save,
+  startAfresh,
+} from './fixtures/person.mjs';
 
 const verdict = (page) => page.getByTestId('verdict').innerText();
 const healthy = (page) => page.getByRole('button', { name: 'Start from a healthy valve' }).click();

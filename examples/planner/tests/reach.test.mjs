@@ -3,7 +3,16 @@ import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { closed, figures, openBrowser, openPlanner, page_path, withPlanner } from './fixtures/browser.mjs';
-import { answered, apply, begin, openForm, openPanel, shareOfTissue, tabTo, undo } from './fixtures/person.mjs';
+import {
+  answered,
+  apply,
+  begin,
+  openForm,
+  openPanel,
+  shareOfTissue,
+  tabTo,
+  undo,
+} from './fixtures/person.mjs';
 
 /** Runs a check in windows of these sizes, each after the page has found its layout. */
 async function inWindows(page, sizes, check) {

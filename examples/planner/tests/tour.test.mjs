@@ -2,7 +2,16 @@
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { figures, withPlanner } from './fixtures/browser.mjs';
-import { answered, apply, begin, cameraRests, chordPlace, edgePlace, openPanel, undo } from './fixtures/person.mjs';
+import {
+  answered,
+  apply,
+  begin,
+  cameraRests,
+  chordPlace,
+  edgePlace,
+  openPanel,
+  undo,
+} from './fixtures/person.mjs';
 
 /** Chooses a chord by a click and drags it away from its papillary head by millimetres of the picture. */
 async function lengthen(page, name, millimetres) {
