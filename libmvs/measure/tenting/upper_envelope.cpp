@@ -126,12 +126,12 @@ double limited_mean(const std::vector<Stretch> &envelope, double length, double 
   return limited > mean ? std::min(limited, mean_of_upper_half(envelope, length, buffer)) : mean;
 }
 
-constexpr size_t across = AnnulusMap::across;
+constexpr size_t cells_across = AnnulusMap::across;
 
 // The sums of the sections of each cell of a row.
 struct RowSums {
-  std::array<double, across> covered, height, lowest, highest;
-  std::array<uint64_t, across> ends;
+  std::array<double, cells_across> covered, height, lowest, highest;
+  std::array<uint64_t, cells_across> ends;
 
   void clear() {
     covered.fill(0);
@@ -156,7 +156,7 @@ MVS_INLINE void write_plain(const RowSums &sums, const PlainCells &cells, int64_
   using Value = typename V::Value;
   using Mask = typename V::Mask;
   const Value zero = {}, one = zero + 1;
-  for (size_t c = 0; c < across; c += V::width) {
+  for (size_t c = 0; c < cells_across; c += V::width) {
     Value length, height, lowest, highest, share, off;
     Mask ends;
     load<V>(length, &sums.covered[c]);
@@ -181,7 +181,7 @@ class Row {
  public:
   Row(const AnnulusMap &map, double most, VisibleTissue &result)
       : map_(map), result_(result), most_(most) {
-    for (size_t c = 0; c <= across; ++c) {
+    for (size_t c = 0; c <= cells_across; ++c) {
       border_[c] = map.low_u() + static_cast<double>(c) * map.width();
     }
   }
@@ -189,13 +189,13 @@ class Row {
   void fill(size_t row, const Section *begin, const Section *end) {
     // gcc selects elements of 512 bits one by one
     static const auto plain = simd_kernel<&write_plain<Double2>, &write_plain<Double4>>();
-    const size_t start = row * across;
+    const size_t start = row * cells_across;
     row_ = row;
     sums_.clear();
     first_part_.fill(none);
     parts_.clear();
     for (const Section *s = begin; s != end; ++s) add(*s);
-    std::array<int64_t, across> others;
+    std::array<int64_t, cells_across> others;
     plain(sums_,
           {map_.width(), most_, map_.shares().data() + start, result_.covered.data() + start,
            result_.height.data() + start},
@@ -214,7 +214,7 @@ class Row {
 
   size_t column_of(double u) const {
     const double column = std::floor((u - map_.low_u()) / map_.width());
-    return static_cast<size_t>(std::clamp(column, 0.0, across - 1.0));
+    return static_cast<size_t>(std::clamp(column, 0.0, cells_across - 1.0));
   }
 
   // Adds a section to the sums of its cells. Sections that begin where another one ends cancel in
@@ -242,7 +242,7 @@ class Row {
   }
 
   void write_envelope(size_t column) {
-    const size_t cell = row_ * across + column;
+    const size_t cell = row_ * cells_across + column;
     envelope_.clear();
     for (const AnnulusMap::Interval &inside : map_.intervals(row_)) {
       add_envelope(column, std::max(border_[column], inside.from),
@@ -283,9 +283,9 @@ class Row {
   VisibleTissue &result_;
   double most_;
   size_t row_ = 0;
-  std::array<double, across + 1> border_;
+  std::array<double, cells_across + 1> border_;
   RowSums sums_;
-  std::array<uint32_t, across> first_part_;  // of each cell: the head of its list in parts_
+  std::array<uint32_t, cells_across> first_part_;  // of each cell: the head of its list in parts_
   std::vector<Part> parts_;
   std::vector<const Section *> near_, layers_;
   std::vector<double> places_;
@@ -296,11 +296,11 @@ class Row {
 
 VisibleTissue visible_tissue(const AnnulusMap &map, const std::vector<Tri> &triangles,
                              const std::vector<Vec3> &local, double most) {
-  VisibleTissue result{std::vector<double>(across * across, 0),
-                       std::vector<double>(across * across, 0)};
+  VisibleTissue result{std::vector<double>(cells_across * cells_across, 0),
+                       std::vector<double>(cells_across * cells_across, 0)};
   const Sections sections = cut_triangles(map, triangles, local);
   Row row(map, most, result);
-  for (size_t r = 0; r < across; ++r) {
+  for (size_t r = 0; r < cells_across; ++r) {
     row.fill(r, sections.items.data() + sections.first[r],
              sections.items.data() + sections.first[r + 1]);
   }
