@@ -233,8 +233,8 @@ typedef struct mvs_measures {
   double annulus_area;             /* m2, projected on its plane */
   double annulus_saddle_height;    /* m */
   double annulus_nonplanar_angle;  /* rad */
-  double max_chord_strain;         /* engineering strain, 0 when all chordae are slack */
-  double max_chord_tension;        /* N */
+  double max_chord_strain;         /* engineering strain, without sutures; 0 if slack */
+  double max_chord_tension;        /* N, without sutures */
   double max_leaflet_strain;       /* largest principal engineering strain */
   double max_leaflet_stress;       /* Pa, largest principal Cauchy stress */
   double leaflet_area;             /* m2 */

@@ -100,6 +100,7 @@ void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_t
   q.notes |= MVS_SENSITIVITY_NOTE_EXTREME;
   uint32_t largest = none;
   for (uint32_t c = 0; c < model.valve.chords.size(); ++c) {
+    if (model.valve.chords[c].kind == ChordKind::suture) continue;
     const ChordState at = chord_state(model, c, x);
     const double value = is_tension ? model.valve.chords[c].area * at.response.stress : at.strain;
     if (value <= q.value) continue;

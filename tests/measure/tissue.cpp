@@ -212,6 +212,20 @@ TEST_CASE("chord_tension_follows_its_length") {
   CHECK(measures.max_tension == measures.tension[0]);
 }
 
+TEST_CASE("sutures_are_not_among_the_largest_of_chordae") {
+  Valve valve = valve_with_chords();
+  valve.chords[0].rest_length /= 1.05;
+  Chord &stitch = valve.chords[1];  // carries more
+  stitch.kind = ChordKind::suture;
+  stitch.a = valve.chords[2].b;
+  stitch.rest_length = (valve.rest[stitch.a] - valve.rest[stitch.b]).norm() / 1.2;
+  const ModelPtr model = make_model(valve);
+  const ChordMeasures measures = measure_chords(*model, valve.rest);
+  CHECK(measures.tension[1] > measures.tension[0]);
+  CHECK(measures.max_strain == measures.strain[0]);
+  CHECK(measures.max_tension == measures.tension[0]);
+}
+
 TEST_CASE("chordae_beyond_the_range_of_their_kind_are_flagged") {
   Valve valve = valve_with_chords();
   const double rest = valve.chords[0].rest_length;

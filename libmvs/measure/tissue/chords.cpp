@@ -56,6 +56,7 @@ ChordMeasures measure_chords(const Model &model, const std::vector<Vec3> &x) {
     measures.flags.push_back(flags_of(chord, strain, tension));
     measures.over_strain += (measures.flags.back() & MVS_CHORD_FLAG_OVER_STRAIN) != 0;
     measures.over_tension += (measures.flags.back() & MVS_CHORD_FLAG_OVER_TENSION) != 0;
+    if (chord.kind == ChordKind::suture) continue;  // stitches are no chordae
     measures.max_strain = std::max(measures.max_strain, strain);
     measures.max_tension = std::max(measures.max_tension, tension);
   }

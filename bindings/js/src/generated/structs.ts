@@ -467,9 +467,9 @@ export interface Measures {
   annulus_saddle_height: number;
   /** rad */
   annulus_nonplanar_angle: number;
-  /** engineering strain, 0 when all chordae are slack */
+  /** engineering strain, without sutures; 0 if slack */
   max_chord_strain: number;
-  /** N */
+  /** N, without sutures */
   max_chord_tension: number;
   /** largest principal engineering strain */
   max_leaflet_strain: number;

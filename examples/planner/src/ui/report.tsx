@@ -96,13 +96,14 @@ async function sectionPlot(): Promise<string> {
   const [left, right, bottom] = [x + size / 2, x + width - size / 2, y + height];
   const word = (x: number, y: number, anchor: string, text: string, colour = '#5a6a79') =>
     `<text x="${x}" y="${y}" text-anchor="${anchor}" font-size="${size}" fill="${colour}">${escape(text)}</text>`;
-  return `<svg class="cut" viewBox="${x} ${y} ${width} ${height + 1.4 * size}" role="img" aria-label="${sectionTexts.label}"><g fill="none" stroke-linecap="round">
+  return `<svg class="cut" viewBox="${x} ${y} ${width} ${height + 2.7 * size}" role="img" aria-label="${sectionTexts.label}"><g fill="none" stroke-linecap="round">
 <path d="M${left} 0H${right}" stroke="#c4ced6" stroke-width=".2"/><path d="M${left} ${bottom - 2 * size}h10" stroke="#1c2733" stroke-width=".3"/>
 <path d="${lines(before)}" stroke="#8795a1" stroke-width=".35" stroke-dasharray="1 .8"/>
 <path d="${lines(after)}" stroke="#b5493b" stroke-width=".45"/></g>
 ${word(left, y + 1.3 * size, 'start', sectionTexts.anterior)}${word(right, y + 1.3 * size, 'end', sectionTexts.posterior)}${word(x + width / 2, y + 1.3 * size, 'middle', sectionTexts.atrium)}
 ${word(x + width / 2, bottom - 0.7 * size, 'middle', sectionTexts.ventricle)}${word(left + 5, bottom - 0.7 * size, 'middle', sectionTexts.scale)}
-${word(left, bottom + 0.9 * size, 'start', reportTexts.thin)}${word(x + width / 2, bottom + 0.9 * size, 'middle', reportTexts.dashed)}${word(right, bottom + 0.9 * size, 'end', reportTexts.line, '#b5493b')}</svg>`;
+${word(left, bottom + 0.9 * size, 'start', reportTexts.dashed)}${word(right, bottom + 0.9 * size, 'end', reportTexts.line, '#b5493b')}
+${word(left, bottom + 2.2 * size, 'start', reportTexts.thin)}</svg>`;
 }
 
 /** The report as the body of an HTML page. */

@@ -6,6 +6,9 @@ import { shownEdges } from '../store/edges';
 import { chordValue, percentOfLimit, shareOfLimit, suture } from '../notable';
 import { Section, Spread, times } from './parts';
 
+/** mm2: less is shown as 0.0. */
+const shownLeak = 0.05;
+
 export function Scallops({ figures }: { figures: Figures }) {
   const before = state.before.value;
   // the regions of a preview are known last: their rows wait with dots
@@ -30,7 +33,7 @@ export function Scallops({ figures }: { figures: Figures }) {
           {regions.map((region) => {
             const was = before?.regions.find((candidate) => candidate.name === region.name);
             return (
-              <tr class={!waiting && region.orifice > 0 ? 'leaking' : ''}>
+              <tr class={!waiting && region.orifice >= shownLeak ? 'leaking' : ''}>
                 <th scope="row">{region.commissure ? tableTexts.commissure(region.name) : region.name}</th>
                 <td>
                   {dots(figure(region.coaptationMean))}
@@ -39,7 +42,7 @@ export function Scallops({ figures }: { figures: Figures }) {
                   )}
                   <Spread range={ranges?.[region.name]?.coaptationMean} digits={1} />
                 </td>
-                <td>
+                <td class="leak">
                   {dots(region.orifice > 0 ? figure(region.orifice) : '–')}
                   <Spread range={ranges?.[region.name]?.orifice} digits={1} />
                 </td>
