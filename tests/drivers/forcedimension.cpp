@@ -1,4 +1,4 @@
-// The Force Dimension driver: what it reads from the device, and what reaches the motors.
+// The Force Dimension driver: samples of the device, and forces at its motors.
 #include <cmath>
 #include <cstring>
 

@@ -1,4 +1,4 @@
-// The driver of the Haply Inverse3: what its service may answer, and what is a fault.
+// The driver of the Haply Inverse3: valid and invalid answers of its service.
 #include <cmath>
 #include <cstring>
 

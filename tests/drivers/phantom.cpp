@@ -1,4 +1,4 @@
-// The phantom driver: what it reads from the device, and the forces that reach the motors.
+// The phantom driver: samples of the device, and forces at its motors.
 #include <dlfcn.h>
 #include <cmath>
 #include <cstring>

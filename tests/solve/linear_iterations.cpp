@@ -12,23 +12,11 @@
 #include "solve/settings.h"
 #include "solve/solver.h"
 #include "solve/static/mesh_hierarchy.h"
-#include "tests/founding.h"
 #include "tests/solve/bench.h"
+#include "tests/solve/founding_model.h"
 
 namespace mvs::core::test {
 namespace {
-
-ModelPtr valve_of(uint32_t vertices) {
-  mvs_parametric_desc desc = founding_valve();
-  desc.vertices = vertices;
-  return make_model(make_parametric_valve(desc));
-}
-
-State loaded(const Model &model) {
-  State state = initial_state(model);
-  state.load = {MVS_SYSTOLE_PA, 1};
-  return state;
-}
 
 SolveStats settle_by(Backend backend, const Model &model, State state, const SolveOptions &how) {
   Solver solver(backend);
@@ -38,21 +26,21 @@ SolveStats settle_by(Backend backend, const Model &model, State state, const Sol
 }  // namespace
 
 TEST_CASE("a_factor_in_double_precision_needs_no_linear_iterations_far_from_rest") {
-  const ModelPtr model = valve_of(425);
+  const ModelPtr model = founding_model(425);
   SolveOptions how;
   how.max_iterations = 3;
-  const SolveStats direct = settle_by(Backend::block, *model, loaded(*model), how);
+  const SolveStats direct = settle_by(Backend::block, *model, under_systole(*model), how);
   REQUIRE(direct.iterations == 3);
   CHECK(direct.factorisations >= 3);
   CHECK(direct.work.linear_iterations == 0);
   // one in single precision is a preconditioner: every solution iterates
-  const SolveStats mixed = settle_by(Backend::fastest, *model, loaded(*model), how);
+  const SolveStats mixed = settle_by(Backend::fastest, *model, under_systole(*model), how);
   REQUIRE(mixed.iterations == 3);
   CHECK(mixed.work.linear_iterations >= 3);
 }
 
 TEST_CASE("the_skew_load_near_rest_is_solved_by_linear_iterations") {
-  const ModelPtr model = valve_of(425);
+  const ModelPtr model = founding_model(425);
   State state = closed(*model);
   state.load.pressure *= 1.001;
   SolveOptions how;
@@ -65,7 +53,7 @@ TEST_CASE("the_skew_load_near_rest_is_solved_by_linear_iterations") {
 }
 
 TEST_CASE("margins_of_stability_add_their_iterations") {
-  const ModelPtr model = valve_of(425);
+  const ModelPtr model = founding_model(425);
   const State state = closed(*model);
   SolveOptions how;
   how.margins = false;
@@ -82,7 +70,7 @@ TEST_CASE("margins_of_stability_add_their_iterations") {
 }
 
 TEST_CASE("local_settles_count_no_linear_iterations") {
-  const ModelPtr model = valve_of(425);
+  const ModelPtr model = founding_model(425);
   State state = closed(*model);
   const double rest_force = scale_of(state.load) * mean_area(*model);
   // a chord that pulls harder disturbs few nodes
@@ -104,11 +92,11 @@ TEST_CASE("local_settles_count_no_linear_iterations") {
 
 TEST_CASE("a_settle_over_a_hierarchy_adds_the_linear_iterations_of_coarser_meshes") {
   namespace set = settings::mesh_hierarchy;
-  const ModelPtr model = valve_of(1700);
+  const ModelPtr model = founding_model(1700);
   SolveOptions how;
   how.margins = false;
   Solver solver(Backend::fastest), other(Backend::fastest);
-  State state = loaded(*model);
+  State state = under_systole(*model);
   const SolveStats whole = settle_with_mesh_hierarchy(solver, *model, state, how, {});
   REQUIRE(whole.converged);
   REQUIRE(whole.discarded == 0);
@@ -121,7 +109,7 @@ TEST_CASE("a_settle_over_a_hierarchy_adds_the_linear_iterations_of_coarser_meshe
       how.tolerance(), set::bilinear.coarse_residual * MVS_SYSTOLE_PA * mean_area(*made->model));
   coarse.max_iterations = set::max_coarse_iterations;
   coarse.checks_stability = false;
-  State below = loaded(*made->model);
+  State below = under_systole(*made->model);
   const SolveStats coarser = settle_with_mesh_hierarchy(other, *made->model, below, coarse, {});
   CHECK(coarser.work.linear_iterations >= coarser.iterations);
   // `iterations` are those of the finest mesh, each with a solution or more
@@ -130,7 +118,7 @@ TEST_CASE("a_settle_over_a_hierarchy_adds_the_linear_iterations_of_coarser_meshe
 }
 
 TEST_CASE("a_valve_asleep_takes_no_linear_iterations_and_one_awake_no_more_than_its_budget") {
-  const ModelPtr model = valve_of(425);
+  const ModelPtr model = founding_model(425);
   State state = closed(*model);
   Solver solver(Backend::fastest);
   SolveOptions how;

@@ -13,24 +13,12 @@
 #include "solve/nodes.h"
 #include "solve/settings.h"
 #include "solve/static/untangle.h"
+#include "tests/solve/founding_model.h"
 
 using namespace mvs::core;
+using namespace mvs::core::test;
 
 namespace {
-
-ModelPtr valve_of(uint32_t vertices) {
-  mvs_parametric_desc desc = {};
-  desc.shape = MVS_SHAPE_FOUNDING;
-  desc.struct_size = sizeof desc;
-  desc.vertices = vertices;
-  return make_model(make_parametric_valve(desc));
-}
-
-State loaded(const Model &model) {
-  State state = initial_state(model);
-  state.load = {MVS_SYSTOLE_PA, 1};
-  return state;
-}
 
 double farthest(const State &a, const State &b) {
   double most = 0;
@@ -41,9 +29,9 @@ double farthest(const State &a, const State &b) {
 }  // namespace
 
 TEST_CASE("a_large_valve_closes_to_the_shape_of_the_plain_closure_in_fewer_iterations") {
-  const ModelPtr model = valve_of(1700);
+  const ModelPtr model = founding_model(1700);
   Solver solver(Backend::fastest);
-  State plain = loaded(*model), levels = plain, again = plain;
+  State plain = under_systole(*model), levels = plain, again = plain;
   const SolveStats direct = solver.settle(*model, plain, {}, {});
   const SolveStats stats = settle_with_mesh_hierarchy(solver, *model, levels, {}, {});
   CHECK(stats.converged);
@@ -62,8 +50,8 @@ TEST_CASE("a_large_valve_closes_to_the_shape_of_the_plain_closure_in_fewer_itera
 TEST_CASE("a_small_valve_and_one_near_rest_are_settled_without_a_hierarchy") {
   Solver solver(Backend::fastest);
   for (const uint32_t vertices : {300u, 1700u}) {
-    const ModelPtr model = valve_of(vertices);
-    State plain = loaded(*model);
+    const ModelPtr model = founding_model(vertices);
+    State plain = under_systole(*model);
     if (vertices > settings::mesh_hierarchy::bilinear.min_vertices) {
       solver.settle(*model, plain, {}, {});
       plain.load.pressure *= 1.02;
@@ -78,9 +66,9 @@ TEST_CASE("a_small_valve_and_one_near_rest_are_settled_without_a_hierarchy") {
 }
 
 TEST_CASE("a_settle_knows_whether_it_begins_far_from_rest") {
-  const ModelPtr model = valve_of(500);
+  const ModelPtr model = founding_model(500);
   Solver solver(Backend::fastest);
-  State state = loaded(*model);
+  State state = under_systole(*model);
   const auto begins_far = [&] {
     return solver.begin_settle(*model, state, {}, {})->begins_far_from_rest();
   };
@@ -92,9 +80,9 @@ TEST_CASE("a_settle_knows_whether_it_begins_far_from_rest") {
 }
 
 TEST_CASE("a_coarse_mesh_leads_away_from_nodes_in_one_place") {
-  const ModelPtr model = valve_of(500);
+  const ModelPtr model = founding_model(500);
   Solver solver(Backend::fastest);
-  State state = loaded(*model);
+  State state = under_systole(*model);
   std::vector<Vec3> x = state.x;
   const Tri &t = model->valve.triangles[0];
   x[t[0]] = x[t[1]];
@@ -106,7 +94,7 @@ TEST_CASE("a_coarse_mesh_leads_away_from_nodes_in_one_place") {
 }
 
 TEST_CASE("exponential_tissue_closes_over_a_bilinear_surrogate_in_fewer_iterations") {
-  Valve valve = valve_of(1300)->valve;
+  Valve valve = founding_model(1300)->valve;
   const LeafletLaw &law = *find_leaflet_law(LeafletLawId::fung);
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.law = law.id;
@@ -114,7 +102,7 @@ TEST_CASE("exponential_tissue_closes_over_a_bilinear_surrogate_in_fewer_iteratio
   }
   const ModelPtr model = make_model(std::move(valve));
   Solver solver(Backend::fastest);
-  State plain = loaded(*model), levels = plain, again = plain;
+  State plain = under_systole(*model), levels = plain, again = plain;
   const SolveStats direct = solver.settle(*model, plain, {}, {});
   const SolveStats stats = settle_with_mesh_hierarchy(solver, *model, levels, {}, {});
   CHECK(stats.converged);
@@ -130,7 +118,7 @@ TEST_CASE("exponential_tissue_closes_over_a_bilinear_surrogate_in_fewer_iteratio
 }
 
 TEST_CASE("overstretched_exponential_tissue_is_settled_as_a_bilinear_one_first") {
-  Valve valve = valve_of(425)->valve;
+  Valve valve = founding_model(425)->valve;
   const LeafletLaw &law = *find_leaflet_law(LeafletLawId::fung);
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.law = law.id;
@@ -138,7 +126,7 @@ TEST_CASE("overstretched_exponential_tissue_is_settled_as_a_bilinear_one_first")
   }
   const ModelPtr model = make_model(std::move(valve));
   Solver solver(Backend::fastest);
-  State closed = loaded(*model);
+  State closed = under_systole(*model);
   REQUIRE(solver.settle(*model, closed, {}, {}).converged);
   const double rest_force = MVS_SYSTOLE_PA * mean_area(*model);
   // tissue between one node of the anterior leaflet and its neighbours is stretched as at a clip
@@ -156,9 +144,9 @@ TEST_CASE("overstretched_exponential_tissue_is_settled_as_a_bilinear_one_first")
 }
 
 TEST_CASE("progress_increases_over_the_levels_and_can_cancel") {
-  const ModelPtr model = valve_of(1300);
+  const ModelPtr model = founding_model(1300);
   Solver solver(Backend::fastest);
-  State state = loaded(*model);
+  State state = under_systole(*model);
   double last = 0;
   int calls = 0;
   settle_with_mesh_hierarchy(solver, *model, state, {}, [&](double share, double) {
@@ -170,7 +158,7 @@ TEST_CASE("progress_increases_over_the_levels_and_can_cancel") {
   });
   CHECK(calls > 20);
   for (const int most : {2, calls - 3}) {
-    State stopped = loaded(*model);
+    State stopped = under_systole(*model);
     int told = 0;
     CHECK_THROWS_AS(settle_with_mesh_hierarchy(solver, *model, stopped, {},
                                                [&](double, double) { return ++told < most; }),
@@ -180,8 +168,8 @@ TEST_CASE("progress_increases_over_the_levels_and_can_cancel") {
 }
 
 TEST_CASE("a_few_crossings_of_a_finer_mesh_are_untangled") {
-  const ModelPtr coarse = valve_of(250);
-  State closed = loaded(*coarse);
+  const ModelPtr coarse = founding_model(250);
+  State closed = under_systole(*coarse);
   REQUIRE(Solver(Backend::fastest).settle(*coarse, closed, {}, {}).converged);
   const ModelPtr fine = make_model(refine(*coarse), nullptr);
   const LevelMap map = make_level_map(*coarse, *fine);
@@ -217,8 +205,8 @@ TEST_CASE("a_few_crossings_of_a_finer_mesh_are_untangled") {
 }
 
 TEST_CASE("a_shape_that_cannot_be_untangled_stays_as_it_is") {
-  const ModelPtr coarse = valve_of(250);
-  const State closed = loaded(*coarse);
+  const ModelPtr coarse = founding_model(250);
+  const State closed = under_systole(*coarse);
   const ModelPtr fine = make_model(refine(*coarse), nullptr);
   const LevelMap map = make_level_map(*coarse, *fine);
   std::vector<Vec3> x = to_fine(map, *coarse, *fine, closed).x;

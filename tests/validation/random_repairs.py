@@ -90,7 +90,7 @@ def operation(draw: random.Random, valve: mvs.Snapshot) -> tuple[str, dict[str, 
         "head_move": lambda: dict(
             head=draw.choice(heads), by=[draw.gauss(0, 2e-3) for _ in range(3)]
         ),
-        "clip": lambda: dict(_clip_width(draw)),
+        "clip": lambda: _clip_width(draw),
         "resect": lambda: dict(scallop="P2"),
         "patch": lambda: dict(
             site=draw.choice(["A2", "P2"]) + ":0.5:0.5", width=draw.uniform(5e-3, 12e-3),

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <mutex>
+
+#include "base/last_used.h"
 
 namespace mvs::core {
 
@@ -79,26 +80,9 @@ bool AnnulusMap::is_of(const Frame &frame, const std::vector<Vec3> &rim) const {
 }
 
 std::shared_ptr<const AnnulusMap> annulus_map(const Frame &frame, const std::vector<Vec3> &rim) {
-  constexpr size_t kept = 4;
-  static std::mutex mutex;
-  static std::vector<std::shared_ptr<const AnnulusMap>> last;
-  const auto find = [&] {
-    return std::find_if(last.begin(), last.end(),
-                        [&](const auto &map) { return map->is_of(frame, rim); });
-  };
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (const auto found = find(); found != last.end()) {
-      std::rotate(found, found + 1, last.end());
-      return last.back();
-    }
-  }
-  // outside of the lock: two threads may make the same map, and either will do
-  auto made = std::make_shared<const AnnulusMap>(frame, rim);
-  const std::lock_guard<std::mutex> lock(mutex);
-  if (last.size() == kept) last.erase(last.begin());
-  last.push_back(made);
-  return made;
+  static LastUsed<std::shared_ptr<const AnnulusMap>, 4> last;
+  return last.find([&](const auto &map) { return map->is_of(frame, rim); },
+                   [&] { return std::make_shared<const AnnulusMap>(frame, rim); });
 }
 
 }  // namespace mvs::core

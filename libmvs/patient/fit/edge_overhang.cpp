@@ -17,7 +17,8 @@ constexpr double at_vertex = 1e-6;       // weight of a corner that counts
 constexpr double farthest_match = 6e-3;  // m: beyond, another part of the surface was met
 constexpr double most_overhang = 5e-3;   // m, as of `edge_lost`: more is no error of an edge
 
-// Of each free-edge node: area beyond it, m2, length of the edge, m, and direction outwards.
+// For each free-edge node: the area beyond it, m2, the length of the edge, m, the direction
+// outwards.
 struct EdgeNodes {
   std::vector<double> area, length;
   std::vector<Vec3> out;

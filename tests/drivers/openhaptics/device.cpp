@@ -1,6 +1,6 @@
 // A stand-in for OpenHaptics' libHD.so: two devices whose stylus moves on a circle. Own code,
 // written after the vendor's public guide; it is stricter than the vendor's library, so that
-// mistakes show. parameters.cpp reads and sets what a frame holds.
+// mistakes show. parameters.cpp has the parameters of a frame.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>

@@ -1,4 +1,4 @@
-// What a program reads from the stand-in's devices and sets in them.
+// Parameters of the stand-in's devices: read and set by a program.
 #include <cmath>
 #include <cstring>
 #include <limits>

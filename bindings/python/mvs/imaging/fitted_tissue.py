@@ -1,7 +1,8 @@
 """The tissue law with which a valve, its chordae fitted, closes nearest to the leaflets in loaded labels.
 
 Open labels do not show it, and fitted lengths make up for a wrong law in part only: a law that is too stiff
-leaves the belly and the free edge a millimetre and more from the loaded leaflets.
+leaves the belly and the free edge a millimetre and more from the loaded leaflets. Micro-CT shows the chordae, so
+that microct/tissue.py compares closures without a fit.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ CANDIDATES = ("bilinear", "prot", "may_newman_yin")
 """The default first. Fung-type leaflets are left out: their fits take several times as long."""
 
 SEARCH_VERTICES = 500
-"""Of the leaflets while laws are compared: half of the default, for a third of the time."""
+"""Vertices of the leaflets while laws are compared: half of the default, for a third of the time."""
 
 CLEARLY_NEARER = 0.9
 """Another law takes the place of the default if its distance is at most this share: two segmentations of one
@@ -28,7 +29,7 @@ valve, or two folds of one closure, differ by a tenth."""
 
 
 def search_edge(sheet: Sheet) -> float:
-    """Sides of triangles, m, for SEARCH_VERTICES: equilateral ones, two for each vertex."""
+    """The side, m, of equilateral triangles with which the sheet has SEARCH_VERTICES, two triangles for each."""
     area = float(areas(sheet.points, sheet.triangles).sum())
     return float(np.sqrt(area / (SEARCH_VERTICES * 0.5 * np.sqrt(3))))
 
@@ -54,7 +55,7 @@ def chosen_tissue(away: Mapping[str, float]) -> tuple[str, mvs.Finding]:
     default = CANDIDATES[0]
     if not away:
         return default, finding("tissue", mvs.FindingSource.ASSUMED, 0.2,
-                                f"{default}: with no tissue did the fitted leaflets come to rest under load; give "
+                                f"{default}: the fitted leaflets came to rest under load with none of the tissues; give "
                                 "--leaflet if the tissue is known")
     order = sorted(away, key=lambda law: away[law])
     best = order[0]
@@ -64,6 +65,6 @@ def chosen_tissue(away: Mapping[str, float]) -> tuple[str, mvs.Finding]:
     clear = all(away[law] * CLEARLY_NEARER >= away[best] for law in order if law != best)
     return best, finding(
         "tissue", mvs.FindingSource.MEASURED, 0.6 if clear else 0.4,
-        f"{best}: so far do the leaflets in the loaded image lie from a coarse valve with fitted chordae (RMS: {words}; "
+        f"{best}: distances of the leaflets in the loaded image from a coarse valve with fitted chordae (RMS: {words}; "
         "the default stays unless another tissue is a tenth nearer); give --leaflet if the tissue is known",
         [away[law] for law in order], "m")
