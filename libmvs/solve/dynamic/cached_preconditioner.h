@@ -8,7 +8,7 @@
 #include "linalg/direct_solver.h"
 #include "solve/dynamic/preconditioner_key.h"
 #include "solve/dynamic/step_matrix.h"
-#include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 

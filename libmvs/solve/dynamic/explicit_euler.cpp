@@ -7,6 +7,7 @@
 #include "solve/dynamic/stable_step.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 ExplicitEuler::ExplicitEuler(const Model &model)

@@ -6,6 +6,7 @@
 
 #include "solve/nodes.h"
 #include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 

@@ -7,6 +7,7 @@
 #include "model/chord_law.h"
 #include "model/law.h"
 #include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 namespace {

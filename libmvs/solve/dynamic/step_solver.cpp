@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "linalg/cholesky.h"
-#include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "solve/nodes.h"
-#include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 namespace {

@@ -1,7 +1,7 @@
 // Adds nodes for the points of instruments to a model and a state, and removes them again.
 #include "solve/tools/tool_points.h"
 
-#include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "linalg/eigenvalues.h"
-#include "solve/settings.h"
+#include "solve/step_settings.h"
 
 namespace mvs::core {
 namespace {

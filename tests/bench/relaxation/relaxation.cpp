@@ -8,6 +8,7 @@
 #include "solve/settings.h"
 #include "solve/stability.h"
 #include "solve/static/boundary_ramp.h"
+#include "solve/step_settings.h"
 #include "tests/bench/relaxation/fictitious_masses.h"
 
 using namespace mvs::core;
