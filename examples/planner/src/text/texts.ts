@@ -718,8 +718,22 @@ export const formTexts = {
       ? 'in the middle of the scallop'
       : `${number(100 * Math.abs(value), 0)} % of the way to the ${value > 0 ? 'anterolateral' : 'posteromedial'} end`,
   heightTip: 'From annulus to free edge',
-  axes: ['Towards the front', 'To the side', 'Towards the atrium'],
-  axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
+  /** What the left and the right end of the sliders of a shift stand for. */
+  axisEnds: [
+    ['posterior', 'anterior'],
+    ['anterolateral', 'posteromedial'],
+    ['ventricle', 'atrium'],
+  ],
+  /** A shift along the front, the anterolateral side or the atrium. */
+  shift: (axis: number, value: number) => {
+    const to = [
+      ['Backwards', 'Front to back', 'Forwards'],
+      ['Towards the posteromedial side', 'Side to side', 'Towards the anterolateral side'],
+      ['Towards the ventricle', 'Up and down', 'Towards the atrium'],
+    ][axis][1 + Math.sign(value)];
+    return `${to}: ${number(Math.abs(value))} mm`;
+  },
+  fileAxis: (axis: number, value: number) => `${'xyz'[axis]} of the file: ${number(value)} mm`,
 };
 
 /** Names in the picture, of handles too. */

@@ -2,10 +2,10 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import { fail, request } from '../store/requests';
 import * as state from '../store/state';
-import { sectionTexts, tips, tipTexts } from '../text/texts';
+import { formTexts, sectionTexts, tips, tipTexts } from '../text/texts';
 import type { Section, SectionRequest } from '../protocol';
 import { cutScallops, planeOf } from '../view/cut';
-import { Button } from './parts';
+import { Button, SliderEnds } from './parts';
 
 interface Curve {
   points: Section;
@@ -145,14 +145,17 @@ export function SectionPlot() {
       </div>
       <label class="slider" title={tipTexts.plane}>
         <span>{sectionTexts.plane(state.sectionAt.value, through())}</span>
+        {/* offsets grow to the left of the surgeon's view, so it runs from the largest to the least */}
         <input
           type="range"
           min={-limit}
           max={limit}
           step="0.5"
-          value={state.sectionAt.value}
-          onInput={(event) => (state.sectionAt.value = +event.currentTarget.value)}
+          value={0 - state.sectionAt.value}
+          aria-valuetext={sectionTexts.plane(state.sectionAt.value, through())}
+          onInput={(event) => (state.sectionAt.value = 0 - +event.currentTarget.value)}
         />
+        <SliderEnds ends={formTexts.sides} />
       </label>
       <Button disabled={state.sectionAt.value === 0} onClick={() => (state.sectionAt.value = 0)}>
         {sectionTexts.middle}

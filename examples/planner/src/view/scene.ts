@@ -3,8 +3,8 @@ import type { Fields, OrificePart, Picture, Topology } from '../protocol';
 import { chordae, throughAll } from './chordae';
 import { clips } from './clips';
 import { tissue, type MapName } from './colours';
-import { boundary } from './heart';
-import { atrialSide, leafletMesh } from './leaflets';
+import { annulusAndRings, heads } from './heart';
+import { atrialSide, leafletMeshes, ventricularSide } from './leaflets';
 import { jets, orifice, throughTissue } from './leak';
 import { Shapes, type Mesh } from './mesh';
 import { seams } from './seams';
@@ -34,8 +34,14 @@ export interface SceneOptions {
 /** Everything that is drawn of a valve. */
 export function sceneMeshes(topology: Topology, middle: Picture, options: SceneOptions): Mesh[] {
   const picture = atrialSide(topology, middle, options.sides);
-  const leaflets = leafletMesh(topology, picture, options);
-  const meshes = [leaflets, seams(topology, picture, leaflets), boundary(topology, picture, options)];
+  const lower = ventricularSide(topology, middle);
+  const leaflets = leafletMeshes(topology, picture, lower, options);
+  const meshes = [
+    ...leaflets,
+    seams(topology, picture, lower, leaflets[0]),
+    annulusAndRings(topology, picture, options),
+    heads(topology, picture, options),
+  ];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));
   const bars = clips(topology, picture, options.frame);
   if (bars) meshes.push(...throughTissue(bars));

@@ -4,7 +4,10 @@ import { chordValue, leakPlaces, shareOfLimit } from '../notable';
 import type { Fields, Picture, Topology } from '../protocol';
 import * as state from '../store/state';
 import { isChordMap } from './colours';
+import { cutMeshes } from './cut';
+import { atrialSide, ventricularSide } from './leaflets';
 import type { Mesh } from './mesh';
+import type { CutPlane } from './renderer';
 import { sceneMeshes } from './scene';
 
 /** Rows: origin in mm, AP, CC, into the atrium. */
@@ -48,6 +51,21 @@ export function shownFields(): Fields | null {
 function fieldsBefore(picture: Picture): Fields | null {
   const resting = state.resting.value;
   return resting?.picture.topology === picture.topology ? resting.figures.fields : null;
+}
+
+/** The shown valve where a plane cuts it. */
+export function cutOf(
+  topology: Topology,
+  picture: Picture,
+  plane: CutPlane,
+  frame: number[],
+  radius: number,
+): Mesh[] {
+  const upper = atrialSide(topology, picture, shownFields() ?? fieldsBefore(picture)).positions;
+  const lower = ventricularSide(topology, picture);
+  const closed = state.motion.value ? (state.resting.value?.picture ?? null) : null;
+  const sides = { middle: picture.positions, upper, lower };
+  return cutMeshes(topology, picture, sides, plane, frame, radius, closed);
 }
 
 /** The meshes of the valve; an empty list before the first valve. */

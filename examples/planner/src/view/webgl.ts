@@ -3,11 +3,13 @@
 // processor) lets chordae show between triangles of the leaflets, in single samples of 10 to 39 pixels; without multisampling,
 // and in the rasteriser, no chord shows there.
 import {
+  BackSide,
   BufferAttribute,
   BufferGeometry,
   Color,
   ColorManagement,
   DoubleSide,
+  FrontSide,
   LinearSRGBColorSpace,
   Matrix4,
   Mesh as Object3,
@@ -136,7 +138,7 @@ export class WebGl implements Renderer {
       glslVersion: GLSL3,
       vertexShader,
       fragmentShader,
-      side: DoubleSide,
+      side: mesh.only === 'front' ? FrontSide : mesh.only === 'back' ? BackSide : DoubleSide,
       forceSinglePass: true,
       transparent: mesh.opacity < 1 || mesh.overlay,
       depthWrite: mesh.opacity === 1 || mesh.overlay,
