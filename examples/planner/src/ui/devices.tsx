@@ -1,7 +1,7 @@
 // Rings, bands, clips, artificial chordae and sutures as a table: the twin of what the picture shows of them.
 import { clipOf, cutOf, suture } from '../notable';
 import * as state from '../store/state';
-import { chosenWidth, deviceTexts, tipTexts } from '../text/texts';
+import { clipIn, deviceTexts, tipTexts } from '../text/texts';
 import type { Chord, Figures, Picture, Topology } from '../protocol';
 import { clipWidths } from '../view/clips';
 import { isClosed } from '../view/heart';
@@ -62,7 +62,7 @@ function devicesOf(topology: Topology, picture: Picture, figures: Figures): Devi
     name: named(names.clip, name),
     figures: deviceTexts.clip({
       between: scallopsOf(stitches),
-      width: chosenWidth(name, titles),
+      set: clipIn(name, titles),
       apart: widths.get(name) ?? 0,
       pull: Math.max(...stitches.map(({ tension }) => tension)),
     }),

@@ -86,8 +86,18 @@ function cutsOf(topology: Topology, sides: Sides, plane: CutPlane): [End, End][]
 /** Largest factor by which the cut of a tube along the plane is longer than one across. */
 const longestCut = 3;
 
-/** Where a tube is cut: ellipses in the plane. */
-function tubeCuts(shapes: Shapes, { points, closed, radius, colour }: Tube, plane: CutPlane): void {
+/** mm by which the cut of a tube lies before that of the one inside it. */
+const before = 0.05;
+/** A cut is darker than the surface: a white ring would vanish before the background. */
+const cutShade = 0.75;
+
+/** Where a tube is cut: ellipses in the plane, `layer` times before it. */
+function tubeCuts(
+  shapes: Shapes,
+  { points, closed, radius, colour }: Tube,
+  plane: CutPlane,
+  layer: number,
+): void {
   const away = points.map((p) => dot(p as Vector, plane.normal) - plane.offset);
   for (let k = 0; k + (closed ? 0 : 1) < points.length; ++k) {
     const next = (k + 1) % points.length;
@@ -101,10 +111,15 @@ function tubeCuts(shapes: Shapes, { points, closed, radius, colour }: Tube, plan
     const up = cross(plane.normal, Math.hypot(...across) > 0.5 ? across : anyAcross(plane.normal));
     const side = cross(up, plane.normal);
     const corner = (angle: number) =>
-      middle.map((v, c) => v + radius * (Math.cos(angle) * side[c] + lean * Math.sin(angle) * up[c]));
+      middle.map(
+        (v, c) =>
+          v +
+          before * layer * plane.normal[c] +
+          radius * (Math.cos(angle) * side[c] + lean * Math.sin(angle) * up[c]),
+      );
     shapes.polygon(
       Array.from({ length: 20 }, (_, j) => corner((2 * Math.PI * j) / 20)),
-      colour,
+      [cutShade * colour[0], cutShade * colour[1], cutShade * colour[2]],
     );
   }
 }
@@ -146,7 +161,7 @@ export function cutMeshes(
     faces.polygon([a[0], a[1], b[1], b[0]], tissue.cut);
     lines.tube(a[0], b[0], lineRadius, lining, 5);
   }
-  for (const tube of tubesOf(topology, picture, closed)) tubeCuts(faces, tube, plane);
+  tubesOf(topology, picture, closed).forEach((tube, layer) => tubeCuts(faces, tube, plane, layer));
   lines.path(frameCorners(plane, frame, radius), frameRadius, tissue.chosen, true, 5);
   const meshes = [faces.mesh({ flat: true }), lines.mesh()];
   built = { picture, upper: sides.upper, offset: plane.offset, meshes };

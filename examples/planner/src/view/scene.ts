@@ -25,11 +25,16 @@ export interface SceneOptions {
   chosenHead: number;
   chordsOn: boolean;
   jets: OrificePart[];
+  /** Turns of the clips in degrees, by their names. */
+  clipTurns: Map<string, number>;
   /** The closed valve of a moving picture. */
   closed: Picture | null;
   /** Ends of chordae that the preview takes away, mm. */
   removed: [number[], number[]][];
 }
+
+/** Opacity of a clip that leaflets hide: its turn is read through them. */
+const behindDevice = 0.45;
 
 /** Everything that is drawn of a valve. */
 export function sceneMeshes(topology: Topology, middle: Picture, options: SceneOptions): Mesh[] {
@@ -43,8 +48,8 @@ export function sceneMeshes(topology: Topology, middle: Picture, options: SceneO
     heads(topology, picture, options),
   ];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));
-  const bars = clips(topology, picture, options.frame);
-  if (bars) meshes.push(...throughTissue(bars));
+  const devices = clips(topology, picture, options.frame, options.clipTurns);
+  if (devices) meshes.push(...throughTissue(devices, behindDevice));
   if (picture.orificeTriangles.length) meshes.push(...throughTissue(orifice(picture)));
   if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));
   if (options.chosenChord >= 0)
