@@ -41,19 +41,19 @@ export function sceneMeshes(topology: Topology, middle: Picture, options: SceneO
   const picture = atrialSide(topology, middle, options.sides);
   const lower = ventricularSide(topology, middle);
   const leaflets = leafletMeshes(topology, picture, lower, options);
+  const [, under] = leaflets;
   const meshes = [
     ...leaflets,
     seams(topology, picture, lower, leaflets[0]),
     annulusAndRings(topology, picture, options),
     heads(topology, picture, options),
   ];
-  if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));
+  if (options.chordsOn) meshes.push(chordae(topology, picture, options, under));
   const devices = clips(topology, picture, options.frame, options.clipTurns);
   if (devices) meshes.push(...throughTissue(devices, behindDevice));
   if (picture.orificeTriangles.length) meshes.push(...throughTissue(orifice(picture)));
   if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));
-  if (options.chosenChord >= 0)
-    meshes.push(throughAll(topology, picture, options.chosenChord, meshes[0].normals));
+  if (options.chosenChord >= 0) meshes.push(throughAll(topology, picture, options.chosenChord, under));
   if (options.removed.length) {
     const shapes = new Shapes();
     for (const [a, b] of options.removed) shapes.tube(a, b, 0.35, tissue.chosen);
