@@ -63,6 +63,11 @@ for (const renderer of ['software', 'webgl']) {
       await withPage(async (page) => {
         await begin(page, 'ring');
         await apply(page);
+        // in the plot of the section as well the ring is two dots
+        await openPanel(page, 'Valve');
+        await page.locator('summary', { hasText: 'Section through the valve' }).click();
+        await page.locator('circle.plot-ring').nth(1).waitFor();
+        assert.equal(await page.locator('circle.plot-ring').count(), 2);
         await page.keyboard.press('c');
         await page.keyboard.press('n');
         await look(page, '4');

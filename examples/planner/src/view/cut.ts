@@ -86,6 +86,25 @@ function cutsOf(topology: Topology, sides: Sides, plane: CutPlane): [End, End][]
 /** Largest factor by which the cut of a tube along the plane is longer than one across. */
 const longestCut = 3;
 
+/** Where a curve crosses the plane, and its direction there. */
+export function crossings(
+  points: number[][],
+  closed: boolean,
+  plane: CutPlane,
+): { middle: number[]; along: Vector }[] {
+  const away = points.map((p) => dot(p as Vector, plane.normal) - plane.offset);
+  const found = [];
+  for (let k = 0; k + (closed ? 0 : 1) < points.length; ++k) {
+    const next = (k + 1) % points.length;
+    if (away[k] < 0 === away[next] < 0) continue;
+    const [a, b] = [points[k], points[next]];
+    const s = away[k] / (away[k] - away[next]);
+    const middle = a.map((v, c) => v + s * (b[c] - v));
+    found.push({ middle, along: unit(b.map((v, c) => v - a[c]) as Vector) });
+  }
+  return found;
+}
+
 /** mm by which the cut of a tube lies before that of the one inside it. */
 const before = 0.05;
 /** A cut is darker than the surface: a white ring would vanish before the background. */
@@ -98,14 +117,7 @@ function tubeCuts(
   plane: CutPlane,
   layer: number,
 ): void {
-  const away = points.map((p) => dot(p as Vector, plane.normal) - plane.offset);
-  for (let k = 0; k + (closed ? 0 : 1) < points.length; ++k) {
-    const next = (k + 1) % points.length;
-    if (away[k] < 0 === away[next] < 0) continue;
-    const [a, b] = [points[k], points[next]];
-    const s = away[k] / (away[k] - away[next]);
-    const along = unit(b.map((v, c) => v - a[c]) as Vector);
-    const middle = a.map((v, c) => v + s * (b[c] - v));
+  for (const { middle, along } of crossings(points, closed, plane)) {
     const across = unit(cross(along, plane.normal));
     const lean = Math.min(longestCut, 1 / Math.max(1e-6, Math.abs(dot(along, plane.normal))));
     const up = cross(plane.normal, Math.hypot(...across) > 0.5 ? across : anyAcross(plane.normal));

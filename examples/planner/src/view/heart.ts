@@ -36,9 +36,19 @@ export function headRadius(topology: Topology): number {
   return count > 8 ? 0.9 : count > 2 ? 1.5 : 2;
 }
 
+/** The points of each ring or band. */
+export function ringCurves({ ringStart, ringPoints }: Picture, places = ringPoints): number[][][] {
+  const curves: number[][][] = [];
+  for (let r = 0; r + 1 < ringStart.length; ++r) {
+    curves.push([]);
+    for (let k = ringStart[r]; k < ringStart[r + 1]; ++k) curves[r].push(point(places, k));
+  }
+  return curves;
+}
+
 /** Radii of the annulus and of rings in the picture, mm. */
 const annulusRadius = 0.55;
-const ringRadius = 1.15;
+export const ringRadius = 1.15;
 
 /** A curve that is drawn as a tube. */
 export interface Tube {
@@ -52,12 +62,8 @@ export interface Tube {
 export function tubesOf(topology: Topology, picture: Picture, closed: Picture | null): Tube[] {
   const points = Array.from(topology.annulus, (node) => point(picture.positions, node));
   const tubes: Tube[] = [{ points, closed: true, radius: annulusRadius, colour: tissue.annulus }];
-  const rings = carriedRings(topology, picture, closed);
-  for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
-    const curve = [];
-    for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k) curve.push(point(rings, k));
+  for (const curve of ringCurves(picture, carriedRings(topology, picture, closed)))
     tubes.push({ points: curve, closed: isClosed(curve), radius: ringRadius, colour: tissue.ring });
-  }
   return tubes;
 }
 
