@@ -1,4 +1,4 @@
-// The page in Firefox, opened from disk: the same valves to the bit, pictures by both renderers, a saved session, and recovery. It
+// The page in Firefox, opened from disk: the same valves to the bit, pictures, a saved session, and recovery. It
 // runs where Firefox is installed (FIREFOX, or Debian's firefox-esr) and says so where it is not.
 import assert from 'node:assert/strict';
 import { existsSync, mkdtempSync, readdirSync, readFileSync } from 'node:fs';
@@ -116,11 +116,11 @@ describe('planner in Firefox', { skip }, () => {
     await page.getByLabel('Keep a copy in this browser').uncheck();
   });
 
-  it('draws_the_valve_by_both_renderers', async () => {
+  it('draws_the_valve_with_and_without_webgl', async () => {
     for (const renderer of ['software', 'webgl']) {
       const fresh = await open(`#${renderer}`);
       const drawn = await fresh.evaluate(() => window.planner.viewport.renderer.name);
-      // without a graphics driver Firefox has no WebGL: the rasteriser takes its place
+      // headless, Firefox may have no WebGL: the rasteriser takes its place, also where WebGL is asked for
       assert.ok(drawn === renderer || drawn === 'software', drawn);
       await fresh.keyboard.press('1');
       await cameraRests(fresh);
