@@ -31,14 +31,14 @@ function mapValues(picture: Picture, options: SceneOptions): Float32Array | null
 export function leafletMeshes(
   topology: Topology,
   picture: Picture,
-  lower: Float32Array,
+  middle: Picture,
   options: SceneOptions,
 ): Mesh[] {
   const upper = leafletMesh(topology, picture, options);
-  const normals = vertexNormals(lower, topology.triangles);
+  const positions = ventricularSide(topology, middle);
   return [
     { ...upper, only: 'front' },
-    { ...upper, only: 'back', positions: lower, normals },
+    { ...upper, only: 'back', positions, normals: middleNormals(topology, middle) },
   ];
 }
 
@@ -87,6 +87,22 @@ function leafletMesh(topology: Topology, picture: Picture, options: SceneOptions
 /** mm by which the sides of leaflets in contact overlap. The facets of two folds do not fit each other: where the sides only
  *  touched at the nodes, a sealed valve would show slits of light between them, with the chordae behind. */
 export const overlap = 0.2;
+let found: { of: Picture; normals: Float32Array } | null = null;
+
+/** Normals of the middle of the leaflets. The last ones are kept. */
+function middleNormals(topology: Topology, picture: Picture): Float32Array {
+  if (found?.of !== picture)
+    found = { of: picture, normals: vertexNormals(picture.positions, topology.triangles) };
+  return found.normals;
+}
+
+/** The same without those of the annulus, where both sides meet. */
+function awayFromAnnulus(topology: Topology, picture: Picture): Float32Array {
+  const normals = middleNormals(topology, picture).slice();
+  for (const node of topology.annulus) normals.fill(0, 3 * node, 3 * node + 3);
+  return normals;
+}
+
 let lifted: { of: Picture; fields: Fields; picture: Picture } | null = null;
 
 /** The picture with the atrial side of the leaflets in place of their middle. Where leaflets touch, their middles are apart by
@@ -96,8 +112,7 @@ export function atrialSide(topology: Topology, picture: Picture, fields: Fields 
   if (!fields) return picture;
   if (lifted?.of === picture && lifted.fields === fields) return lifted.picture;
   const positions = picture.positions.slice();
-  const normals = vertexNormals(positions, topology.triangles);
-  for (const node of topology.annulus) normals.fill(0, 3 * node, 3 * node + 3);
+  const normals = awayFromAnnulus(topology, picture);
   for (let i = 0; i < positions.length; ++i) {
     const apart = fields.coaptation[Math.floor(i / 3)];
     positions[i] +=
@@ -113,8 +128,7 @@ let lowered: { of: Picture; positions: Float32Array } | null = null;
 export function ventricularSide(topology: Topology, picture: Picture): Float32Array {
   if (lowered?.of === picture) return lowered.positions;
   const positions = picture.positions.slice();
-  const normals = vertexNormals(positions, topology.triangles);
-  for (const node of topology.annulus) normals.fill(0, 3 * node, 3 * node + 3);
+  const normals = awayFromAnnulus(topology, picture);
   for (let i = 0; i < positions.length; ++i) positions[i] -= ventricularDepth * normals[i];
   lowered = { of: picture, positions };
   return positions;

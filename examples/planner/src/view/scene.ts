@@ -40,7 +40,7 @@ const behindDevice = 0.45;
 export function sceneMeshes(topology: Topology, middle: Picture, options: SceneOptions): Mesh[] {
   const picture = atrialSide(topology, middle, options.sides);
   const lower = ventricularSide(topology, middle);
-  const leaflets = leafletMeshes(topology, picture, lower, options);
+  const leaflets = leafletMeshes(topology, picture, middle, options);
   const [, under] = leaflets;
   const meshes = [
     ...leaflets,
