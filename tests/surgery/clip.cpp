@@ -1,6 +1,7 @@
 // Edge-to-edge repair: the joined places, and the effect on the valve.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 
 #include "surgery/leaflet/sheet_map.h"
@@ -196,6 +197,39 @@ TEST_CASE("a_turned_clip_joins_places_that_a_rotation_carries_it_to") {
     CHECK(std::abs(shift - 2 * 2 * mm * std::sin(angle)) < 0.7 * mm);
     CHECK((done.title.find("turned by") != std::string::npos) == (angle != 0));
   }
+}
+
+TEST_CASE("the_title_of_a_clip_says_how_far_it_is_from_the_middle_and_towards_which_scallop") {
+  const ModelState before = shipped();
+  const auto placed = [&](double position) {
+    auto op = clip();
+    op.position = position;
+    return apply(before, op);
+  };
+  for (const double position : {0.5, -0.5}) {
+    const Operated done = placed(position);
+    double from_middle = 0;
+    char towards[8] = "";
+    const size_t at = done.title.find(" mm, ");
+    REQUIRE(at != std::string::npos);
+    REQUIRE(std::sscanf(done.title.c_str() + at, " mm, %lf mm towards %7s", &from_middle,
+                        towards) == 2);
+    CHECK(std::string(towards) == (position > 0 ? "A1" : "A3"));
+    // the middle of the valve is x = 0; the first stitch is at the nearest node of the free edge,
+    // within half an edge of 2 mm
+    const Model &model = *done.current.model;
+    const double x = std::abs(model.valve.rest[stitches(model)[0].a][0]);
+    CHECK(std::abs(1e-3 * from_middle - x) < 1 * mm);
+  }
+  CHECK(placed(1).title.find("towards A1") != std::string::npos);
+  auto op = clip();
+  for (const Scallop &scallop : before.model->valve.scallops)
+    if (scallop.name == "A1")
+      op.anterior = scallop.id;
+    else if (scallop.name == "P1")
+      op.posterior = scallop.id;
+  op.position = 0.5;
+  CHECK(apply(before, op).title.find("towards the anterolateral side") != std::string::npos);
 }
 
 TEST_CASE("clips_turned_to_either_side_are_mirror_images") {

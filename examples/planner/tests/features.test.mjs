@@ -137,7 +137,10 @@ describe('planner features', () => {
     for (const row of await page.getByTestId('devices').locator('tbody tr').all())
       rows.push((await row.locator('th, td').allInnerTexts()).map((text) => text.replace(/\s+/g, ' ')));
     assert.match(rows[0].join(': '), /^Ring: 3\d\.\d mm wide/);
-    assert.match(rows[1].join(': '), /^Clip XTW: joins A2 and P2, 5 mm wide, strongest pull \d+ mN$/);
+    assert.match(
+      rows[1].join(': '),
+      /^Clip XTW: joins A2 and P2, 5 mm wide, in the middle, across the edge, strongest pull \d+ mN$/,
+    );
     assert.deepEqual(rows[2], ['Suture', 'closes the cut in P1']);
     assert.equal(rows.length, 3);
     for (let k = 0; k < 3; ++k) await undo(page);

@@ -77,6 +77,30 @@ describe('planner layout', () => {
     await page.keyboard.press('Escape');
   });
 
+  it('keeps_the_slider_of_a_chord_where_it_is_at_its_first_change', async () => {
+    await startAfresh(page);
+    await begin(page, 'chord_length');
+    const slider = page.locator('.slide input');
+    const belowTheTop = async () =>
+      (await slider.boundingBox()).y - (await page.locator('.form-head').boundingBox()).y;
+    await inWindows(async (size) => {
+      // long words and figures: a strut, the rough zone, the longest one
+      for (const name of ['A2/10', 'P1/9', 'A3/10']) {
+        await page.locator('#f-chord').selectOption({ label: name });
+        await closed(page);
+        await slider.scrollIntoViewIfNeeded();
+        const before = await belowTheTop();
+        const { width, height } = await slider.boundingBox();
+        await slider.click({ position: { x: 0.35 * width, y: height / 2 } });
+        await answered(page, 300);
+        await page.getByTestId('chosen').getByText('→').first().waitFor();
+        assert.equal(await belowTheTop(), before, `${size}, ${name}`);
+      }
+    });
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+  });
+
   it('keeps_the_buttons_of_every_form_at_one_place', async () => {
     // shorter and longer than the panel
     const tops = new Set();

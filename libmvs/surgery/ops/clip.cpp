@@ -119,6 +119,41 @@ void sew_pairs(Surgery &s, const std::vector<Pair> &pairs, const std::string &na
   }
 }
 
+// Returns where the origin of `from_clip` lies on the free edge of its scallop: "3.0 mm towards
+// A1", from the middle of the scallop at rest towards the next one of the leaflet, or to a
+// commissure.
+std::string place_in_words(const Surgery &s, uint32_t scallop,
+                           const std::vector<EdgeNode> &from_clip) {
+  const Valve &valve = s.before.valve;
+  const std::vector<EdgeNode> from_middle = nodes_from_free_edge(s, scallop, 0.5);
+  const double off = from_middle.front().along - from_clip.front().along;
+  const double sense = off < 0 ? -1 : 1;
+  std::vector<double> along(s.before.node_count(), std::nan(""));
+  for (const EdgeNode &n : from_middle)
+    if (n.depth == 0) along[n.node] = sense * n.along;
+  // mean places of the scallops on the free edge, towards that side
+  std::vector<double> sum(valve.scallops.size(), 0), count(valve.scallops.size(), 0);
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    const uint32_t of = valve.triangle_scallop[t];
+    if (of == none) continue;
+    for (const uint32_t node : valve.triangles[t]) {
+      if (std::isnan(along[node])) continue;
+      sum[of] += along[node];
+      count[of] += 1;
+    }
+  }
+  const auto place = [&](uint32_t k) { return sum[k] / count[k]; };
+  uint32_t next = none;
+  for (uint32_t k = 0; k < valve.scallops.size(); ++k) {
+    const bool other = k != scallop && valve.scallops[k].leaflet == valve.scallops[scallop].leaflet;
+    if (!other || count[k] == 0 || place(k) <= place(scallop)) continue;
+    if (next == none || place(k) < place(next)) next = k;
+  }
+  const char *side = off < 0 ? "the posteromedial side" : "the anterolateral side";
+  return format("%.1f mm towards %s", 1e3 * std::abs(off),
+                next == none ? side : valve.scallops[next].name.c_str());
+}
+
 }  // namespace
 
 void operate(Surgery &s, const mvs_op_clip &op) {
@@ -140,6 +175,7 @@ void operate(Surgery &s, const mvs_op_clip &op) {
   open_the_valve(s);
   s.title = format("Join %s and %s by %s, %zu stitches over %.1f mm", scallops[a].name.c_str(),
                    scallops[p].name.c_str(), name.c_str(), pairs.size(), 1e3 * width);
+  if (op.position != 0) s.title += ", " + place_in_words(s, a, sides.anterior);
   if (op.angle != 0)
     s.title += format(", turned by %.0f degrees", 180 / std::numbers::pi * op.angle);
 }

@@ -170,15 +170,39 @@ export function wordsOf(kind: string, help: string): Words {
   return operationWords[kind] ?? { title: kind.replace(/_/g, ' '), short: help };
 }
 
-/** How the library ends the title of a clip: its stitches, and the width that was chosen in mm. */
-const clipWidth = /, \d+ stitches over (\d+(?:\.\d+)?) mm/;
+/** How the library ends the title of a clip: its stitches, the chosen width in mm, how far it is from the middle of its scallop,
+ *  and its turn in degrees. */
+const clipEnd =
+  /, \d+ stitches over (\d+(?:\.\d+)?) mm(?:, (\d+(?:\.\d+)?) mm towards ([^,]+))?(?:, turned by (-?\d+) degrees)?$/;
 
-/** The chosen width in mm of the clip with this name, from the titles of a plan; null where it was set before the plan. */
-export function chosenWidth(name: string, titles: string[]): number | null {
-  const title = titles.find((text) => text.split(clipWidth)[0].endsWith(` by ${name}`));
-  const width = title && clipWidth.exec(title);
-  return width ? +width[1] : null;
+/** How a clip was set: its width in mm, its place and its turn in degrees against the clock. */
+export interface ClipWords {
+  width: number;
+  place: string;
+  angle: number;
 }
+
+function clipWords(title: string): ClipWords | null {
+  const found = clipEnd.exec(title);
+  if (!found) return null;
+  const [, width, away, towards, angle] = found;
+  const place = away === undefined ? 'in the middle' : `${number(+away)} mm towards ${towards}`;
+  return { width: +width, place, angle: +(angle ?? 0) };
+}
+
+/** How the clip with this name was set, from the titles of a plan; null where that was before the plan. */
+export function clipIn(name: string, titles: string[]): ClipWords | null {
+  const title = titles.find((text) => text.replace(clipEnd, '').endsWith(` by ${name}`));
+  return title === undefined ? null : clipWords(title);
+}
+
+const turned = (angle: number): string =>
+  angle === 0
+    ? 'across the edge'
+    : `turned ${number(Math.abs(angle), 0)}° ${angle > 0 ? 'against the clock' : 'with the clock'}`;
+
+const clipSaid = ({ width, place, angle }: ClipWords): string =>
+  `${+number(width)} mm wide, ${place}, ${turned(angle)}`;
 
 /** Sentences of the library with its units turned into those of the page. */
 export function say(sentence: string): string {
@@ -188,7 +212,7 @@ export function say(sentence: string): string {
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
-    .replace(clipWidth, (_, v: string) => `, ${+v} mm wide`)
+    .replace(clipEnd, (end) => `, ${clipSaid(clipWords(end)!)}`)
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
     .replace(/^mvs_\w+: /, '');
@@ -673,9 +697,9 @@ export const deviceTexts = {
     const given = /^(?:ring|band|clip)(\d*)$/.exec(name);
     return given ? `${kind} ${given[1]}`.trimEnd() : `${kind} ${name}`;
   },
-  /** `width`: as it was chosen; `apart`: its outermost stitches in the closed valve. */
-  clip: (clip: { between: string[]; width: number | null; apart: number; pull: number }) =>
-    `joins ${listOf(clip.between)}, ${clip.width === null ? `outermost stitches ${number(clip.apart, 0)} mm apart` : `${+number(clip.width)} mm wide`}, strongest pull ${millinewton(clip.pull)}`,
+  /** `set`: as it was chosen; `apart`: its outermost stitches in the closed valve. */
+  clip: (clip: { between: string[]; set: ClipWords | null; apart: number; pull: number }) =>
+    `joins ${listOf(clip.between)}, ${clip.set === null ? `outermost stitches ${number(clip.apart, 0)} mm apart` : clipSaid(clip.set)}, strongest pull ${millinewton(clip.pull)}`,
   suture: (of: string[]) => `closes the cut in ${listOf(of)}`,
   neochord: (chord: { rest: number; tension: number; heads: string; scallops: string }) =>
     `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${millinewton(chord.tension)}` : 'slack'}`,
@@ -718,8 +742,22 @@ export const formTexts = {
       ? 'in the middle of the scallop'
       : `${number(100 * Math.abs(value), 0)} % of the way to the ${value > 0 ? 'anterolateral' : 'posteromedial'} end`,
   heightTip: 'From annulus to free edge',
-  axes: ['Towards the front', 'To the side', 'Towards the atrium'],
-  axis: (name: string, value: number) => `${name}: ${number(value)} mm`,
+  /** What the left and the right end of the sliders of a shift stand for. */
+  axisEnds: [
+    ['posterior', 'anterior'],
+    ['anterolateral', 'posteromedial'],
+    ['ventricle', 'atrium'],
+  ],
+  /** A shift along the front, the anterolateral side or the atrium. */
+  shift: (axis: number, value: number) => {
+    const to = [
+      ['Backwards', 'Front to back', 'Forwards'],
+      ['Towards the posteromedial side', 'Side to side', 'Towards the anterolateral side'],
+      ['Towards the ventricle', 'Up and down', 'Towards the atrium'],
+    ][axis][1 + Math.sign(value)];
+    return `${to}: ${number(Math.abs(value))} mm`;
+  },
+  fileAxis: (axis: number, value: number) => `${'xyz'[axis]} of the file: ${number(value)} mm`,
 };
 
 /** Names in the picture, of handles too. */

@@ -1,23 +1,15 @@
 // Rings, bands, clips, artificial chordae and sutures as a table: the twin of what the picture shows of them.
 import { clipOf, cutOf, suture } from '../notable';
 import * as state from '../store/state';
-import { chosenWidth, deviceTexts, tipTexts } from '../text/texts';
+import { clipIn, deviceTexts, tipTexts } from '../text/texts';
 import type { Chord, Figures, Picture, Topology } from '../protocol';
 import { clipWidths } from '../view/clips';
-import { isClosed } from '../view/heart';
+import { isClosed, ringCurves } from '../view/heart';
 import { Section } from './parts';
 
 interface Device {
   name: string;
   figures: string;
-}
-
-/** The curve of a ring or band. */
-function ringPoints(picture: Picture, r: number): number[][] {
-  const points: number[][] = [];
-  for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k)
-    points.push([0, 1, 2].map((c) => picture.ringPoints[3 * k + c]));
-  return points;
 }
 
 /** Largest extents along CC and AP and the length of a ring's curve; the length of a band. */
@@ -52,9 +44,9 @@ const scallopsOf = (stitches: Chord[]): string[] => [
 
 function devicesOf(topology: Topology, picture: Picture, figures: Figures): Device[] {
   const { names, named } = deviceTexts;
-  const rings = topology.rings.map((part, r) => ({
-    name: named(isClosed(ringPoints(picture, r)) ? names.ring : names.band, part.name),
-    figures: ringFigures(ringPoints(picture, r), figures.frame),
+  const rings = ringCurves(picture).map((curve, r) => ({
+    name: named(isClosed(curve) ? names.ring : names.band, topology.rings[r].name),
+    figures: ringFigures(curve, figures.frame),
   }));
   const widths = clipWidths(topology, picture, figures.frame);
   const titles = figures.history.filter((entry) => !entry.undone).map((entry) => entry.title);
@@ -62,7 +54,7 @@ function devicesOf(topology: Topology, picture: Picture, figures: Figures): Devi
     name: named(names.clip, name),
     figures: deviceTexts.clip({
       between: scallopsOf(stitches),
-      width: chosenWidth(name, titles),
+      set: clipIn(name, titles),
       apart: widths.get(name) ?? 0,
       pull: Math.max(...stitches.map(({ tension }) => tension)),
     }),

@@ -4,7 +4,7 @@ import { pickField, setField } from '../store/edit';
 import * as state from '../store/state';
 import { choiceWords, formTexts, tips, tipTexts } from '../text/texts';
 import type { FieldValue, Site } from '../protocol';
-import { Button } from './parts';
+import { Button, SliderEnds } from './parts';
 import { labelOf, NumberField, tipOf, type FieldProps } from './number';
 import { PointsField } from './points';
 
@@ -109,11 +109,7 @@ function SiteField(props: FieldProps) {
               aria-valuetext={formTexts.along(Math.round(100 * value.along))}
               onInput={(event) => set({ along: Math.abs(+event.currentTarget.value) })}
             />
-            <span class="ends" aria-hidden="true">
-              {formTexts.sides.map((side) => (
-                <i>{side}</i>
-              ))}
-            </span>
+            <SliderEnds ends={formTexts.sides} />
           </label>
           <label class="slider">
             <span>{formTexts.height(Math.round(100 * value.height))}</span>
@@ -155,29 +151,41 @@ function ChoiceField(props: FieldProps) {
   );
 }
 
+/** The choice of a frame that stands for the axes of the file, as in the library's table. */
+const sceneFrame = 0;
+/** The axis from side to side grows to the left of the surgeon's view: so does its slider. */
+const crossAxis = 1;
+
 function VectorField(props: FieldProps) {
   const { field } = props;
   const value = (state.draft.value?.fields[field.name] as [number, number, number] | undefined) ?? [0, 0, 0];
+  const anatomical = state.draft.value?.fields.frame !== sceneFrame;
   return (
     <fieldset class="field" title={tipOf(props)}>
       <legend>{labelOf(props)}</legend>
-      {formTexts.axes.map((axis, c) => (
-        <label class="slider">
-          <span>{formTexts.axis(axis, value[c])}</span>
-          <input
-            type="range"
-            min="-10"
-            max="10"
-            step="0.5"
-            value={value[c]}
-            onInput={(event) => {
-              const next = [...value] as [number, number, number];
-              next[c] = +event.currentTarget.value;
-              setField(field.name, next as FieldValue);
-            }}
-          />
-        </label>
-      ))}
+      {value.map((along, c) => {
+        const sense = anatomical && c === crossAxis ? -1 : 1;
+        const words = anatomical ? formTexts.shift(c, along) : formTexts.fileAxis(c, along);
+        return (
+          <label class="slider">
+            <span>{words}</span>
+            <input
+              type="range"
+              min="-10"
+              max="10"
+              step="0.5"
+              value={sense * along || 0}
+              aria-valuetext={words}
+              onInput={(event) => {
+                const next = [...value] as [number, number, number];
+                next[c] = sense * +event.currentTarget.value || 0;
+                setField(field.name, next as FieldValue);
+              }}
+            />
+            {anatomical && <SliderEnds ends={formTexts.axisEnds[c]} />}
+          </label>
+        );
+      })}
     </fieldset>
   );
 }

@@ -3,6 +3,7 @@ import { setField } from '../store/edit';
 import * as state from '../store/state';
 import { fieldTip, figure, formTexts } from '../text/texts';
 import type { FieldInfo } from '../protocol';
+import { SliderEnds } from './parts';
 
 /** Ranges and steps of sliders: usual values, where the library accepts more. */
 const sliders: Record<string, Record<string, [number, number, number]>> = {
@@ -112,13 +113,9 @@ export function NumberField(props: FieldProps) {
               value={slider(shown ?? (low! + high!) / 2)}
               onInput={({ currentTarget: { value: text } }) => set(position ? String(-text) : text)}
             />
-            <span class="ends" aria-hidden="true">
-              {(position ? formTexts.sides : [low!, high!].map((end) => +(end * scale).toPrecision(4))).map(
-                (end) => (
-                  <i>{end}</i>
-                ),
-              )}
-            </span>
+            <SliderEnds
+              ends={position ? formTexts.sides : [low!, high!].map((end) => +(end * scale).toPrecision(4))}
+            />
           </span>
         )}
         <input

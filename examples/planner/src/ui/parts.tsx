@@ -100,3 +100,14 @@ export function Section(props: {
     </details>
   );
 }
+
+/** What the left and the right end of a slider stand for, below it. */
+export function SliderEnds({ ends }: { ends: readonly (string | number)[] }) {
+  return (
+    <span class="ends" aria-hidden="true">
+      {ends.map((end) => (
+        <i>{end}</i>
+      ))}
+    </span>
+  );
+}

@@ -2,10 +2,11 @@
 import { useSignal, useSignalEffect } from '@preact/signals';
 import { fail, request } from '../store/requests';
 import * as state from '../store/state';
-import { sectionTexts, tips, tipTexts } from '../text/texts';
+import { formTexts, sectionTexts, tips, tipTexts } from '../text/texts';
 import type { Section, SectionRequest } from '../protocol';
-import { cutScallops, planeOf } from '../view/cut';
-import { Button } from './parts';
+import { crossings, cutScallops, planeOf } from '../view/cut';
+import { isClosed, ringCurves, ringRadius } from '../view/heart';
+import { Button, SliderEnds } from './parts';
 
 interface Curve {
   points: Section;
@@ -47,6 +48,18 @@ function through(): string[] {
   const topology = state.topologyOf(picture);
   const plane = planeOf(figures.frame, state.sectionAt.value);
   return topology ? cutScallops(topology, picture.positions, plane) : [];
+}
+
+/** Where the plane cuts the rings of the shown valve: AP and height, mm. */
+function ringDots(): number[][] {
+  const { picture, figures } = state.shown.value!;
+  const { frame } = figures;
+  const plane = planeOf(frame, state.sectionAt.value);
+  const along = (at: number[], row: number) =>
+    at.reduce((sum, v, c) => sum + (v - frame[c]) * frame[3 * row + c], 0);
+  return ringCurves(picture).flatMap((curve) =>
+    crossings(curve, isClosed(curve), plane).map(({ middle }) => [along(middle, 1), along(middle, 3)]),
+  );
 }
 
 /** The curves to draw, and a key that changes with the valves, the plane and the preview. */
@@ -114,6 +127,9 @@ export function SectionPlot() {
         <text x={right} y={box.y + 1.3 * box.text} text-anchor="end" {...text}>
           {sectionTexts.posterior}
         </text>
+        {ringDots().map(([ap, height]) => (
+          <circle cx={-ap} cy={-height} r={ringRadius} class="plot-ring" />
+        ))}
         {curves.value.map((curve) => (
           <path d={lines(curve.points)} class={`plot-${curve.style}`} />
         ))}
@@ -145,14 +161,17 @@ export function SectionPlot() {
       </div>
       <label class="slider" title={tipTexts.plane}>
         <span>{sectionTexts.plane(state.sectionAt.value, through())}</span>
+        {/* offsets grow to the left of the surgeon's view, so it runs from the largest to the least */}
         <input
           type="range"
           min={-limit}
           max={limit}
           step="0.5"
-          value={state.sectionAt.value}
-          onInput={(event) => (state.sectionAt.value = +event.currentTarget.value)}
+          value={0 - state.sectionAt.value}
+          aria-valuetext={sectionTexts.plane(state.sectionAt.value, through())}
+          onInput={(event) => (state.sectionAt.value = 0 - +event.currentTarget.value)}
         />
+        <SliderEnds ends={formTexts.sides} />
       </label>
       <Button disabled={state.sectionAt.value === 0} onClick={() => (state.sectionAt.value = 0)}>
         {sectionTexts.middle}

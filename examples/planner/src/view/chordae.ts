@@ -29,16 +29,19 @@ const isBanded = (
   k: number,
 ): boolean => chordArtificial[k] === 1 && chordKind[k] !== suture && k !== chosenChord;
 
-/** mm between the surface of a chord and the leaflet that it ends at. */
-const below = 0.15;
+/** The ventricular side of the leaflets, at which chordae end: places of its nodes and their normals into the atrium, which vanish
+ *  beside the leaflets. */
+export interface Under {
+  positions: Float32Array;
+  normals: Float32Array;
+}
 
-/** Both ends of a chord. With the `normals` of the nodes, which point into the atrium and vanish beside the leaflets, it ends
- *  on the side of the ventricle, and shows on no other. */
-function chordEnds(topology: Topology, picture: Picture, k: number, radius: number, normals: Float32Array) {
+/** Both ends of a chord; it lies on the ventricular side of its leaflet, and shows on no other. */
+function chordEnds(topology: Topology, picture: Picture, k: number, radius: number, under: Under) {
   const end = topology.chordNodes[2 * k + 1];
-  const [a, b] = [point(picture.positions, topology.chordNodes[2 * k]), point(picture.positions, end)];
-  if (topology.chordKind[k] !== suture)
-    for (let c = 0; c < 3; ++c) b[c] -= (radius + below) * normals[3 * end + c];
+  const a = point(picture.positions, topology.chordNodes[2 * k]);
+  if (topology.chordKind[k] === suture) return [a, point(picture.positions, end)];
+  const b = point(under.positions, end).map((v, c) => v - radius * under.normals[3 * end + c]);
   return [a, b];
 }
 
@@ -50,12 +53,7 @@ export function drawnRadius(topology: Topology, k: number): number {
   return isMany(topology) ? 0.15 : Math.min(0.75, Math.max(0.22, 0.62 * topology.chordRadius[k]));
 }
 
-export function chordae(
-  topology: Topology,
-  picture: Picture,
-  options: SceneOptions,
-  normals: Float32Array,
-): Mesh {
+export function chordae(topology: Topology, picture: Picture, options: SceneOptions, under: Under): Mesh {
   const shapes = new Shapes();
   const many = isMany(topology);
   const onLeaflet = new Uint8Array(topology.nodes);
@@ -63,7 +61,7 @@ export function chordae(
   for (let k = 0; k < topology.chordKind.length; ++k) {
     const chosen = k === options.chosenChord;
     const radius = drawnRadius(topology, k) * (chosen ? 1.8 : 1);
-    const [a, b] = chordEnds(topology, picture, k, radius, normals);
+    const [a, b] = chordEnds(topology, picture, k, radius, under);
     const colour = chordColour(topology, picture, options, k);
     const sides = many ? 4 : 7;
     if (isBanded(topology, options, k)) shapes.banded(a, b, radius, [tissue.artificial, colour], band, sides);
@@ -76,9 +74,9 @@ export function chordae(
 }
 
 /** The chosen chord once more, through whatever hides it. */
-export function throughAll(topology: Topology, picture: Picture, k: number, normals: Float32Array): Mesh {
+export function throughAll(topology: Topology, picture: Picture, k: number, under: Under): Mesh {
   const shapes = new Shapes();
-  const [a, b] = chordEnds(topology, picture, k, 0.35, normals);
+  const [a, b] = chordEnds(topology, picture, k, 0.35, under);
   shapes.tube(a, b, 0.35, tissue.chosen);
   return shapes.mesh({ overlay: true, opacity: 0.55 });
 }

@@ -1,11 +1,16 @@
-// Clips as devices: a bar along the stitches of each, seen, and faintly through the leaflets that close over it.
+// Clips as devices: a bar along the edge and two arms across it, turned as the clip is, seen, and faintly through the leaflets that
+// close over it.
 import type { Picture, Topology } from '../protocol';
 import { clipOf, suture } from '../notable';
 import { tissue } from './colours';
 import { point, Shapes, type Mesh } from './mesh';
 
-/** mm: a bar as thick as the two arms of a clip with the leaflets between them. */
+/** mm: a bar as thick as the leaflets that it holds. */
 const radius = 1;
+/** mm from the middle of a clip to the ends of its arms, which are longer than its bar: they show its turn. */
+const armLength = 7;
+/** Radii of the arms in the middle and at their ends, mm. */
+const armRadii = [0.9, 0.65];
 
 /** Middles of the stitches of each clip, by its name. */
 function stitchesOf(topology: Topology, picture: Picture): Map<string, number[][]> {
@@ -31,19 +36,33 @@ function ends(stitches: number[][], up: number[]): [number[], number[]] {
   return best;
 }
 
-/** The bars of all clips, with pointed ends; null without a clip. */
-export function clips(topology: Topology, picture: Picture, frame: number[]): Mesh | null {
+/** Devices of all clips; `turns`: of each in degrees against the clock, by its name. Null without a clip. */
+export function clips(
+  topology: Topology,
+  picture: Picture,
+  frame: number[],
+  turns: Map<string, number>,
+): Mesh | null {
   const found = stitchesOf(topology, picture);
   if (!found.size) return null;
   const shapes = new Shapes();
-  for (const stitches of found.values()) {
+  const [ap, cc] = [frame.slice(3, 6), frame.slice(6, 9)];
+  for (const [name, stitches] of found) {
     const [a, b] = ends(stitches, frame.slice(9, 12));
-    const length = Math.max(1e-6, apart(a, b));
-    const beyond = (from: number[], to: number[]) =>
-      to.map((v, c) => v + (0.4 * radius * (v - from[c])) / length);
-    shapes.tube(a, b, radius, tissue.suture, 12);
-    shapes.tube(b, beyond(a, b), radius, tissue.suture, 12, 0.02);
-    shapes.tube(a, beyond(b, a), radius, tissue.suture, 12, 0.02);
+    const middle = a.map((v, c) => 0.5 * (v + b[c]));
+    const angle = ((turns.get(name) ?? 0) * Math.PI) / 180;
+    const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
+    const arm = ap.map((v, c) => cos * v + sin * cc[c]);
+    const bar = cc.map((v, c) => cos * v - sin * ap[c]);
+    const at = (along: number[], by: number) => middle.map((v, c) => v + by * along[c]);
+    const half = 0.5 * apart(a, b);
+    shapes.tube(at(bar, -half), at(bar, half), radius, tissue.suture, 12);
+    for (const side of [-1, 1]) {
+      shapes.tube(at(bar, side * half), at(bar, side * (half + 0.4)), radius, tissue.suture, 12, 0.02);
+      const tip = at(arm, side * armLength);
+      shapes.tube(middle, tip, armRadii[0], tissue.suture, 12, armRadii[1]);
+      shapes.sphere(tip, armRadii[1], tissue.suture, 8, 12);
+    }
   }
   return shapes.mesh();
 }

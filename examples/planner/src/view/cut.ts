@@ -1,11 +1,15 @@
-// The section plane in the picture: a frame round the valve, and the line along which the leaflets are cut.
+// The section plane in the picture: a frame round the valve, the leaflets as they are cut, with their thickness, and the cuts of
+// the annulus and of rings.
 import type { Picture, Topology } from '../protocol';
+import { cross, dot, unit, type Vector } from '../vector';
 import { tissue } from './colours';
-import { Shapes, type Mesh } from './mesh';
+import { tubesOf, type Tube } from './heart';
+import { overlap } from './leaflets';
+import { point, Shapes, type Colour, type Mesh } from './mesh';
 import type { CutPlane } from './renderer';
 
-/** Radii of the line and of the frame, mm. */
-const lineRadius = 0.28;
+/** Radii of the lines along the atrial sides and of the frame, mm. */
+const lineRadius = 0.07;
 const frameRadius = 0.12;
 
 /** The plane across the CC axis of a frame at an offset from its origin, mm. */
@@ -30,26 +34,109 @@ export function cutScallops(topology: Topology, x: Float32Array, plane: CutPlane
   });
 }
 
-/** Ends of the cut through each triangle that the plane crosses. */
-function cutsOf(topology: Topology, x: Float32Array, plane: CutPlane): [number[], number[]][] {
+/** The leaflets at one end of the cut through a triangle: their atrial and their ventricular side in the plane. */
+type End = [Vector, Vector];
+
+/** Where the sides of the leaflets are: their middle, and both sides as they are drawn. */
+export interface Sides {
+  middle: Float32Array;
+  upper: Float32Array;
+  lower: Float32Array;
+}
+
+/** Sides that touch overlap in the picture by this share of it each; in the cut they meet. */
+const ofOverlap = 0.5 * overlap;
+
+/** An end of a cut, on the way from node a to node b. */
+function endOf({ middle, upper, lower }: Sides, plane: CutPlane, a: number, b: number, s: number): End {
+  const [m, above, below] = [middle, upper, lower].map((x) => {
+    const [from, to] = [point(x, a), point(x, b)];
+    return [0, 1, 2].map((c) => from[c] + s * (to[c] - from[c])) as Vector;
+  });
+  const beside = (side: Vector, less: number): Vector => {
+    const away = side.map((v, c) => v - m[c]) as Vector;
+    const length = Math.hypot(...away) || 1;
+    const out = dot(away, plane.normal);
+    const share = Math.max(0, length - less) / length;
+    return m.map((v, c) => v + share * (away[c] - out * plane.normal[c])) as Vector;
+  };
+  return [beside(above, ofOverlap), beside(below, 0)];
+}
+
+/** Both ends of the cut through each triangle that the plane crosses. */
+function cutsOf(topology: Topology, sides: Sides, plane: CutPlane): [End, End][] {
+  const x = sides.middle;
   const away = new Float32Array(topology.nodes);
   for (let i = 0; i < topology.nodes; ++i)
     for (let c = 0; c < 3; ++c) away[i] += plane.normal[c] * x[3 * i + c];
-  const cuts: [number[], number[]][] = [];
+  const cuts: [End, End][] = [];
   const { triangles } = topology;
   for (let t = 0; t < triangles.length; t += 3) {
-    const ends: number[][] = [];
+    const ends: End[] = [];
     for (let k = 0; k < 3; ++k) {
       const [a, b] = [triangles[t + k], triangles[t + ((k + 1) % 3)]];
       const [da, db] = [away[a] - plane.offset, away[b] - plane.offset];
-      if (da < 0 === db < 0) continue;
-      const s = da / (da - db);
-      ends.push([0, 1, 2].map((c) => x[3 * a + c] + s * (x[3 * b + c] - x[3 * a + c])));
+      if (da < 0 !== db < 0) ends.push(endOf(sides, plane, a, b, da / (da - db)));
     }
     if (ends.length === 2) cuts.push([ends[0], ends[1]]);
   }
   return cuts;
 }
+
+/** Largest factor by which the cut of a tube along the plane is longer than one across. */
+const longestCut = 3;
+
+/** Where a curve crosses the plane, and its direction there. */
+export function crossings(
+  points: number[][],
+  closed: boolean,
+  plane: CutPlane,
+): { middle: number[]; along: Vector }[] {
+  const away = points.map((p) => dot(p as Vector, plane.normal) - plane.offset);
+  const found = [];
+  for (let k = 0; k + (closed ? 0 : 1) < points.length; ++k) {
+    const next = (k + 1) % points.length;
+    if (away[k] < 0 === away[next] < 0) continue;
+    const [a, b] = [points[k], points[next]];
+    const s = away[k] / (away[k] - away[next]);
+    const middle = a.map((v, c) => v + s * (b[c] - v));
+    found.push({ middle, along: unit(b.map((v, c) => v - a[c]) as Vector) });
+  }
+  return found;
+}
+
+/** mm by which the cut of a tube lies before that of the one inside it. */
+const before = 0.05;
+/** A cut is darker than the surface: a white ring would vanish before the background. */
+const cutShade = 0.75;
+
+/** Where a tube is cut: ellipses in the plane, `layer` times before it. */
+function tubeCuts(
+  shapes: Shapes,
+  { points, closed, radius, colour }: Tube,
+  plane: CutPlane,
+  layer: number,
+): void {
+  for (const { middle, along } of crossings(points, closed, plane)) {
+    const across = unit(cross(along, plane.normal));
+    const lean = Math.min(longestCut, 1 / Math.max(1e-6, Math.abs(dot(along, plane.normal))));
+    const up = cross(plane.normal, Math.hypot(...across) > 0.5 ? across : anyAcross(plane.normal));
+    const side = cross(up, plane.normal);
+    const corner = (angle: number) =>
+      middle.map(
+        (v, c) =>
+          v +
+          before * layer * plane.normal[c] +
+          radius * (Math.cos(angle) * side[c] + lean * Math.sin(angle) * up[c]),
+      );
+    shapes.polygon(
+      Array.from({ length: 20 }, (_, j) => corner((2 * Math.PI * j) / 20)),
+      [cutShade * colour[0], cutShade * colour[1], cutShade * colour[2]],
+    );
+  }
+}
+
+const anyAcross = (n: Vector): Vector => unit(cross(n, Math.abs(n[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0]));
 
 /** A rectangle in the plane, from the front to the back of the annulus. */
 function frameCorners(plane: CutPlane, f: number[], radius: number): number[][] {
@@ -64,21 +151,31 @@ function frameCorners(plane: CutPlane, f: number[], radius: number): number[][] 
   );
 }
 
-let built: { picture: Picture; offset: number; mesh: Mesh } | null = null;
+let built: { picture: Picture; upper: Float32Array; offset: number; meshes: Mesh[] } | null = null;
 
-/** Frame and line of the plane; the last one is kept. */
-export function cutMesh(
+/** The light line along the atrial side of a cut leaflet, which parts leaflets that touch. */
+const lining: Colour = tissue.atrialAnterior;
+
+/** The cut leaflets, annulus and rings, and the frame of the plane; the last ones are kept. */
+export function cutMeshes(
   topology: Topology,
   picture: Picture,
+  sides: Sides,
   plane: CutPlane,
   frame: number[],
   radius: number,
-): Mesh {
-  if (built?.picture === picture && built.offset === plane.offset) return built.mesh;
-  const shapes = new Shapes();
-  for (const [a, b] of cutsOf(topology, picture.positions, plane))
-    shapes.tube(a, b, lineRadius, tissue.cut, 6);
-  shapes.path(frameCorners(plane, frame, radius), frameRadius, tissue.chosen, true, 5);
-  built = { picture, offset: plane.offset, mesh: shapes.mesh() };
-  return built.mesh;
+  closed: Picture | null,
+): Mesh[] {
+  const same = built?.picture === picture && built.upper === sides.upper && built.offset === plane.offset;
+  if (same) return built!.meshes;
+  const [faces, lines] = [new Shapes(), new Shapes()];
+  for (const [a, b] of cutsOf(topology, sides, plane)) {
+    faces.polygon([a[0], a[1], b[1], b[0]], tissue.cut);
+    lines.tube(a[0], b[0], lineRadius, lining, 5);
+  }
+  tubesOf(topology, picture, closed).forEach((tube, layer) => tubeCuts(faces, tube, plane, layer));
+  lines.path(frameCorners(plane, frame, radius), frameRadius, tissue.chosen, true, 5);
+  const meshes = [faces.mesh({ flat: true }), lines.mesh()];
+  built = { picture, upper: sides.upper, offset: plane.offset, meshes };
+  return meshes;
 }

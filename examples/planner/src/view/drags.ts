@@ -109,7 +109,8 @@ export function dropHand(): void {
 /** Below this share of its length on the screen an axis counts as one that points at the viewer. */
 const endOn = 0.25;
 
-/** Motion of the pointer along an axis of the valve, mm; to the right where the axis points at the viewer. */
+/** Motion of the pointer along the CC axis of the valve, mm; where that points at the viewer it grows to the left, as in the
+ *  surgeon's view and under the sliders. */
 function along(view: Viewport, from: number[], axis: number[], dx: number, dy: number): number {
   const [a, b] = [
     project(view, from),
@@ -121,7 +122,7 @@ function along(view: Viewport, from: number[], axis: number[], dx: number, dy: n
   const [ux, uy] = [b[0] - a[0], b[1] - a[1]];
   const length = ux * ux + uy * uy;
   const scale = view.camera.scale(view.height);
-  return Math.sqrt(length) * scale > endOn ? (dx * ux + dy * uy) / length : dx * scale;
+  return Math.sqrt(length) * scale > endOn ? (dx * ux + dy * uy) / length : -dx * scale;
 }
 
 export function dragHandle(view: Viewport, dx: number, dy: number): void {

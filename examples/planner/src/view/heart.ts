@@ -1,7 +1,7 @@
 // Annulus, papillary heads, rings and bands.
 import type { Picture, Topology } from '../protocol';
 import { tissue } from './colours';
-import { point, Shapes, type Mesh } from './mesh';
+import { point, Shapes, type Colour, type Mesh } from './mesh';
 import type { SceneOptions } from './scene';
 
 /** The curves of rings and bands in a moving valve: each point goes with the node of the annulus to which it is sewn. */
@@ -36,29 +36,55 @@ export function headRadius(topology: Topology): number {
   return count > 8 ? 0.9 : count > 2 ? 1.5 : 2;
 }
 
-export function boundary(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+/** The points of each ring or band. */
+export function ringCurves({ ringStart, ringPoints }: Picture, places = ringPoints): number[][][] {
+  const curves: number[][][] = [];
+  for (let r = 0; r + 1 < ringStart.length; ++r) {
+    curves.push([]);
+    for (let k = ringStart[r]; k < ringStart[r + 1]; ++k) curves[r].push(point(places, k));
+  }
+  return curves;
+}
+
+/** Radii of the annulus and of rings in the picture, mm. */
+const annulusRadius = 0.55;
+export const ringRadius = 1.15;
+
+/** A curve that is drawn as a tube. */
+export interface Tube {
+  points: number[][];
+  closed: boolean;
+  radius: number;
+  colour: Colour;
+}
+
+/** The annulus, rings and bands; `closed`: the valve at rest of a moving picture. */
+export function tubesOf(topology: Topology, picture: Picture, closed: Picture | null): Tube[] {
+  const points = Array.from(topology.annulus, (node) => point(picture.positions, node));
+  const tubes: Tube[] = [{ points, closed: true, radius: annulusRadius, colour: tissue.annulus }];
+  for (const curve of ringCurves(picture, carriedRings(topology, picture, closed)))
+    tubes.push({ points: curve, closed: isClosed(curve), radius: ringRadius, colour: tissue.ring });
+  return tubes;
+}
+
+/** In a section they end at its plane, so that they hide nothing of it; cut.ts draws where they are cut. */
+export function annulusAndRings(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
   const shapes = new Shapes();
-  const x = picture.positions;
-  shapes.path(
-    Array.from(topology.annulus, (node) => point(x, node)),
-    0.55,
-    tissue.annulus,
-    true,
-  );
+  for (const { points, closed, radius, colour } of tubesOf(topology, picture, options.closed))
+    shapes.path(points, radius, colour, closed, radius === ringRadius ? 10 : 8);
+  return shapes.mesh({ cut: true });
+}
+
+export function heads(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+  const shapes = new Shapes();
   const radius = headRadius(topology);
   topology.headNodes.forEach((node, h) => {
-    const at = point(x, node);
+    const at = point(picture.positions, node);
     const colour = h === options.chosenHead ? tissue.chosen : tissue.head;
     shapes.sphere(at, radius, colour, 10, 16);
     const below = at.map((v, c) => v - headLength * options.frame[9 + c]);
     shapes.tube(at, below, radius, colour, 16, radius * headFlare);
     shapes.sphere(below, radius * headFlare, colour, 10, 16);
   });
-  const rings = carriedRings(topology, picture, options.closed);
-  for (let r = 0; r + 1 < picture.ringStart.length; ++r) {
-    const points = [];
-    for (let k = picture.ringStart[r]; k < picture.ringStart[r + 1]; ++k) points.push(point(rings, k));
-    shapes.path(points, 1.15, tissue.ring, isClosed(points), 10);
-  }
   return shapes.mesh();
 }

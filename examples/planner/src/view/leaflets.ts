@@ -1,4 +1,5 @@
-// The leaflets: their mesh with both sides told apart or in the colours of a map, and their atrial side, which is what is drawn.
+// The leaflets as sheets with a thickness: an atrial and a ventricular side, told apart or in the colours of a map, each of which
+// is seen from its own side only.
 import type { Fields, Picture, Topology } from '../protocol';
 import { colourOf, isChordMap, maps, tissue } from './colours';
 import { heightOf, vertexNormals, type Mesh } from './mesh';
@@ -6,6 +7,10 @@ import type { SceneOptions } from './scene';
 
 /** mm between the middle of a leaflet and its sides: half the distance at which leaflets of the library touch. */
 export const halfThickness = 0.5;
+
+/** mm from the middle of a leaflet to its ventricular side as it is drawn. Pressed on each other, the middles of the leaflets of the
+ *  library are 0.5 to 0.6 mm apart: ventricular sides of a fold that touch do not cross. */
+const ventricularDepth = 0.25;
 
 /** Value of the colour map at each node; null for maps that do not colour the leaflets. */
 function mapValues(picture: Picture, options: SceneOptions): Float32Array | null {
@@ -21,7 +26,23 @@ function mapValues(picture: Picture, options: SceneOptions): Float32Array | null
   return null;
 }
 
-export function leafletMesh(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
+/** Both sides of the leaflets. One alone, seen from behind, would show the side of the facing leaflet through it: sides that touch
+ *  overlap. */
+export function leafletMeshes(
+  topology: Topology,
+  picture: Picture,
+  middle: Picture,
+  options: SceneOptions,
+): Mesh[] {
+  const upper = leafletMesh(topology, picture, options);
+  const positions = ventricularSide(topology, middle);
+  return [
+    { ...upper, only: 'front' },
+    { ...upper, only: 'back', positions, normals: middleNormals(topology, middle) },
+  ];
+}
+
+function leafletMesh(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
   const nodes = picture.positions.length / 3;
   const front = new Float32Array(3 * nodes);
   const back = new Float32Array(3 * nodes);
@@ -65,7 +86,23 @@ export function leafletMesh(topology: Topology, picture: Picture, options: Scene
 
 /** mm by which the sides of leaflets in contact overlap. The facets of two folds do not fit each other: where the sides only
  *  touched at the nodes, a sealed valve would show slits of light between them, with the chordae behind. */
-const overlap = 0.2;
+export const overlap = 0.2;
+let found: { of: Picture; normals: Float32Array } | null = null;
+
+/** Normals of the middle of the leaflets. The last ones are kept. */
+function middleNormals(topology: Topology, picture: Picture): Float32Array {
+  if (found?.of !== picture)
+    found = { of: picture, normals: vertexNormals(picture.positions, topology.triangles) };
+  return found.normals;
+}
+
+/** The same without those of the annulus, where both sides meet. */
+function awayFromAnnulus(topology: Topology, picture: Picture): Float32Array {
+  const normals = middleNormals(topology, picture).slice();
+  for (const node of topology.annulus) normals.fill(0, 3 * node, 3 * node + 3);
+  return normals;
+}
+
 let lifted: { of: Picture; fields: Fields; picture: Picture } | null = null;
 
 /** The picture with the atrial side of the leaflets in place of their middle. Where leaflets touch, their middles are apart by
@@ -75,8 +112,7 @@ export function atrialSide(topology: Topology, picture: Picture, fields: Fields 
   if (!fields) return picture;
   if (lifted?.of === picture && lifted.fields === fields) return lifted.picture;
   const positions = picture.positions.slice();
-  const normals = vertexNormals(positions, topology.triangles);
-  for (const node of topology.annulus) normals.fill(0, 3 * node, 3 * node + 3);
+  const normals = awayFromAnnulus(topology, picture);
   for (let i = 0; i < positions.length; ++i) {
     const apart = fields.coaptation[Math.floor(i / 3)];
     positions[i] +=
@@ -84,4 +120,16 @@ export function atrialSide(topology: Topology, picture: Picture, fields: Fields 
   }
   lifted = { of: picture, fields, picture: { ...picture, positions } };
   return lifted.picture;
+}
+
+let lowered: { of: Picture; positions: Float32Array } | null = null;
+
+/** The ventricular side of the leaflets. The last one is kept. */
+export function ventricularSide(topology: Topology, picture: Picture): Float32Array {
+  if (lowered?.of === picture) return lowered.positions;
+  const positions = picture.positions.slice();
+  const normals = awayFromAnnulus(topology, picture);
+  for (let i = 0; i < positions.length; ++i) positions[i] -= ventricularDepth * normals[i];
+  lowered = { of: picture, positions };
+  return positions;
 }

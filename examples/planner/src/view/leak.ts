@@ -7,9 +7,9 @@ import { Shapes, vertexNormals, type Mesh } from './mesh';
 const behind = 0.22;
 
 /** A mesh where it is seen, and faintly where something hides it. */
-export function throughTissue(mesh: Mesh): Mesh[] {
+export function throughTissue(mesh: Mesh, opacity = behind): Mesh[] {
   return [
-    { ...mesh, overlay: true, opacity: behind },
+    { ...mesh, overlay: true, opacity },
     { ...mesh, overlay: false },
   ];
 }

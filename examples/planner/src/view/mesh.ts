@@ -1,5 +1,7 @@
 // A triangle mesh as both renderers take it, and shapes made of triangles: tubes, spheres, cones.
 
+import { cross, minus, unit, type Vector } from '../vector';
+
 export type Colour = readonly [number, number, number];
 
 export interface Mesh {
@@ -17,6 +19,8 @@ export interface Mesh {
   cut: boolean;
   /** No light: colour as it is. */
   flat: boolean;
+  /** The only side that is drawn; both where it is not given. */
+  only?: 'front' | 'back';
 }
 
 /** The place of a node. */
@@ -120,6 +124,14 @@ export class Shapes {
         this.index.push(i, i + sides, j + sides, i, j + sides, j);
       }
     }
+  }
+
+  /** A flat polygon whose corners are listed anticlockwise as seen from its front; convex. */
+  polygon(corners: number[][], c: Colour): void {
+    const [a, b, d] = corners as Vector[];
+    const normal = unit(cross(minus(b, a), minus(d, a)));
+    const [first] = corners.map(([x, y, z]) => this.vertex(x, y, z, normal[0], normal[1], normal[2], c));
+    for (let k = 2; k < corners.length; ++k) this.index.push(first, first + k - 1, first + k);
   }
 
   mesh(options: Partial<Pick<Mesh, 'opacity' | 'overlay' | 'cut' | 'flat'>> = {}): Mesh {

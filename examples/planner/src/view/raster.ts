@@ -147,6 +147,7 @@ function fill(
   cut: boolean,
 ): void {
   const { index, opacity } = mesh;
+  const skipped = mesh.only === 'front' ? 7 : mesh.only === 'back' ? 4 : 0;
   for (let t = 0; t < index.length; t += 3) {
     const a = index[t] * stride,
       b = index[t + 1] * stride,
@@ -157,6 +158,7 @@ function fill(
     if (area === 0) continue;
     // y points down: a triangle seen from its front has a negative area
     const side = area < 0 ? 4 : 7;
+    if (side === skipped) continue;
     const x0 = Math.max(0, Math.ceil(Math.min(v[a], v[b], v[c]) - 0.5));
     const x1 = Math.min(width - 1, Math.floor(Math.max(v[a], v[b], v[c]) - 0.5));
     const y0 = Math.max(0, Math.ceil(Math.min(v[a + 1], v[b + 1], v[c + 1]) - 0.5));

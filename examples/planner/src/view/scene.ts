@@ -3,8 +3,8 @@ import type { Fields, OrificePart, Picture, Topology } from '../protocol';
 import { chordae, throughAll } from './chordae';
 import { clips } from './clips';
 import { tissue, type MapName } from './colours';
-import { boundary } from './heart';
-import { atrialSide, leafletMesh } from './leaflets';
+import { annulusAndRings, heads } from './heart';
+import { atrialSide, leafletMeshes, ventricularSide } from './leaflets';
 import { jets, orifice, throughTissue } from './leak';
 import { Shapes, type Mesh } from './mesh';
 import { seams } from './seams';
@@ -25,24 +25,35 @@ export interface SceneOptions {
   chosenHead: number;
   chordsOn: boolean;
   jets: OrificePart[];
+  /** Turns of the clips in degrees, by their names. */
+  clipTurns: Map<string, number>;
   /** The closed valve of a moving picture. */
   closed: Picture | null;
   /** Ends of chordae that the preview takes away, mm. */
   removed: [number[], number[]][];
 }
 
+/** Opacity of a clip that leaflets hide: its turn is read through them. */
+const behindDevice = 0.45;
+
 /** Everything that is drawn of a valve. */
 export function sceneMeshes(topology: Topology, middle: Picture, options: SceneOptions): Mesh[] {
   const picture = atrialSide(topology, middle, options.sides);
-  const leaflets = leafletMesh(topology, picture, options);
-  const meshes = [leaflets, seams(topology, picture, leaflets), boundary(topology, picture, options)];
-  if (options.chordsOn) meshes.push(chordae(topology, picture, options, meshes[0].normals));
-  const bars = clips(topology, picture, options.frame);
-  if (bars) meshes.push(...throughTissue(bars));
+  const lower = ventricularSide(topology, middle);
+  const leaflets = leafletMeshes(topology, picture, middle, options);
+  const [, under] = leaflets;
+  const meshes = [
+    ...leaflets,
+    seams(topology, picture, lower, leaflets[0]),
+    annulusAndRings(topology, picture, options),
+    heads(topology, picture, options),
+  ];
+  if (options.chordsOn) meshes.push(chordae(topology, picture, options, under));
+  const devices = clips(topology, picture, options.frame, options.clipTurns);
+  if (devices) meshes.push(...throughTissue(devices, behindDevice));
   if (picture.orificeTriangles.length) meshes.push(...throughTissue(orifice(picture)));
   if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));
-  if (options.chosenChord >= 0)
-    meshes.push(throughAll(topology, picture, options.chosenChord, meshes[0].normals));
+  if (options.chosenChord >= 0) meshes.push(throughAll(topology, picture, options.chosenChord, under));
   if (options.removed.length) {
     const shapes = new Shapes();
     for (const [a, b] of options.removed) shapes.tube(a, b, 0.35, tissue.chosen);

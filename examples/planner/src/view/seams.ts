@@ -49,17 +49,24 @@ function bordersIn(topology: Topology, x: Float32Array): BorderLine[] {
 /** mm: nodes of the free edge that are further apart are not neighbours but ends of two leaflets. */
 const longest = 8;
 
-/** Thin lines on the sheet; sewn edges are as thick as the leaflet, in its colour: its thickness is what lies between their lines. */
-export function seams(topology: Topology, picture: Picture, leaflet: Mesh): Mesh {
+/** Thin lines on both sides of the sheet, of which `lower` is the ventricular one, and the rim between them along the free edge;
+ *  sewn edges are as thick as the leaflet, in its colour: its thickness is what lies between their lines. */
+export function seams(topology: Topology, picture: Picture, lower: Float32Array, leaflet: Mesh): Mesh {
   const shapes = new Shapes();
   const x = picture.positions;
   const { free, sewn } = linesOf(topology);
-  const at = ({ a, b, share }: OnSide) =>
-    [0, 1, 2].map((c) => x[3 * a + c] + share * (x[3 * b + c] - x[3 * a + c]));
-  for (const { from, to } of bordersIn(topology, x)) shapes.tube(at(from), at(to), 0.1, tissue.seam, 4);
+  const at = (side: Float32Array, { a, b, share }: OnSide) =>
+    [0, 1, 2].map((c) => side[3 * a + c] + share * (side[3 * b + c] - side[3 * a + c]));
+  for (const side of [x, lower])
+    for (const { from, to } of bordersIn(topology, x))
+      shapes.tube(at(side, from), at(side, to), 0.1, tissue.seam, 4);
   const near = ([a, b]: [number, number]) =>
     Math.hypot(...[0, 1, 2].map((c) => x[3 * a + c] - x[3 * b + c])) < longest;
-  for (const [a, b] of free.filter(near)) shapes.tube(point(x, a), point(x, b), 0.2, tissue.edge, 5);
+  for (const [a, b] of free.filter(near)) {
+    for (const side of [x, lower]) shapes.tube(point(side, a), point(side, b), 0.2, tissue.edge, 5);
+    shapes.polygon([point(x, a), point(lower, a), point(lower, b)], tissue.edge);
+    shapes.polygon([point(x, a), point(lower, b), point(x, b)], tissue.edge);
+  }
   for (const [a, b] of sewn.filter(near))
     shapes.tube(point(x, a), point(x, b), halfThickness, colourAt(leaflet, a), 8);
   return shapes.mesh({ cut: true });

@@ -1,10 +1,14 @@
 // The valve that the page shows, be it that of the plan, a preview, the valve before, or one in motion: its frame and
 // size, and its meshes with their labels and leak.
-import { chordValue, leakPlaces, shareOfLimit } from '../notable';
+import { chordValue, clipOf, leakPlaces, shareOfLimit, suture } from '../notable';
+import { clipIn } from '../text/texts';
 import type { Fields, Picture, Topology } from '../protocol';
 import * as state from '../store/state';
 import { isChordMap } from './colours';
+import { cutMeshes } from './cut';
+import { atrialSide, ventricularSide } from './leaflets';
 import type { Mesh } from './mesh';
+import type { CutPlane } from './renderer';
 import { sceneMeshes } from './scene';
 
 /** Rows: origin in mm, AP, CC, into the atrium. */
@@ -50,6 +54,21 @@ function fieldsBefore(picture: Picture): Fields | null {
   return resting?.picture.topology === picture.topology ? resting.figures.fields : null;
 }
 
+/** The shown valve where a plane cuts it. */
+export function cutOf(
+  topology: Topology,
+  picture: Picture,
+  plane: CutPlane,
+  frame: number[],
+  radius: number,
+): Mesh[] {
+  const upper = atrialSide(topology, picture, shownFields() ?? fieldsBefore(picture)).positions;
+  const lower = ventricularSide(topology, picture);
+  const closed = state.motion.value ? (state.resting.value?.picture ?? null) : null;
+  const sides = { middle: picture.positions, upper, lower };
+  return cutMeshes(topology, picture, sides, plane, frame, radius, closed);
+}
+
 /** The meshes of the valve; an empty list before the first valve. */
 export function valveMeshes(frame: number[]): Mesh[] {
   const picture = state.picture.value;
@@ -75,9 +94,18 @@ export function valveMeshes(frame: number[]): Mesh[] {
     chosenHead: choice?.kind === 'head' ? topology.heads.findIndex((part) => part.id === choice.id) : -1,
     chordsOn: state.chordsOn.value,
     jets: leakPlaces(figures?.orificeParts ?? []),
+    clipTurns: clipTurns(topology),
     closed: state.motion.value ? (state.resting.value?.picture ?? null) : null,
     removed: state.chordsOn.value && shown && shown === state.preview.value ? removedChords(topology) : [],
   });
+}
+
+/** Turns of the clips of the shown valve, as its plan says; a clip from before the plan is drawn across the edge. */
+function clipTurns({ chords, chordKind }: Topology): Map<string, number> {
+  const { history } = (state.shown.value ?? state.resting.value)?.figures ?? { history: [] };
+  const titles = history.filter((entry) => !entry.undone).map((entry) => entry.title);
+  const names = new Set(chords.flatMap(({ name }, k) => (chordKind[k] === suture ? [clipOf(name)] : [])));
+  return new Map([...names].map((name) => [name, clipIn(name, titles)?.angle ?? 0]));
 }
 
 /** Ends of the chordae that the preview takes away, in the valve before. */

@@ -4,15 +4,14 @@ import { effect, untracked } from '@preact/signals';
 import * as state from '../store/state';
 import { appTexts } from '../text/texts';
 import { Camera, type Preset } from './camera';
-import { cutMesh, planeOf } from './cut';
+import { planeOf } from './cut';
 import { Gestures } from './gestures';
 import { overlayInputs, sameInputs, sceneInputs } from './inputs';
 import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
-import { atrialSide } from './leaflets';
-import { shownFields, shownFrame, shownRadius, valveMeshes } from './shown';
+import { cutOf, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh } from './surface';
 import { WebGl } from './webgl';
@@ -208,8 +207,7 @@ export class Viewport {
     const topology = picture && state.topologyOf(picture);
     const plane = this.plane();
     if (plane && topology && !this.surface) {
-      const drawn = atrialSide(topology, picture, shownFields());
-      meshes.push(cutMesh(topology, drawn, plane, this.frameOf(), this.radius()));
+      meshes.push(...cutOf(topology, picture, plane, this.frameOf(), this.radius()));
     }
     const marks = marksMesh(state.sectionOn.value && !this.surface ? this.handle() : null);
     if (marks) meshes.push(marks);

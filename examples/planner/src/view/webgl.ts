@@ -3,11 +3,13 @@
 // processor) lets chordae show between triangles of the leaflets, in single samples of 10 to 39 pixels; without multisampling,
 // and in the rasteriser, no chord shows there.
 import {
+  BackSide,
   BufferAttribute,
   BufferGeometry,
   Color,
   ColorManagement,
   DoubleSide,
+  FrontSide,
   LinearSRGBColorSpace,
   Matrix4,
   Mesh as Object3,
@@ -33,14 +35,16 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 const fragmentShader = `precision highp float;
-uniform vec4 plane; uniform float opacity, flatColour;
+uniform vec4 plane; uniform float opacity, flatColour, backOnly;
 in vec3 vNormal, vFront, vBack, vPosition;
 out vec4 colour;
 ${shadeGlsl}
 void main() {
   if (dot(plane.xyz, vPosition) > plane.w) discard;
-  vec3 n = normalize(vNormal) * (gl_FrontFacing ? 1.0 : -1.0);
-  vec3 c = gl_FrontFacing ? vFront : vBack;
+  // three.js turns the winding of a mesh round of which only the back is drawn
+  bool front = gl_FrontFacing != (backOnly > 0.5);
+  vec3 n = normalize(vNormal) * (front ? 1.0 : -1.0);
+  vec3 c = front ? vFront : vBack;
   colour = vec4(flatColour > 0.5 ? c : shade(c, n), opacity);
 }`;
 
@@ -136,7 +140,7 @@ export class WebGl implements Renderer {
       glslVersion: GLSL3,
       vertexShader,
       fragmentShader,
-      side: DoubleSide,
+      side: mesh.only === 'front' ? FrontSide : mesh.only === 'back' ? BackSide : DoubleSide,
       forceSinglePass: true,
       transparent: mesh.opacity < 1 || mesh.overlay,
       depthWrite: mesh.opacity === 1 || mesh.overlay,
@@ -144,6 +148,7 @@ export class WebGl implements Renderer {
         plane: { value: new Vector4(0, 0, 0, 1) },
         opacity: { value: mesh.opacity },
         flatColour: { value: mesh.flat ? 1 : 0 },
+        backOnly: { value: mesh.only === 'back' ? 1 : 0 },
       },
     });
     const object = new Object3(geometry, material);
