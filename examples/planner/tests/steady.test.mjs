@@ -97,7 +97,7 @@ describe('planner layout', () => {
     await begin(page, 'band');
     await page.getByRole('button', { name: 'Before', exact: true }).waitFor();
     await inWindows(async (size) => {
-      const text = '“Valve 3: dilated, and a short chord” is finished. Its repair can be opened once more.';
+      const text = 'The plan “Valve 3: dilated, and a short chord” was closed; it reaches all goals.';
       await page.evaluate((words) => {
         const action = { text: 'Return to it', run() {} };
         window.planner.state.notice.value = { kind: 'info', text: words, action };

@@ -5,6 +5,7 @@ import { leaveTexts, t } from '../text/texts';
 import { millimetres } from '../units';
 import type { FileUnit, Shown } from '../protocol';
 import { discard } from './edit';
+import { reachesAll } from './goals';
 import { request, run, show } from './requests';
 import * as state from './state';
 
@@ -13,7 +14,7 @@ interface Left {
   title: string;
   bytes: Uint8Array;
   tour: typeof state.tour.value;
-  /** A valve of the tour whose goals were reached. */
+  /** A valve of the tour whose goals it reaches. */
   finished: boolean;
 }
 
@@ -30,7 +31,7 @@ export async function leave(): Promise<Left | null> {
     return {
       title,
       tour: state.tour.value,
-      finished: state.finished.value.includes(state.tour.value?.number ?? 0),
+      finished: reachesAll(),
       bytes: await request('save_session', { title, notes: state.notes.value }),
     };
   } catch {

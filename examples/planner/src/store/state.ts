@@ -92,6 +92,8 @@ export const status = signal('');
 export const checkpoints = signal<string[]>([]);
 /** Hashes of the valves of the checkpoints. */
 export const checkpointHashes = signal<string[]>([]);
+/** Valves of kept plans by name, as they were read last. */
+export const keptPlans = signal<Map<string, Shown>>(new Map());
 /** The name of the checkpoint that was removed or replaced last and can be put back. */
 export const removedCheckpoint = signal<string | null>(null);
 export const title = signal('');

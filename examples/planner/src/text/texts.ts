@@ -1,5 +1,5 @@
 // Every text that the page shows, in a surgeon's words. To translate the page, translate this file.
-import { leakPlaces, suture } from '../notable';
+import { farBeyond, leakPlaces, suture } from '../notable';
 import type { Figures } from '../protocol';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
@@ -24,6 +24,18 @@ export function stenosis(area: number): string {
   if (shown <= 10) return 'very severe stenosis';
   if (shown <= 15) return 'severe stenosis';
   return shown < 18 ? 'narrow' : '';
+}
+
+/** A share of a limit, in per cent or, far beyond it, in times. */
+const shareWords = (percent: number): string =>
+  percent < farBeyond ? `${percent} %` : `${number(percent / 100, percent < 1000 ? 1 : 0)} times`;
+
+/** The load of a chord; an artificial one is compared with the limit of a native one. */
+function loadWords(percent: number, artificial: boolean): string {
+  const limit = artificial ? 'a native limit' : 'its limit';
+  return percent < farBeyond
+    ? `${shareWords(percent)} of ${limit}`
+    : `far beyond ${limit} (${shareWords(percent)})`;
 }
 
 /** A verdict in one sentence: the grade of the leak, its place, what is wrong beside it. */
@@ -249,6 +261,9 @@ export const tourTexts = {
   valveOf: (k: number) => `Valve ${k}`,
   hint: 'A hint',
   goal: (number: number) => `Goals of valve ${number}`,
+  afterOperation: 'after this operation',
+  /** Of a goal, for those who do not see its sign; null: not known yet. */
+  judged: (done: boolean | null) => (done === null ? 'not known yet' : done ? 'reached' : 'missed'),
   repair: 'Repair this valve',
   next: (number: number) => `On to valve ${number}`,
   present: (k: number) => `Valve ${k} of the tour`,
@@ -473,34 +488,42 @@ export const verdictTexts = {
   ofClosed: 'when closed',
   chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
   but: ', but',
-  butHelp: 'A sealed valve may still open too little, or hang on chordae that may tear.',
+  butHelp: 'A sealed valve may still open too little, miss another goal, or hang on chordae that may tear.',
   /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
-  openingIs: (area: number, word: string, adult: boolean) =>
-    `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}`,
+  openingIs: (area: number, word: string, adult: boolean, goal: number | null) =>
+    `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}${goal === null ? '' : `, goal ${number(goal / 100)}`}`,
+  openingBelow: (area: number, goal: number) =>
+    `opening ${number(area / 100, 2)} cm² is below the goal ${number(goal / 100, 2)}`,
+  undersized: (cc: number, from: number) =>
+    `annulus ${number(cc, 0)} mm wide, was ${number(from, 0)}: much undersized`,
+  edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
+  coaptationBelow: (length: string, goal: string) => `coaptation ${length} mm is below the goal ${goal}`,
   smallAnnulus: (cc: number) =>
     `Limits of stenosis are those of adults. This annulus is smaller, ${number(cc, 0)} mm side to side: a child’s valve needs less, in proportion to the body, which is not known here.`,
   openingUnknown: 'its opening is not measured yet',
   /** `artificial`: the most loaded one is; its limit is that of a native chord. */
   chordsBeyond: (count: number, percent: number, artificial: boolean) => {
-    if (count > 1)
-      return `${count} chordae over limit, up to ${percent} %${artificial ? ' (artificial, of a native limit)' : ''}`;
-    return artificial
-      ? `artificial chord at ${percent} % of a native limit`
-      : `1 chord at ${percent} % of its limit`;
+    const far = percent >= farBeyond;
+    if (count > 1) {
+      const most = artificial ? ' (artificial, of a native limit)' : far ? ' the limit: may tear' : '';
+      return `${count} chordae over limit, up to ${shareWords(percent)}${most}`;
+    }
+    const words = `${far ? '' : 'at '}${loadWords(percent, artificial)}`;
+    return artificial ? `artificial chord ${words}` : `1 chord ${words}${far ? ': may tear' : ''}`;
   },
   relieved: (chords: { name: string; percent: number }[]) =>
     `${listOf(chords.map(({ name, percent }) => `${name} (before ${percent} %)`))} ${chords.length === 1 ? 'is' : 'are'} slack`,
   relievedHelp:
     'It was far beyond its working limit before and carries nothing any more: its leaflet is held by its neighbours alone.',
-  chordOver: (name: string, percent: number) => `${name} ${percent} %`,
+  chordOver: (name: string, percent: number) => `${name} ${shareWords(percent)}`,
   limitHelp:
-    'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it a chord may tear. A healthy valve may have one just at its limit.',
+    'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it, from 200 % on, a chord may tear; at which load it does is not known here. A healthy valve may have one just at its limit.',
   artificialHelp:
     'No limit of ePTFE is known here. An artificial chord is compared with the limit of a native chord of the free edge, as a measure of how much more it pulls than what it replaces; whether thread and stitches hold is not calculated.',
 };
 
 export const leaveTexts = {
-  finished: (title: string) => `“${title}” is finished. Its repair can be opened once more.`,
+  finished: (title: string) => `The plan “${title}” was closed; it reaches all goals.`,
   left: (title: string) => `The changed plan “${title || 'without a name'}” was closed.`,
   repaired: 'Your repair of this valve can be opened again.',
   back: 'Return to it',
@@ -726,7 +749,7 @@ export const formTexts = {
 export const markTexts = {
   plane: (through: string[]) => `Section plane through ${listOf(through)}: drag`,
   chord: (name: string, length: number, percent: number | null, artificial: boolean) =>
-    `${name}  ${number(length)} mm${percent === null ? '' : `, ${percent} % of ${artificial ? 'a native' : 'its'} limit`}`,
+    `${name}  ${number(length)} mm${percent === null ? '' : `, ${loadWords(percent, artificial)}`}`,
   clip: 'Clip: drag',
   turn: (angle: number) => (angle ? `Turn: ${number(angle, 0)}°` : 'Turn: drag'),
 };
@@ -742,8 +765,8 @@ export const openingTexts = {
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   beside: (before: number | undefined, least: number | null) =>
     [
-      before === undefined ? '' : `without it ${number(before / 100, 2)}`,
-      least === null ? '' : `goal ${number(least / 100, 2)} or more`,
+      before === undefined ? '' : `without it ${number(before / 100, 2)} cm²`,
+      least === null ? '' : `goal ${number(least / 100, 2)} cm² or more`,
     ]
       .filter(Boolean)
       .join(', '),
@@ -786,6 +809,8 @@ export const repairTexts = {
   limit: 'Share of its limit',
   nativeLimit: 'Share of a native limit',
   limitIn: (limit: string) => `limit ${limit}`,
+  /** Beside a share of a limit in per cent. */
+  far: (percent: number) => (percent < farBeyond ? '' : `far beyond it: ${shareWords(percent)}`),
   becomes: (was: string, now: string) => `${was} → ${now}`,
   letGo: 'Let go of this part',
   changeLength: 'Change length',
@@ -824,6 +849,7 @@ export const planTexts = {
   returnTo: 'Return to it',
   compare: 'Compare',
   present: 'Present plan',
+  result: 'Result:',
   steps: 'Steps',
   none: 'none',
   notes: 'Notes',
@@ -916,7 +942,7 @@ export const gestureTexts = {
     percent: number | null;
     artificial: boolean;
   }) =>
-    `${chord.name}: ${number(chord.rest)} mm without pull, ${chord.strain > 0 ? `pull ${millinewton(chord.tension)}, stretch ${number(100 * chord.strain)} %` : 'slack'}${chord.percent === null ? '' : `, ${chord.percent} % of ${chord.artificial ? 'a native' : 'its'} limit`}`,
+    `${chord.name}: ${number(chord.rest)} mm without pull, ${chord.strain > 0 ? `pull ${millinewton(chord.tension)}, stretch ${number(100 * chord.strain)} %` : 'slack'}${chord.percent === null ? '' : `, ${loadWords(chord.percent, chord.artificial)}`}`,
 };
 
 /** Words for the values of a choice, where those of the library are not a surgeon's. */
