@@ -42,7 +42,8 @@ describe('planner read and touched', () => {
     // the annulus is prescribed: folds do not move it
     assert.equal(spread.measures.annulusAp[0], spread.measures.annulusAp[1]);
     // the ranges make no table wider than its panel
-    const over = (table) => table.getBoundingClientRect().right - table.parentElement.getBoundingClientRect().right;
+    const over = (table) =>
+      table.getBoundingClientRect().right - table.parentElement.getBoundingClientRect().right;
     assert.ok((await page.getByTestId('scallops').evaluate(over)) <= 1);
     // on the card, in the figures, in the table of the scallops and in that of the chordae
     await page.locator('summary', { hasText: /^Chordae \(/ }).click();

@@ -4,6 +4,7 @@ import { shippedVertices } from '../shipped';
 import { leaveTexts, t } from '../text/texts';
 import { millimetres } from '../units';
 import type { FileUnit, Shown } from '../protocol';
+import { mayReplace } from './ask';
 import { discard } from './edit';
 import { reachesAll } from './goals';
 import { request, run, show } from './requests';
@@ -64,7 +65,9 @@ function offerRepair(number: number, left: Left | null): void {
 }
 
 async function comeBack(left: Left): Promise<void> {
-  await openSession(left.bytes);
+  const present = await leave();
+  if (present && !(await mayReplace(left.title, 'file'))) return;
+  if (!(await openSession(left.bytes, present))) return;
   batch(() => {
     state.tour.value = left.tour;
     state.changed.value = true;

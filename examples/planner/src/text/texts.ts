@@ -32,10 +32,9 @@ const shareWords = (percent: number): string =>
 
 /** The load of a chord; an artificial one is compared with the limit of a native one. */
 function loadWords(percent: number, artificial: boolean): string {
-  const limit = artificial ? 'a native limit' : 'its limit';
-  return percent < farBeyond
-    ? `${shareWords(percent)} of ${limit}`
-    : `far beyond ${limit} (${shareWords(percent)})`;
+  const share = shareWords(percent);
+  if (percent < farBeyond) return `${share} of ${artificial ? 'a native' : 'its'} limit`;
+  return artificial ? `${share} a native limit` : `far beyond its limit (${share})`;
 }
 
 /** A verdict in one sentence: the grade of the leak, its place, what is wrong beside it. */
@@ -200,7 +199,8 @@ export function say(sentence: string): string {
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
-    .replace(clipWidth, (_, v: string) => `, ${+v} mm wide`)
+    .replace(clipWidth, (_, v: string) => `, ${+v} mm wide`)
+    .replace(/\bneochord(ae|s)?\b/g, (_, many?: string) => (many ? 'artificial chordae' : 'artificial chord'))
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
     .replace(/^mvs_\w+: /, '');
@@ -356,7 +356,7 @@ export const help = {
     ['V R P L I', 'Panels: Valve, Repair, Plan, Learn; Import, once a surface was opened'],
     ['O', 'Open and close the valve'],
     ['W', 'The valve before, and the present one again'],
-    ['X', 'Slice the picture at the section plane'],
+    ['X', 'Section plane in the picture on and off'],
     ['C', 'Chordae on and off'],
     ['N', 'Names on and off'],
     ['M', 'Next colour map'],
@@ -370,6 +370,7 @@ export const help = {
     ['Ctrl Z, Ctrl Y', 'Undo, redo'],
     ['Ctrl S', 'Save the session'],
     ['Ctrl O', 'Open a file'],
+    ['F', 'What the figures mean'],
     ['?', 'This list'],
   ] as [string, string][],
 };
@@ -462,9 +463,9 @@ export const refusals = {
       : `its version is ${JSON.stringify(given)}, and this page reads ${known}`,
   missing: (file: string) => `${file} is missing from the session`,
   noPreview: 'there is no preview to apply: choose an operation',
-  noCheckpoint: (name: string) => `there is no checkpoint ${name}`,
-  sameCheckpoint: (name: string) => `there is already a checkpoint “${name}”: choose another name`,
-  nothingRemoved: 'no checkpoint was deleted',
+  noCheckpoint: (name: string) => `there is no kept plan ${name}`,
+  sameCheckpoint: (name: string) => `there is already a plan “${name}”: choose another name`,
+  nothingRemoved: 'no kept plan was deleted',
   noOperation: (kind: string) => `there is no operation ${kind}`,
   noField: (kind: string, name: string) => `${kind} has no field ${name}`,
   cancelled: 'cancelled',
@@ -508,8 +509,9 @@ export const verdictTexts = {
       const most = artificial ? ' (artificial, of a native limit)' : far ? ' the limit: may tear' : '';
       return `${count} chordae over limit, up to ${shareWords(percent)}${most}`;
     }
-    const words = `${far ? '' : 'at '}${loadWords(percent, artificial)}`;
-    return artificial ? `artificial chord ${words}` : `1 chord ${words}${far ? ': may tear' : ''}`;
+    const words = loadWords(percent, artificial);
+    if (artificial) return `artificial chord at ${words}`;
+    return far ? `1 chord ${words}: may tear` : `1 chord at ${words}`;
   },
   relieved: (chords: { name: string; percent: number }[]) =>
     `${listOf(chords.map(({ name, percent }) => `${name} (before ${percent} %)`))} ${chords.length === 1 ? 'is' : 'are'} slack`,
@@ -529,10 +531,26 @@ export const leaveTexts = {
   back: 'Return to it',
 };
 
+/** The question before a plan that is kept nowhere gives way to another one. */
+export const askTexts = {
+  title: 'The present plan is not kept',
+  lost: (title: string, to: string) =>
+    `Your changed plan${title ? ` of “${title}”` : ''} is not kept. “${to || 'Another plan'}” takes its place.`,
+  keep: (name: string) => `Keep it as “${name}” first`,
+  save: 'Save it to a file first',
+  replace: 'Replace it',
+  stay: 'Stay with the present plan',
+};
+
 export const partTexts = {
   before: (value: string) => `before ${value}`,
-  range: (low: string, high: string) => `${low} to ${high}`,
-  spreadHelp: 'Over eight ways in which the closed leaflets can fold',
+  /** `closures`: over which the range is; 0 in a table, which says it below. */
+  range: (low: string, high: string, closures: number) =>
+    `${low} to ${high}${closures ? ` over ${closures} closures` : ''}`,
+  spreadHelp: 'Range of this figure over closures from different folds of the leaflets',
+  /** Below a table with ranges. */
+  ranges: (closures: number) =>
+    `“a to b” below a figure: its range over ${closures} closures from different folds of the leaflets.`,
 };
 
 export const appTexts = {
@@ -572,9 +590,9 @@ export const barTexts = {
   closed: 'Closed',
   opening: 'Open or closed',
   show: 'Show',
-  cut: 'Slice at the section plane',
+  cut: 'Section plane in the picture',
   // short words below the icons; each begins the name of its button
-  words: { cut: 'Slice', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
+  words: { cut: 'Section', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
   pointer: 'Pointer',
@@ -810,7 +828,8 @@ export const repairTexts = {
   nativeLimit: 'Share of a native limit',
   limitIn: (limit: string) => `limit ${limit}`,
   /** Beside a share of a limit in per cent. */
-  far: (percent: number) => (percent < farBeyond ? '' : `far beyond it: ${shareWords(percent)}`),
+  far: (percent: number, artificial: boolean) =>
+    percent < farBeyond || artificial ? '' : `far beyond it: ${shareWords(percent)}`,
   becomes: (was: string, now: string) => `${was} → ${now}`,
   letGo: 'Let go of this part',
   changeLength: 'Change length',
@@ -834,8 +853,8 @@ export const repairTexts = {
 
 export const planTexts = {
   nothing: 'Nothing has been done yet. Operations appear here one by one.',
-  checkpoints: 'Checkpoints',
-  checkpointName: 'Name of the checkpoint',
+  checkpoints: 'Kept plans',
+  checkpointName: 'Name of the plan',
   planOf: (k: number) => `Plan ${k}`,
   rename: (name: string) => `Rename “${name}”`,
   newName: (name: string) => `New name of “${name}”`,
@@ -868,6 +887,7 @@ export const planTexts = {
 
 /** Names of figures in the comparison and in the report. */
 export const figureNames = {
+  plan: 'Plan',
   verdict: 'Verdict',
   orifice: 'Leak',
   coaptationMean: 'Coaptation length, mean',
@@ -884,7 +904,12 @@ export const reportTexts = {
   title: 'Report',
   fileTitle: 'Valve report',
   fileName: (title: string) => `${title || 'valve'} report.html`,
-  closed: (when: string) => `${when}. The present plan, closed at 120 mmHg.`,
+  /** `name`: under which the plan is kept. */
+  closed: (when: string, name: string) =>
+    `${when}. ${name ? `The plan “${name}”` : 'The present plan, which is not kept under a name'}, closed at 120 mmHg.`,
+  present: 'Present plan',
+  otherPlans: 'This plan and the other kept plans',
+  notMeasured: 'not measured',
   before: 'Before',
   after: 'After',
   section: 'Section through the middle',
@@ -930,7 +955,218 @@ export const sectionTexts = {
   plane: (mm: number, through: string[]) =>
     `Plane through ${listOf(through)}, ${mm === 0 ? 'in the middle' : `${number(Math.abs(mm))} mm from the middle towards the ${formTexts.sides[mm > 0 ? 0 : 1]} commissure`}`,
   middle: 'To the middle',
-  cut: 'Slice the picture at this plane',
+  cut: 'Section plane in the picture',
+};
+
+interface Meaning {
+  /** As the page labels it, in all places. */
+  names: string[];
+  unit: string;
+  meaning: string;
+  measured: string;
+}
+
+/** What the figures mean: each figure of the page, and the names of the scallops. */
+export const figureHelp: {
+  title: string;
+  intro: string;
+  unit: string;
+  measured: string;
+  sketch: string;
+  sides: string[];
+  front: string;
+  back: string;
+  scallops: string[];
+  groups: { title: string; figures: Meaning[] }[];
+} = {
+  title: 'What the figures mean',
+  intro:
+    'All figures are of the valve closed under 120 mmHg, unless they say otherwise. “before” is the valve before the first operation of the plan; with a form open, before this operation.',
+  unit: 'Unit',
+  measured: 'Measured',
+  sketch:
+    'The valve as the surgeon sees it from the atrium: A1, A2, A3 of the anterior leaflet above from left to right, P1, P2, P3 of the posterior leaflet below, the anterolateral commissure on the left, the posteromedial one on the right.',
+  sides: ['AL', 'PM'],
+  front: 'front: aorta',
+  back: 'back',
+  scallops: [
+    'A1, A2, A3 are parts of the anterior leaflet and P1, P2, P3 scallops of the posterior leaflet (Carpentier). 1 is beside the anterolateral commissure, 3 beside the posteromedial one, 2 in the middle.',
+    'A1–P1 and A3–P3 are the commissures. AL and PM are the anterolateral and the posteromedial papillary muscle, AL1 to AL3 heads of it. A2/13 is chord 13 of A2.',
+  ],
+  groups: [
+    {
+      title: 'Leak',
+      figures: [
+        {
+          names: ['Leak', 'Orifice'],
+          unit: 'mm²',
+          meaning: 'How large the hole is that stays open in systole; 0 is sealed.',
+          measured:
+            'The smallest cross-section through which blood gets between the leaflets back into the atrium. Beside a scallop, half of it counts for either side.',
+        },
+        {
+          names: ['Grade'],
+          unit: 'in words',
+          meaning:
+            'Sealed, mild, moderate, moderate–severe, severe. “Sealed, but” names what is wrong beside: an unmet goal, a narrow opening, chordae that may tear.',
+          measured:
+            'By the leak: below 20, 30, 40 mm², and more, as an effective orifice in echocardiography.',
+        },
+      ],
+    },
+    {
+      title: 'How the leaflets meet',
+      figures: [
+        {
+          names: [valveTexts.coaptationMean, valveTexts.coaptationLeast, 'Coaptation'],
+          unit: 'mm',
+          meaning:
+            'How much leaflet lies against the other one. More is a reserve; surgeons aim at 8 mm at A2–P2.',
+          measured:
+            'Along the tissue, from the free edge towards the annulus: the mean and the least of the whole line of closure, in which a gap counts as 0.',
+        },
+        {
+          names: [valveTexts.coaptationHeight],
+          unit: 'mm',
+          meaning: 'The height of contact that a long-axis view of echocardiography shows.',
+          measured: 'Straight along the axis of the valve, in the section through the middle of A2 and P2.',
+        },
+        {
+          names: [valveTexts.coaptationArea],
+          unit: 'mm²',
+          meaning: 'How much tissue of one leaflet touches the other one.',
+          measured: 'One side of the contact.',
+        },
+      ],
+    },
+    {
+      title: 'The shape of the leaflets',
+      figures: [
+        {
+          names: [valveTexts.billow, valveTexts.billowVolume, 'Billow'],
+          unit: 'mm, ml',
+          meaning: 'How far the leaflets bulge into the atrium; more than 2 mm counts as prolapse.',
+          measured: 'The highest point, and the volume, above a surface that spans the annulus.',
+        },
+        {
+          names: ['Edge', 'Free edge'],
+          unit: 'mm',
+          meaning:
+            'How high the free edge of a scallop stands. Above the annulus it prolapses; flail, it stands in the atrium.',
+          measured: 'Its highest point above (+) or below (−) the plane of the annulus.',
+        },
+        {
+          names: [valveTexts.tenting, valveTexts.tentingVolume],
+          unit: 'mm, ml',
+          meaning: 'How deep chordae and papillary muscles hold the closed leaflets in the ventricle.',
+          measured: 'The deepest point below the plane of the annulus, and the volume between the two.',
+        },
+        {
+          names: [valveTexts.stretch95, valveTexts.stress95],
+          unit: '%, kPa',
+          meaning:
+            'How much the tissue of the leaflets is stretched and loaded. Compare them before and after, not with another patient.',
+          measured: 'The value that 95 % of the tissue stays below.',
+        },
+      ],
+    },
+    {
+      title: 'Annulus',
+      figures: [
+        {
+          names: [valveTexts.ap, valveTexts.cc],
+          unit: 'mm',
+          meaning: 'Depth and width of the annulus; 24 to 29 and 35 to 39 mm in healthy adults.',
+          measured:
+            'In systole, from the middle of the anterior annulus to the middle of the posterior one, and between the commissures.',
+        },
+        {
+          names: [valveTexts.circumference, valveTexts.area],
+          unit: 'mm, cm²',
+          meaning: 'The length of the annulus, and the area that it surrounds.',
+          measured: 'Along the annulus; the area as seen from the atrium.',
+        },
+        {
+          names: [valveTexts.saddle, valveTexts.angle],
+          unit: 'mm, °',
+          meaning: 'How much the annulus is a saddle and not flat.',
+          measured:
+            'From its lowest to its highest point; the angle at the middle between front and back, 180° if it is flat.',
+        },
+        {
+          names: [valveTexts.annulusPull],
+          unit: 'N',
+          meaning: 'How strongly the closed leaflets pull at annulus, ring or band.',
+          measured: 'The sum of all forces of the leaflets on the annulus.',
+        },
+      ],
+    },
+    {
+      title: 'How it opens',
+      figures: [
+        {
+          names: [valveTexts.openArea],
+          unit: 'cm²',
+          meaning:
+            'The smallest opening for the inflow. 1.5 cm² or less is a severe stenosis in adults (ACC/AHA 2014).',
+          measured:
+            'On a copy of the valve that is opened by 5 mmHg, between the leaflets or at the annulus, whichever is smaller.',
+        },
+        {
+          names: [valveTexts.gradient],
+          unit: 'mmHg',
+          meaning:
+            'The pressure that the inflow loses at the valve; more than 5 mmHg is too much after a repair.',
+          measured: 'From the open area and the flow that you give (Gorlin).',
+        },
+      ],
+    },
+    {
+      title: 'Chordae',
+      figures: [
+        {
+          names: [tableTexts.pull, repairTexts.pull, valveTexts.strongestPull],
+          unit: 'mN',
+          meaning: 'How strongly a chord is pulled; 1,000 mN are 1 N, about the weight of 100 g.',
+          measured: 'From its stretch, stiffness and thickness; a slack chord pulls at nothing.',
+        },
+        {
+          names: [valveTexts.pullOn('a papillary head')],
+          unit: 'N',
+          meaning: 'How strongly its chordae pull at a head of a papillary muscle.',
+          measured: 'The sum of the pulls of its chordae, each in its direction.',
+        },
+        {
+          names: [tableTexts.length, repairTexts.stretch],
+          unit: 'mm, %',
+          meaning:
+            'The length of a chord before it becomes taut, and how much longer than that it is under load.',
+          measured: 'Along the straight line between its ends.',
+        },
+        {
+          names: [tableTexts.ofLimit, repairTexts.limit],
+          unit: '%, or times',
+          meaning:
+            'The load of a chord beside the load at which such chordae work. Beyond 100 % look at it; from 200 % on it is far beyond and may tear. At which load it tears is not known here.',
+          measured:
+            'The larger share of two limits: a stretch of 11.1 %, and a pull of 2 N for strut chordae and trunks, 0.8 N for others. Artificial chordae are compared with the limit of native ones.',
+        },
+      ],
+    },
+    {
+      title: 'How certain it is',
+      figures: [
+        {
+          names: ['“a to b over 8 closures”'],
+          unit: 'of its figure',
+          meaning:
+            'The leaflets can fold in more than one way, and a figure differs a little from one way to another.',
+          measured:
+            'The least and the largest value, when the valve is closed eight times from different folds.',
+        },
+      ],
+    },
+  ],
 };
 
 export const gestureTexts = {
@@ -1069,16 +1305,16 @@ export function fieldTip(kind: string, name: string, help: string, usual: string
 /** Tooltips of controls by their visible words: what happens when they are used. */
 export const tips: Record<string, string> = {
   [barTexts.open]: 'Opens a saved session, a valve, or the surface of a patient’s valve (STL, PLY, OBJ)',
-  [barTexts.save]: 'Saves the valve with its plan, checkpoints and notes as one file on this computer',
+  [barTexts.save]: 'Saves the valve with its plan, kept plans and notes as one file on this computer',
   [barTexts.undo]: 'Takes the last operation back',
   [barTexts.redo]: 'Does the operation again that was taken back last',
   [barTexts.startHealthy]: 'Leaves this plan for a healthy valve; you can return to a changed plan',
-  [barTexts.help]: 'All keys and gestures, and the licences',
+  [barTexts.help]: 'All keys and gestures, what the figures mean, and the licences',
   [barTexts.presets.surgeon]: 'View from the atrium with P2 below, as in the operation',
   [barTexts.presets.ventricle]: 'View from the ventricle on chordae and papillary muscles',
   [barTexts.presets.commissure]: 'View from the side, with the atrium above',
   [barTexts.presets.section]:
-    'View of a cut from front to back through both leaflets; drag the blue ball to move it',
+    'View of a section from front to back through both leaflets; drag the blue ball to move it',
   [barTexts.opening]: 'Lets the pressure on the valve fall and rise again, so that it opens and closes',
   [barTexts.cut]: 'Takes away what lies in front of the section plane',
   [barTexts.chordae]: 'Shows or hides the chordae',
@@ -1089,7 +1325,7 @@ export const tips: Record<string, string> = {
   [barTexts.colours]: 'What the colours of leaflets and chordae show',
   [appTexts.valve]: 'Figures of the valve: leak, coaptation, annulus, chordae',
   [appTexts.repair]: 'Operations, and what can be done with a chosen part',
-  [appTexts.plan]: 'What was done, checkpoints, notes, saving and the report',
+  [appTexts.plan]: 'What was done, kept plans, notes, saving and the report',
   [appTexts.tour]: 'Four leaking valves to learn on, with goals',
   [importTexts.tab]: 'Makes a valve of the surface that was opened',
   [appTexts.apply]: 'Does the operation; it can be undone',
@@ -1110,7 +1346,6 @@ export const tips: Record<string, string> = {
   [valveTexts.howCertain]:
     'Closes the valve from several folds of the leaflets, and writes the range beside each figure',
   [sectionTexts.middle]: 'Moves the plane back to the middle of A2 and P2',
-  [sectionTexts.cut]: 'Shows the same cut in the picture',
   [repairTexts.more]: 'Operations that are done less often',
   [repairTexts.letGo]: 'Nothing is chosen any more',
   [repairTexts.changeLength]: operationTips.chord_length,
@@ -1129,15 +1364,16 @@ export const tips: Record<string, string> = {
   [pointTexts.use]: 'Ends the drawing and shows the valve after this cut',
   [pointTexts.back]: 'Takes the last point of the cut away',
   [pointTexts.remove]: 'Forgets the measured ring',
-  [planTexts.checkpoints]: 'Stages of the plan that were kept under a name',
+  [figureHelp.title]: 'Each figure in words, its unit, how it is measured; the names of the scallops',
+  [planTexts.checkpoints]: 'Plans of this valve that were kept under a name',
   [planTexts.checkpointName]: 'The name under which the present plan is kept',
   [planTexts.keep]: 'Keeps the present plan, to return to it or to compare with it',
   [planTexts.returnTo]: 'Makes this plan the present one',
   [planTexts.compare]: 'Shows figures and pictures of both plans side by side',
-  [planTexts.putBack]: 'Brings the checkpoint back',
+  [planTexts.putBack]: 'Brings the kept plan back',
   [planTexts.notes]: 'What you write here stands in the session and in the report',
   [planTexts.files]: 'Files on this computer; nothing is sent anywhere',
-  [planTexts.save]: 'Saves the valve with its plan, checkpoints and notes as one file on this computer',
+  [planTexts.save]: 'Saves the valve with its plan, kept plans and notes as one file on this computer',
   [planTexts.obj]: 'Saves the present valve alone, for other programs',
   [planTexts.report]: 'One page with pictures, plan and figures, to print or to save',
   [planTexts.keepFile]: 'Choose a file; from then on every change is written to it',
@@ -1148,6 +1384,9 @@ export const tips: Record<string, string> = {
   [tourTexts.study.title]: 'The repair of the study, step by step',
   [tourTexts.example.title]: 'One repair that reaches the goals, step by step',
   [leaveTexts.back]: 'Opens that plan again; the present one can be returned to as well',
+  [askTexts.save]: 'Keeps the present plan, then opens the other one',
+  [askTexts.replace]: 'Opens the other plan; a line then offers the way back',
+  [askTexts.stay]: 'Leaves the present plan as it is',
   [importTexts.unit]: 'The length that the number one stands for in the file',
   [importTexts.kind]: 'Which side of the leaflets the surface is, from which their middle follows',
   [importTexts.points.commissures]: 'Then click both ends of the line of closure on the surface',
@@ -1176,8 +1415,8 @@ export const tipTexts = {
   next: 'Opens the next valve of the tour',
   plane: 'Moves the section plane from one commissure towards the other',
   checkpoint: 'Picture and figures of the plan that is compared',
-  rename: 'Gives the checkpoint another name',
-  remove: 'Deletes the checkpoint; it can be put back',
+  rename: 'Gives the plan another name',
+  remove: 'Deletes the kept plan; it can be put back',
   newName: 'Enter takes the name, Escape leaves the old one',
   pick: 'The next click in the picture chooses it',
   picture: help.picture,

@@ -26,7 +26,7 @@ const facts: [string, (chord: Chord) => string, string, ((chord: Chord) => strin
     repairTexts.limit,
     (chord) => String(percentOfLimit(shareOfLimit(chord))),
     '%',
-    (chord) => repairTexts.far(percentOfLimit(shareOfLimit(chord))),
+    (chord) => repairTexts.far(percentOfLimit(shareOfLimit(chord)), chord.artificial),
   ],
 ];
 

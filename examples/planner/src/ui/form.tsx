@@ -75,7 +75,7 @@ export function OperationForm() {
       ))}
       {(draft.kind === 'annulus_scale' || draft.kind === 'band') && <AnnulusSize />}
       {more.length > 0 && (
-        <Section title={formTexts.more}>
+        <Section title={formTexts.more} name={`more of ${draft.kind}`}>
           {more.map((field) => (
             <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
           ))}
