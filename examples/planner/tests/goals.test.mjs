@@ -46,7 +46,7 @@ describe('planner goals', () => {
     await apply(page);
     const words = /^Sealed, but opening 2\.\d\d cm² is below the goal 3\.9\d/;
     const all = await says(card, words);
-    const small = 'annulus 24 mm wide, was 40: much undersized';
+    const small = 'annulus 24 mm, was 40: much undersized';
     assert.ok(all.includes(small), all);
     await says(() => page.getByTestId('status').innerText(), /: Sealed, but opening 2\.\d\d cm² is below/);
     await openPanel(page, 'Plan');
@@ -105,5 +105,84 @@ describe('planner goals', () => {
     await says(() => page.getByTestId('chosen').innerText(), new RegExp(`far beyond it: ${times}`));
     await page.keyboard.press('Escape');
     await undo(page);
+  });
+
+  /** A plan of one operation, kept as Plan 1, and a further operation that is not kept. */
+  const twoPlans = async () => {
+    await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
+    await answered(page, 200);
+    await begin(page, 'annulus_scale');
+    await apply(page);
+    const kept = (await figures(page)).hash;
+    await openPanel(page, 'Plan');
+    await page.getByRole('button', { name: 'Keep this plan' }).click();
+    await answered(page);
+    await begin(page, 'band');
+    await apply(page);
+    await openPanel(page, 'Plan');
+    return { kept, changed: (await figures(page)).hash };
+  };
+  const hash = async () => (await figures(page)).hash;
+  const restore = () => page.locator('.checkpoint').getByRole('button', { name: 'Return to it' }).first();
+
+  it('asks_before_a_plan_that_is_not_kept_gives_way_to_a_kept_one', async () => {
+    const { kept, changed } = await twoPlans();
+    await restore().click();
+    const question = page.getByTestId('ask');
+    await question.waitFor();
+    // Escape stays, and the keyboard is back where it was
+    await page.keyboard.press('Escape');
+    await answered(page, 200);
+    assert.equal(await question.count(), 0);
+    assert.equal(await hash(), changed);
+    assert.equal(
+      await page.evaluate(() => document.activeElement.closest('button')?.textContent),
+      'Return to it',
+    );
+    // kept first, both plans are there
+    await page.keyboard.press('Enter');
+    await page.getByRole('button', { name: 'Keep it as “Plan 2” first' }).click();
+    await answered(page, 400);
+    assert.equal(await hash(), kept);
+    assert.deepEqual(await page.locator('.checkpoint > span').allInnerTexts(), ['Plan 1', 'Plan 2']);
+    // a plan that is kept goes unasked
+    await page.locator('.checkpoint').getByRole('button', { name: 'Return to it' }).nth(1).click();
+    await answered(page, 400);
+    assert.equal(await hash(), changed);
+  });
+
+  it('asks_before_a_changed_plan_gives_way_to_one_that_was_left', async () => {
+    const { changed } = await twoPlans();
+    await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
+    const notice = page.getByTestId('notice');
+    await notice.waitFor();
+    assert.doesNotMatch(await notice.innerText(), /finished/);
+    await closed(page);
+    await begin(page, 'annulus_scale');
+    await apply(page);
+    const other = await hash();
+    await notice.getByRole('button', { name: 'Return to it' }).click();
+    await page.getByTestId('ask').waitFor();
+    await page.getByRole('button', { name: 'Cancel' }).click();
+    await answered(page, 200);
+    assert.equal(await hash(), other);
+  });
+
+  it('says_in_the_report_which_plan_it_is_of_and_lists_the_others', async () => {
+    await twoPlans();
+    await page.getByRole('button', { name: 'Report' }).click();
+    const dialog = page.locator('dialog');
+    const of = () => dialog.getByTestId('report-plan').innerText();
+    assert.match(flat(await of()), /The present plan, which is not kept under a name/);
+    const rows = dialog.getByTestId('report-plans').locator('tr');
+    await rows.nth(2).waitFor();
+    const [, present, plan1] = (await rows.allInnerTexts()).map(flat);
+    assert.match(present, /^Present plan Sealed.* 0\.0 mm² [\d.]+ mm/);
+    assert.match(plan1, /^Plan 1 Sealed.* 0\.0 mm² [\d.]+ mm/);
+    await page.keyboard.press('Escape');
+    await undo(page);
+    await page.getByRole('button', { name: 'Report' }).click();
+    assert.match(flat(await of()), /The plan “Plan 1”/);
+    await page.keyboard.press('Escape');
   });
 });

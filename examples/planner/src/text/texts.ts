@@ -496,7 +496,7 @@ export const verdictTexts = {
   openingBelow: (area: number, goal: number) =>
     `opening ${number(area / 100, 2)} cm² is below the goal ${number(goal / 100, 2)}`,
   undersized: (cc: number, from: number) =>
-    `annulus ${number(cc, 0)} mm wide, was ${number(from, 0)}: much undersized`,
+    `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
   edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
   coaptationBelow: (length: string, goal: string) => `coaptation ${length} mm is below the goal ${goal}`,
   smallAnnulus: (cc: number) =>
@@ -538,7 +538,7 @@ export const askTexts = {
     `Your changed plan${title ? ` of “${title}”` : ''} is not kept. “${to || 'Another plan'}” takes its place.`,
   keep: (name: string) => `Keep it as “${name}” first`,
   save: 'Save it to a file first',
-  replace: 'Replace it',
+  replace: 'Go on without keeping it',
   stay: 'Stay with the present plan',
 };
 

@@ -8,9 +8,9 @@ const places: [string, number, number][] = [
   ['A1', 44, 48],
   ['A2', 100, 42],
   ['A3', 156, 48],
-  ['P1', 38, 88],
+  ['P1', 47, 97],
   ['P2', 100, 118],
-  ['P3', 162, 88],
+  ['P3', 153, 97],
 ];
 
 /** Annulus, line of closure, and the borders of the scallops. */
@@ -50,8 +50,8 @@ export function Sketch() {
 
 export function FigureHelp() {
   return (
-    <Modal title={figureHelp.title} wide>
-      <div class="figure-help" data-testid="figure-help" tabIndex={0} role="document">
+    <Modal title={figureHelp.title} wide reading>
+      <div class="figure-help" data-testid="figure-help">
         <section class="sketched">
           <Sketch />
           <div>

@@ -13,16 +13,26 @@ export function Modal(props: {
   /** Words of the button that closes it, and its tooltip. */
   close?: string;
   closeTip?: string;
+  /** It is read from the top: the focus begins at its title, which has no tooltip over the text. */
+  reading?: boolean;
 }) {
   const dialog = useRef<HTMLDialogElement>(null);
+  const gone = useRef(false);
   useEffect(() => {
-    const from = document.activeElement;
-    dialog.current?.showModal();
+    const element = dialog.current;
+    element?.showModal();
     return () => {
-      if (from instanceof HTMLElement && from.isConnected) from.focus();
+      gone.current = true;
+      // gives the focus back, which the removal of an open dialog does not
+      element?.close();
     };
   }, []);
-  const close = props.onClose ?? (() => void (state.dialog.value = null));
+  const close = () => {
+    // the event of closing comes after the dialog has left, when another one may be open
+    if (gone.current) return;
+    if (props.onClose) props.onClose();
+    else state.dialog.value = null;
+  };
   return (
     <dialog
       ref={dialog}
@@ -32,7 +42,9 @@ export function Modal(props: {
       onCancel={close}
     >
       <div class="form-head">
-        <h2>{props.title}</h2>
+        <h2 tabIndex={props.reading ? -1 : undefined} autofocus={props.reading}>
+          {props.title}
+        </h2>
         <Button kind="quiet" title={props.closeTip} onClick={close}>
           {props.close ?? appTexts.close}
         </Button>
