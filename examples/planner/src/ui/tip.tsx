@@ -59,12 +59,14 @@ export function Tip() {
     window.addEventListener('focusout', hide);
     window.addEventListener('keydown', onKey, true);
     window.addEventListener('pointerdown', onPress, true);
+    window.addEventListener('resize', follow);
     document.addEventListener('scroll', follow, true);
     return () => {
       window.removeEventListener('focusin', onFocus);
       window.removeEventListener('focusout', hide);
       window.removeEventListener('keydown', onKey, true);
       window.removeEventListener('pointerdown', onPress, true);
+      window.removeEventListener('resize', follow);
       document.removeEventListener('scroll', follow, true);
     };
   }, []);
