@@ -43,8 +43,8 @@ export function percentOfLimit(share: number): number {
 }
 
 /** Per cent of the working limit from which a chord is far beyond it. No strength of chordae is known here: the limits are those of
- *  work (libmvs/measure/DEFINITIONS.md: “not rupture limits”). The limit of the pull is twice the working pull, so that such a chord
- *  pulls at least four times as much as those of a healthy valve. */
+ *  work (libmvs/measure/DEFINITIONS.md: “not rupture limits”). The limit of the pull is twice the working pull, so that a pull
+ *  of this share is four times that of a healthy valve. */
 export const farBeyond = 200;
 
 /** Chordae beyond their limit, the most loaded first; segments of a branched chord have one name and count once. */

@@ -41,8 +41,8 @@ function normalWidth(): number | null {
   return healthy ?? (first === undefined ? null : first / 1.15);
 }
 
-/** Per cent of the normal width below which the plan has made the annulus much too small. Restrictive rings are two sizes below the
- *  measured one (Braun et al. 2005), 4 mm of about 35: they leave 88 %. */
+/** Per cent of the normal width below which the plan has made the annulus much too small. Restrictive rings are by custom two sizes
+ *  below the measured one, 4 mm of about 35: they leave 88 %. */
 const leastWidth = 80;
 
 /** The width of the annulus before the plan, mm, where the plan has made it much too small; else null. */
