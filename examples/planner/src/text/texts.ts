@@ -194,13 +194,13 @@ export function chosenWidth(name: string, titles: string[]): number | null {
 /** Sentences of the library with its units turned into those of the page. */
 export function say(sentence: string): string {
   return sentence
+    .replace(/\bneochord(ae|s)?\b/g, (_, many?: string) => (many ? 'artificial chordae' : 'artificial chord'))
     .replace(
       /(-?\d+(?:\.\d+)?(?:e-?\d+)?) m\b(?![m²/])/g,
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
     .replace(clipWidth, (_, v: string) => `, ${+v} mm wide`)
-    .replace(/\bneochord(ae|s)?\b/g, (_, many?: string) => (many ? 'artificial chordae' : 'artificial chord'))
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
     .replace(/^mvs_\w+: /, '');
