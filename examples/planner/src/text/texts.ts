@@ -200,7 +200,7 @@ export function say(sentence: string): string {
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
-    .replace(clipWidth, (_, v: string) => `, ${+v} mm wide`)
+    .replace(clipWidth, (_, v: string) => `, ${+v} mm wide`)
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
     .replace(/^mvs_\w+: /, '');
