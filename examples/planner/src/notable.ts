@@ -42,6 +42,11 @@ export function percentOfLimit(share: number): number {
   return share > 1 ? Math.max(101, percent) : percent;
 }
 
+/** Per cent of the working limit from which a chord is far beyond it. No strength of chordae is known here: the limits are those of
+ *  work (libmvs/measure/DEFINITIONS.md: “not rupture limits”). The limit of the pull is twice the working pull, so that a pull
+ *  of this share is four times that of a healthy valve. */
+export const farBeyond = 200;
+
 /** Chordae beyond their limit, the most loaded first; segments of a branched chord have one name and count once. */
 export function beyondLimit(chords: Chord[]): Chord[] {
   const named = new Map<string, Chord>();

@@ -61,7 +61,7 @@ describe('planner as a customer judges it', () => {
     await startAfresh(page);
     const without = (await figures(page)).hash;
     await openPanel(page, 'Plan');
-    await page.getByLabel('Name of the checkpoint').fill('Untouched');
+    await page.getByLabel('Name of the plan').fill('Untouched');
     await page.getByRole('button', { name: 'Keep this plan' }).click();
     await answered(page);
     await begin(page, 'clip');

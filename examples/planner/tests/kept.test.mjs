@@ -58,7 +58,7 @@ describe('planner file that follows the plan', () => {
       await begin(page, 'annulus_scale');
       await apply(page);
       await openPanel(page, 'Plan');
-      await page.getByLabel('Name of the checkpoint').fill(name);
+      await page.getByLabel('Name of the plan').fill(name);
       await page.keyboard.press('Enter');
       await answered(page);
     }

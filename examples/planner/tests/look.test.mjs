@@ -192,7 +192,7 @@ describe('planner to look at', () => {
       await page.setViewportSize({ width, height });
       await page.waitForTimeout(200);
       await page.evaluate(() => {
-        const text = '“Valve 3: dilated, and a short chord” is finished. Its repair can be opened once more.';
+        const text = 'The plan “Valve 3: dilated, and a short chord” was closed; it reaches all goals.';
         window.planner.state.notice.value = {
           kind: 'info',
           text,

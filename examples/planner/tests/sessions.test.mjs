@@ -70,7 +70,7 @@ describe('sessions', () => {
     await openPanel(page, 'Plan');
     const before = await hash();
     for (const name of ['First', 'Second']) {
-      await page.getByLabel('Name of the checkpoint').fill(name);
+      await page.getByLabel('Name of the plan').fill(name);
       await page.keyboard.press('Enter');
       await answered(page);
       await undo(page);
@@ -98,7 +98,7 @@ describe('sessions', () => {
     await answered(page, 150);
     assert.equal(await hash(), before);
     // a name used twice replaces the first, which can be put back beside it
-    await page.getByLabel('Name of the checkpoint').fill('Second');
+    await page.getByLabel('Name of the plan').fill('Second');
     // saved from within a text
     assert.deepEqual(inSession(await save(page)), ['First', 'Second']);
     await page.keyboard.press('Enter');
@@ -134,7 +134,7 @@ describe('sessions', () => {
     assert.deepEqual(await names(), ['Clip and ring', 'Plan 2']);
     // a name that another one has is refused, and so is none
     await rename('Plan 2', 'Clip and ring');
-    assert.match(await page.getByTestId('notice').innerText(), /already a checkpoint “Clip and ring”/);
+    assert.match(await page.getByTestId('notice').innerText(), /already a plan “Clip and ring”/);
     await rename('Plan 2', ' ');
     // Escape leaves the name as it is
     await page.getByRole('button', { name: 'Rename “Plan 2”' }).click();

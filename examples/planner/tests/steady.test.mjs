@@ -1,9 +1,10 @@
 // Nothing moves or is covered that a hand or an eye is on: controls stay where they are while words beside them change, notices
-// leave the keys of the colours in sight, and the words of the section plot stand beside its curves.
+// leave the keys of the colours in sight, tooltips the goals, the words of the section plot stand beside its curves, and the card of
+// the verdict holds all its words.
 import assert from 'node:assert/strict';
-import { describe, it } from 'node:test';
-import { closed, sharePlanner } from './fixtures/browser.mjs';
-import { answered, apply, begin, cameraRests, openPanel, startAfresh } from './fixtures/person.mjs';
+import { beforeEach, describe, it } from 'node:test';
+import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
+import { answered, apply, begin, cameraRests, openPanel, startAfresh, undo } from './fixtures/person.mjs';
 
 const windows = [
   [1280, 800],
@@ -121,7 +122,7 @@ describe('planner layout', () => {
     await begin(page, 'band');
     await page.getByRole('button', { name: 'Before', exact: true }).waitFor();
     await inWindows(async (size) => {
-      const text = '“Valve 3: dilated, and a short chord” is finished. Its repair can be opened once more.';
+      const text = 'The plan “Valve 3: dilated, and a short chord” was closed; it reaches all goals.';
       await page.evaluate((words) => {
         const action = { text: 'Return to it', run() {} };
         window.planner.state.notice.value = { kind: 'info', text: words, action };
@@ -138,12 +139,13 @@ describe('planner layout', () => {
       assert.deepEqual(covered, [], size);
       await page.evaluate(() => (window.planner.state.notice.value = null));
       await page.waitForTimeout(50);
-      // and the keys come back to the top
-      const top = await page.evaluate(() => {
+      // and the keys stay at the foot of the picture
+      const foot = await page.evaluate(() => {
         const [scale, stage] = ['.scale', '.stage'].map((part) => document.querySelector(part));
-        return scale.getBoundingClientRect().top - stage.getBoundingClientRect().top;
+        const box = scale.getBoundingClientRect();
+        return box.height ? stage.getBoundingClientRect().bottom - box.bottom : 0;
       });
-      assert.ok(top < 20, `${size}: ${top}`);
+      assert.ok(foot >= 0 && foot < 20, `${size}: ${foot}`);
     });
     await page.keyboard.press('Escape');
   });
@@ -185,5 +187,88 @@ describe('planner layout', () => {
     }
     await page.evaluate(() => (window.planner.state.sectionAt.value = 0));
     await cameraRests(page);
+  });
+});
+
+describe('planner words that cover nothing', () => {
+  let page;
+  sharePlanner((opened) => ({ page } = opened));
+  beforeEach(() => startAfresh(page));
+
+  it('covers_no_goal_by_a_tooltip', async () => {
+    await openPanel(page, 'Learn');
+    await page.getByRole('button', { name: 'Valve 1' }).click();
+    await page.getByTestId('score').getByText('Before illness').waitFor();
+    await closed(page);
+    await page.getByRole('tab', { name: 'Learn' }).focus();
+    let seen = 0;
+    for (let k = 0; k < 12; ++k) {
+      await page.keyboard.press('Tab');
+      const covered = await page.evaluate(() => {
+        const a = document.querySelector('[data-testid=tip]').getBoundingClientRect();
+        if (!a.width || !document.activeElement.closest('.panel')) return null;
+        return [...document.querySelectorAll('.goals, .panel h3, .panel p')].filter((part) => {
+          const b = part.getBoundingClientRect();
+          return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+        }).length;
+      });
+      if (covered === null) continue;
+      ++seen;
+      assert.equal(covered, 0, await page.evaluate(() => document.activeElement.textContent));
+    }
+    assert.ok(seen > 4, `${seen} tooltips`);
+  });
+
+  it('leaves_the_keys_of_the_colours_where_they_are_when_a_notice_comes', async () => {
+    const top = async () => (await page.locator('.scale').boundingBox()).y;
+    const before = await top();
+    await page.evaluate(() => {
+      const action = { text: 'Return to it', run() {} };
+      window.planner.state.notice.value = { kind: 'info', text: 'The changed plan was closed.', action };
+    });
+    const close = page.getByTestId('notice').getByRole('button', { name: 'Close' });
+    await close.hover();
+    await page.waitForTimeout(100);
+    assert.equal(await top(), before);
+    // its words are seen under the mouse
+    const [ink, ground] = await close.evaluate((button) => {
+      const light = (colour) => {
+        const [r, g, b, a = 1] = colour.match(/[\d.]+/g).map(Number);
+        return (a * (r + g + b)) / 765;
+      };
+      const style = getComputedStyle(button);
+      return [light(style.color), light(style.backgroundColor)];
+    });
+    assert.ok(ink - ground > 0.5, `ink ${ink} on ${ground}`);
+    await close.click();
+  });
+
+  it('writes_the_whole_verdict', async () => {
+    await openPanel(page, 'Learn');
+    await page.getByRole('button', { name: 'Valve 3' }).click();
+    await page.getByTestId('score').getByText('Before illness').waitFor();
+    await closed(page);
+    const cut = () =>
+      page.evaluate(() => {
+        const card = document.querySelector('.verdict');
+        const lines = [card, ...card.querySelectorAll('*')].filter(
+          (e) => e.scrollWidth > e.clientWidth + 1 && getComputedStyle(e).overflowX !== 'visible',
+        );
+        return [
+          ...lines.map((e) => e.className),
+          card.scrollHeight > card.clientHeight ? 'too high' : '',
+        ].join('');
+      });
+    assert.equal(await cut(), '');
+    // many lines: a narrow ring with overloaded chordae
+    await begin(page, 'ring');
+    await page.locator('#f-size').fill('24');
+    await page.keyboard.press('Tab');
+    await answered(page, 200);
+    await apply(page);
+    await page.getByText('is below the goal').first().waitFor();
+    assert.ok((await figures(page)).measures.chordsOver > 0);
+    assert.equal(await cut(), '');
+    await undo(page);
   });
 });

@@ -140,7 +140,10 @@ describe('tour', () => {
           // the repaired plan is not lost by going on
           await page.getByRole('button', { name: 'On to valve 2' }).click();
           await page.getByRole('button', { name: 'Return to it' }).waitFor();
-          assert.match(await page.getByTestId('notice').innerText(), /“Valve 1: .*” is finished/);
+          assert.match(
+            await page.getByTestId('notice').innerText(),
+            /The plan “Valve 1: .*” was closed; it reaches all goals/,
+          );
           assert.equal(await page.getByTestId('present').innerText(), 'Valve 2 of the tour');
           assert.equal(await button.locator('svg').count(), 1, 'the tick stays');
           const next = page.getByRole('button', { name: 'Valve 2' });

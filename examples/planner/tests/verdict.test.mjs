@@ -221,10 +221,11 @@ describe('planner verdict', () => {
     assert.ok(worst.artificial && share(worst) > 1.2, JSON.stringify(worst));
     const percent = Math.round(100 * share(worst));
     const count = new Set(chords.filter(({ over }) => over).map(({ name }) => name)).size;
+    const times = percent < 200 ? `${percent} %` : `${(percent / 100).toFixed(1)} times`;
     const words =
       count === 1
-        ? `artificial chord at ${percent} % of a native limit`
-        : `${count} chordae over limit, up to ${percent} % (artificial, of a native limit)`;
+        ? `artificial chord at ${times}${percent < 200 ? ' of' : ''} a native limit`
+        : `${count} chordae over limit, up to ${times} (artificial, of a native limit)`;
     assert.ok((await card()).includes(words), await card());
     assert.ok((await inReport()).all.includes(words));
     await page.getByTestId('verdict').getByRole('button', { name: worst.name }).click();

@@ -4,7 +4,9 @@ import { shippedVertices } from '../shipped';
 import { leaveTexts, t } from '../text/texts';
 import { millimetres } from '../units';
 import type { FileUnit, Shown } from '../protocol';
+import { mayReplace } from './ask';
 import { discard } from './edit';
+import { reachesAll } from './goals';
 import { request, run, show } from './requests';
 import * as state from './state';
 
@@ -13,7 +15,7 @@ interface Left {
   title: string;
   bytes: Uint8Array;
   tour: typeof state.tour.value;
-  /** A valve of the tour whose goals were reached. */
+  /** A valve of the tour whose goals it reaches. */
   finished: boolean;
 }
 
@@ -30,7 +32,7 @@ export async function leave(): Promise<Left | null> {
     return {
       title,
       tour: state.tour.value,
-      finished: state.finished.value.includes(state.tour.value?.number ?? 0),
+      finished: reachesAll(),
       bytes: await request('save_session', { title, notes: state.notes.value }),
     };
   } catch {
@@ -63,7 +65,9 @@ function offerRepair(number: number, left: Left | null): void {
 }
 
 async function comeBack(left: Left): Promise<void> {
-  await openSession(left.bytes);
+  const present = await leave();
+  if (present && !(await mayReplace(left.title, 'file'))) return;
+  if (!(await openSession(left.bytes, present))) return;
   batch(() => {
     state.tour.value = left.tour;
     state.changed.value = true;

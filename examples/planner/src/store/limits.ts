@@ -33,6 +33,26 @@ export function smallAnnulus(): number | null {
   return cc !== undefined && cc < leastAdult ? cc : null;
 }
 
+/** The width of a normal annulus for this valve, mm: that before the illness where it is known. Else that before the first operation,
+ *  less the dilation of the most dilated valve of the study, 15 % (Tenenholtz et al. 2011). */
+function normalWidth(): number | null {
+  const healthy = state.tour.value?.founding?.healthy.measures.annulusCc;
+  const first = state.first.value?.figures.measures.annulusCc;
+  return healthy ?? (first === undefined ? null : first / 1.15);
+}
+
+/** Per cent of the normal width below which the plan has made the annulus much too small. Restrictive rings are by custom two sizes
+ *  below the measured one, 4 mm of about 35: they leave 88 %. */
+const leastWidth = 80;
+
+/** The width of the annulus before the plan, mm, where the plan has made it much too small; else null. */
+export function undersizedFrom(cc: number): number | null {
+  const first = state.first.value?.figures.measures.annulusCc;
+  const normal = normalWidth();
+  if (first === undefined || normal === null || cc >= first) return null;
+  return Math.round((100 * cc) / normal) < leastWidth ? first : null;
+}
+
 /** The least open area that the tour asks for, mm2; null where it is not known. */
 export function leastOpening(): number | null {
   const healthy = state.tour.value?.founding?.healthy;

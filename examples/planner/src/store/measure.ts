@@ -2,9 +2,11 @@
 import { batch } from '@preact/signals';
 import type { Calls } from '../calls';
 import type { CheckpointList } from '../protocol';
+import { mayReplace } from './ask';
 import { leave, offerReturn } from './files';
 import { change, run } from './requests';
 import { keepOpening } from './opening';
+import { keptName } from './plans';
 import * as state from './state';
 import { planTexts, t } from '../text/texts';
 
@@ -52,9 +54,10 @@ export function nextName(): string {
 }
 
 export async function restoreCheckpoint(name: string): Promise<void> {
-  // a plan that no checkpoint has would be lost
-  const kept = state.checkpointHashes.value.includes(state.main.value?.figures.hash ?? '');
-  const left = kept ? null : await leave();
+  const kept = () => !!keptName(state.main.value?.figures.hash);
+  if (!kept() && state.changed.value && state.canUndo.value && !(await mayReplace(name, 'name'))) return;
+  // a plan that is not kept can be returned to
+  const left = kept() ? null : await leave();
   await change(t.undoing, 'restore', { name });
   state.changed.value = true;
   offerReturn(left, null);

@@ -92,6 +92,8 @@ export const status = signal('');
 export const checkpoints = signal<string[]>([]);
 /** Hashes of the valves of the checkpoints. */
 export const checkpointHashes = signal<string[]>([]);
+/** Valves of kept plans by name, as they were read last. */
+export const keptPlans = signal<Map<string, Shown>>(new Map());
 /** The name of the checkpoint that was removed or replaced last and can be put back. */
 export const removedCheckpoint = signal<string | null>(null);
 export const title = signal('');
@@ -133,9 +135,11 @@ export const marked = computed(
 );
 /** Which points the next clicks on the surface set. */
 export const importing = signal<keyof Imported['points']>('commissures');
+/** Sections of the panels that were opened or closed by hand, by name: they stay so where a panel comes again. */
+export const sections = signal<Map<string, boolean>>(new Map());
 /** A file is dragged over the page. */
 export const dropping = signal(false);
-export const dialog = signal<'keys' | 'report' | 'about' | 'recover' | 'notes' | null>(null);
+export const dialog = signal<'keys' | 'figures' | 'report' | 'ask' | null>(null);
 
 /** The valve of the plan whose picture moves. */
 export const resting = computed<Shown | null>(() => (coming.value ? null : main.value));
@@ -157,6 +161,7 @@ export function receive(picture: Picture): void {
 
 export function receiveCheckpoints(list: CheckpointList): void {
   batch(() => {
+    keptPlans.value = new Map();
     checkpoints.value = list.names;
     checkpointHashes.value = list.hashes;
     removedCheckpoint.value = list.removed;

@@ -1,13 +1,12 @@
 // The tour: opening its valves, and measuring how far a sealed valve opens, which is one of the goals.
 import { effect } from '@preact/signals';
 import { shippedVertices } from '../shipped';
-import { edgeHeights } from '../flail';
 import { tourTexts } from '../text/texts';
-import { percentOfLimit } from '../notable';
 import type { FoundingResult } from '../protocol';
 import { openShipped } from './files';
 import { measureCost } from './measure';
-import { allowedLoad, leastCoaptation, leastOpening, openingOf } from './limits';
+import { reachesAll } from './goals';
+import { openingOf } from './limits';
 import { fail, request } from './requests';
 import * as state from './state';
 
@@ -45,40 +44,11 @@ function learn(number: number, founding: FoundingResult): void {
   if (state.tour.value?.number === number) state.tour.value = { ...state.tour.value, founding };
 }
 
-/** The scallop that is flail in a valve of the tour. */
-export const flailOf = (number: number): string | undefined => ({ 4: 'P2' })[number];
-
-/** mm of the free edge of the tour's flail scallop above the annulus, of the applied valve; null where there is none. */
-export function flailHeight(): number | null {
-  const scallop = flailOf(state.tour.value?.number ?? 0);
-  const { picture, figures } = state.main.value!;
-  const topology = state.topologyOf(picture);
-  if (!scallop || !topology) return null;
-  return edgeHeights(topology, picture, figures.frame).get(scallop) ?? null;
-}
-
-/** The goals of the tour's valve, judged on the applied valve and not on a preview; null where it is not known yet. */
-export function reached(): Record<'sealed' | 'chords' | 'open' | 'edge' | 'coaptation', boolean | null> {
-  if (state.coming.value) return { sealed: null, chords: null, open: null, edge: null, coaptation: null };
-  const height = flailHeight();
-  const { hash, known, measures } = state.main.value!.figures;
-  const cost = openingOf(hash);
-  const [least, allowed, length] = [leastOpening(), allowedLoad(), leastCoaptation()];
-  return {
-    sealed: known === 'shape' ? null : measures.atRest && measures.orifice === 0,
-    chords: allowed !== null ? percentOfLimit(measures.chordLoad) <= allowed : null,
-    // a valve without a flail scallop has nothing to reach
-    edge: height === null || height < 0,
-    coaptation: known === 'shape' || length === null ? null : measures.coaptationMean >= length,
-    open: cost && least !== null ? cost.openArea >= least : null,
-  };
-}
-
 /** Remembers the valves whose goals are reached. */
 function watchGoals(): void {
   effect(() => {
     const number = state.tour.value?.number;
-    if (!number || !state.main.value || !Object.values(reached()).every(Boolean)) return;
+    if (!number || !reachesAll()) return;
     const { finished } = state;
     if (!finished.value.includes(number)) finished.value = [...finished.value, number];
   });

@@ -3,7 +3,8 @@
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import type { Figures } from '../protocol';
 import { grade, headlineOf, stenosis, verdictTexts, where } from '../text/texts';
-import { faultyLoad, narrowing, openingOf, smallAnnulus } from './limits';
+import { missedGoals } from './goals';
+import { faultyLoad, leastOpening, narrowing, openingOf, smallAnnulus, undersizedFrom } from './limits';
 
 export interface Verdict {
   /** 0 sealed to 4; null where the figures are not final. */
@@ -22,8 +23,18 @@ export const isNarrowed = ({ history }: Figures): boolean =>
 /** How far the valve opens, if that is known and too little. */
 function ofOpening({ hash }: Figures): string[] {
   const cost = openingOf(hash);
-  const word = cost ? stenosis(cost.openArea) : '';
-  return word ? [verdictTexts.openingIs(cost!.openArea, word, smallAnnulus() !== null)] : [];
+  if (!cost) return [];
+  const word = stenosis(cost.openArea);
+  const least = leastOpening();
+  const goal = least !== null && cost.openArea < least ? least : null;
+  if (word) return [verdictTexts.openingIs(cost.openArea, word, smallAnnulus() !== null, goal)];
+  return goal === null ? [] : [verdictTexts.openingBelow(cost.openArea, goal)];
+}
+
+/** How wide the annulus is, if the plan has made it much too small. */
+function ofAnnulus({ measures }: Figures): string[] {
+  const from = undersizedFrom(measures.annulusCc);
+  return from === null ? [] : [verdictTexts.undersized(measures.annulusCc, from)];
 }
 
 /** Whether the load of a chord is a fault, which the verdict names. */
@@ -45,7 +56,7 @@ export function verdictOf(figures: Figures): Verdict {
   if (!measures.atRest || !measures.underLoad) return { ...none, word: verdictTexts.notAtRest };
   return {
     ...grade(measures.orifice),
-    but: [...ofOpening(figures), ...ofChordae(figures)],
+    but: [...ofOpening(figures), ...ofAnnulus(figures), ...missedGoals(figures), ...ofChordae(figures)],
     unmeasured: isNarrowed(figures) && !openingOf(figures.hash),
   };
 }

@@ -1,5 +1,5 @@
 // Every text that the page shows, in a surgeon's words. To translate the page, translate this file.
-import { leakPlaces, suture } from '../notable';
+import { farBeyond, leakPlaces, suture } from '../notable';
 import type { Figures } from '../protocol';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
@@ -24,6 +24,17 @@ export function stenosis(area: number): string {
   if (shown <= 10) return 'very severe stenosis';
   if (shown <= 15) return 'severe stenosis';
   return shown < 18 ? 'narrow' : '';
+}
+
+/** A share of a limit, in per cent or, far beyond it, in times. */
+const shareWords = (percent: number): string =>
+  percent < farBeyond ? `${percent} %` : `${number(percent / 100, percent < 1000 ? 1 : 0)} times`;
+
+/** The load of a chord; an artificial one is compared with the limit of a native one. */
+function loadWords(percent: number, artificial: boolean): string {
+  const share = shareWords(percent);
+  if (percent < farBeyond) return `${share} of ${artificial ? 'a native' : 'its'} limit`;
+  return artificial ? `${share} a native limit` : `far beyond its limit (${share})`;
 }
 
 /** A verdict in one sentence: the grade of the leak, its place, what is wrong beside it. */
@@ -207,6 +218,7 @@ const clipSaid = ({ width, place, angle }: ClipWords): string =>
 /** Sentences of the library with its units turned into those of the page. */
 export function say(sentence: string): string {
   return sentence
+    .replace(/\bneochord(ae|s)?\b/g, (_, many?: string) => (many ? 'artificial chordae' : 'artificial chord'))
     .replace(
       /(-?\d+(?:\.\d+)?(?:e-?\d+)?) m\b(?![m²/])/g,
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
@@ -273,6 +285,9 @@ export const tourTexts = {
   valveOf: (k: number) => `Valve ${k}`,
   hint: 'A hint',
   goal: (number: number) => `Goals of valve ${number}`,
+  afterOperation: 'after this operation',
+  /** Of a goal, for those who do not see its sign; null: not known yet. */
+  judged: (done: boolean | null) => (done === null ? 'not known yet' : done ? 'reached' : 'missed'),
   repair: 'Repair this valve',
   next: (number: number) => `On to valve ${number}`,
   present: (k: number) => `Valve ${k} of the tour`,
@@ -365,7 +380,7 @@ export const help = {
     ['V R P L I', 'Panels: Valve, Repair, Plan, Learn; Import, once a surface was opened'],
     ['O', 'Open and close the valve'],
     ['W', 'The valve before, and the present one again'],
-    ['X', 'Slice the picture at the section plane'],
+    ['X', 'Section plane in the picture on and off'],
     ['C', 'Chordae on and off'],
     ['N', 'Names on and off'],
     ['M', 'Next colour map'],
@@ -379,6 +394,7 @@ export const help = {
     ['Ctrl Z, Ctrl Y', 'Undo, redo'],
     ['Ctrl S', 'Save the session'],
     ['Ctrl O', 'Open a file'],
+    ['F', 'What the figures mean'],
     ['?', 'This list'],
   ] as [string, string][],
 };
@@ -471,9 +487,9 @@ export const refusals = {
       : `its version is ${JSON.stringify(given)}, and this page reads ${known}`,
   missing: (file: string) => `${file} is missing from the session`,
   noPreview: 'there is no preview to apply: choose an operation',
-  noCheckpoint: (name: string) => `there is no checkpoint ${name}`,
-  sameCheckpoint: (name: string) => `there is already a checkpoint “${name}”: choose another name`,
-  nothingRemoved: 'no checkpoint was deleted',
+  noCheckpoint: (name: string) => `there is no kept plan ${name}`,
+  sameCheckpoint: (name: string) => `there is already a plan “${name}”: choose another name`,
+  nothingRemoved: 'no kept plan was deleted',
   noOperation: (kind: string) => `there is no operation ${kind}`,
   noField: (kind: string, name: string) => `${kind} has no field ${name}`,
   cancelled: 'cancelled',
@@ -497,43 +513,68 @@ export const verdictTexts = {
   ofClosed: 'when closed',
   chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
   but: ', but',
-  butHelp: 'A sealed valve may still open too little, or hang on chordae that may tear.',
+  butHelp: 'A sealed valve may still open too little, miss another goal, or hang on chordae that may tear.',
   /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
-  openingIs: (area: number, word: string, adult: boolean) =>
-    `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}`,
+  openingIs: (area: number, word: string, adult: boolean, goal: number | null) =>
+    `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}${goal === null ? '' : `, goal ${number(goal / 100)}`}`,
+  openingBelow: (area: number, goal: number) =>
+    `opening ${number(area / 100, 2)} cm² is below the goal ${number(goal / 100, 2)}`,
+  undersized: (cc: number, from: number) =>
+    `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
+  edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
+  coaptationBelow: (length: string, goal: string) => `coaptation ${length} mm is below the goal ${goal}`,
   smallAnnulus: (cc: number) =>
     `Limits of stenosis are those of adults. This annulus is smaller, ${number(cc, 0)} mm side to side: a child’s valve needs less, in proportion to the body, which is not known here.`,
   openingUnknown: 'its opening is not measured yet',
   /** `artificial`: the most loaded one is; its limit is that of a native chord. */
   chordsBeyond: (count: number, percent: number, artificial: boolean) => {
-    if (count > 1)
-      return `${count} chordae over limit, up to ${percent} %${artificial ? ' (artificial, of a native limit)' : ''}`;
-    return artificial
-      ? `artificial chord at ${percent} % of a native limit`
-      : `1 chord at ${percent} % of its limit`;
+    const far = percent >= farBeyond;
+    if (count > 1) {
+      const most = artificial ? ' (artificial, of a native limit)' : far ? ' the limit: may tear' : '';
+      return `${count} chordae over limit, up to ${shareWords(percent)}${most}`;
+    }
+    const words = loadWords(percent, artificial);
+    if (artificial) return `artificial chord at ${words}`;
+    return far ? `1 chord ${words}: may tear` : `1 chord at ${words}`;
   },
   relieved: (chords: { name: string; percent: number }[]) =>
     `${listOf(chords.map(({ name, percent }) => `${name} (before ${percent} %)`))} ${chords.length === 1 ? 'is' : 'are'} slack`,
   relievedHelp:
     'It was far beyond its working limit before and carries nothing any more: its leaflet is held by its neighbours alone.',
-  chordOver: (name: string, percent: number) => `${name} ${percent} %`,
+  chordOver: (name: string, percent: number) => `${name} ${shareWords(percent)}`,
   limitHelp:
-    'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it a chord may tear. A healthy valve may have one just at its limit.',
+    'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it, from 200 % on, a chord may tear; at which load it does is not known here. A healthy valve may have one just at its limit.',
   artificialHelp:
     'No limit of ePTFE is known here. An artificial chord is compared with the limit of a native chord of the free edge, as a measure of how much more it pulls than what it replaces; whether thread and stitches hold is not calculated.',
 };
 
 export const leaveTexts = {
-  finished: (title: string) => `“${title}” is finished. Its repair can be opened once more.`,
+  finished: (title: string) => `The plan “${title}” was closed; it reaches all goals.`,
   left: (title: string) => `The changed plan “${title || 'without a name'}” was closed.`,
   repaired: 'Your repair of this valve can be opened again.',
   back: 'Return to it',
 };
 
+/** The question before a plan that is kept nowhere gives way to another one. */
+export const askTexts = {
+  title: 'The present plan is not kept',
+  lost: (title: string, to: string) =>
+    `Your changed plan${title ? ` of “${title}”` : ''} is not kept. “${to || 'Another plan'}” takes its place.`,
+  keep: (name: string) => `Keep it as “${name}” first`,
+  save: 'Save it to a file first',
+  replace: 'Go on without keeping it',
+  stay: 'Stay with the present plan',
+};
+
 export const partTexts = {
   before: (value: string) => `before ${value}`,
-  range: (low: string, high: string) => `${low} to ${high}`,
-  spreadHelp: 'Over eight ways in which the closed leaflets can fold',
+  /** `closures`: over which the range is; 0 in a table, which says it below. */
+  range: (low: string, high: string, closures: number) =>
+    `${low} to ${high}${closures ? ` over ${closures} closures` : ''}`,
+  spreadHelp: 'Range of this figure over closures from different folds of the leaflets',
+  /** Below a table with ranges. */
+  ranges: (closures: number) =>
+    `“a to b” below a figure: its range over ${closures} closures from different folds of the leaflets.`,
 };
 
 export const appTexts = {
@@ -573,9 +614,9 @@ export const barTexts = {
   closed: 'Closed',
   opening: 'Open or closed',
   show: 'Show',
-  cut: 'Slice at the section plane',
+  cut: 'Section plane in the picture',
   // short words below the icons; each begins the name of its button
-  words: { cut: 'Slice', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
+  words: { cut: 'Section', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
   pointer: 'Pointer',
@@ -764,7 +805,7 @@ export const formTexts = {
 export const markTexts = {
   plane: (through: string[]) => `Section plane through ${listOf(through)}: drag`,
   chord: (name: string, length: number, percent: number | null, artificial: boolean) =>
-    `${name}  ${number(length)} mm${percent === null ? '' : `, ${percent} % of ${artificial ? 'a native' : 'its'} limit`}`,
+    `${name}  ${number(length)} mm${percent === null ? '' : `, ${loadWords(percent, artificial)}`}`,
   clip: 'Clip: drag',
   turn: (angle: number) => (angle ? `Turn: ${number(angle, 0)}°` : 'Turn: drag'),
 };
@@ -780,8 +821,8 @@ export const openingTexts = {
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   beside: (before: number | undefined, least: number | null) =>
     [
-      before === undefined ? '' : `without it ${number(before / 100, 2)}`,
-      least === null ? '' : `goal ${number(least / 100, 2)} or more`,
+      before === undefined ? '' : `without it ${number(before / 100, 2)} cm²`,
+      least === null ? '' : `goal ${number(least / 100, 2)} cm² or more`,
     ]
       .filter(Boolean)
       .join(', '),
@@ -824,6 +865,9 @@ export const repairTexts = {
   limit: 'Share of its limit',
   nativeLimit: 'Share of a native limit',
   limitIn: (limit: string) => `limit ${limit}`,
+  /** Beside a share of a limit in per cent. */
+  far: (percent: number, artificial: boolean) =>
+    percent < farBeyond || artificial ? '' : `far beyond it: ${shareWords(percent)}`,
   becomes: (was: string, now: string) => `${was} → ${now}`,
   letGo: 'Let go of this part',
   changeLength: 'Change length',
@@ -847,8 +891,8 @@ export const repairTexts = {
 
 export const planTexts = {
   nothing: 'Nothing has been done yet. Operations appear here one by one.',
-  checkpoints: 'Checkpoints',
-  checkpointName: 'Name of the checkpoint',
+  checkpoints: 'Kept plans',
+  checkpointName: 'Name of the plan',
   planOf: (k: number) => `Plan ${k}`,
   rename: (name: string) => `Rename “${name}”`,
   newName: (name: string) => `New name of “${name}”`,
@@ -862,6 +906,7 @@ export const planTexts = {
   returnTo: 'Return to it',
   compare: 'Compare',
   present: 'Present plan',
+  result: 'Result:',
   steps: 'Steps',
   none: 'none',
   notes: 'Notes',
@@ -880,6 +925,7 @@ export const planTexts = {
 
 /** Names of figures in the comparison and in the report. */
 export const figureNames = {
+  plan: 'Plan',
   verdict: 'Verdict',
   orifice: 'Leak',
   coaptationMean: 'Coaptation length, mean',
@@ -896,7 +942,12 @@ export const reportTexts = {
   title: 'Report',
   fileTitle: 'Valve report',
   fileName: (title: string) => `${title || 'valve'} report.html`,
-  closed: (when: string) => `${when}. The present plan, closed at 120 mmHg.`,
+  /** `name`: under which the plan is kept. */
+  closed: (when: string, name: string) =>
+    `${when}. ${name ? `The plan “${name}”` : 'The present plan, which is not kept under a name'}, closed at 120 mmHg.`,
+  present: 'Present plan',
+  otherPlans: 'This plan and the other kept plans',
+  notMeasured: 'not measured',
   before: 'Before',
   after: 'After',
   section: 'Section through the middle',
@@ -942,7 +993,218 @@ export const sectionTexts = {
   plane: (mm: number, through: string[]) =>
     `Plane through ${listOf(through)}, ${mm === 0 ? 'in the middle' : `${number(Math.abs(mm))} mm from the middle towards the ${formTexts.sides[mm > 0 ? 0 : 1]} commissure`}`,
   middle: 'To the middle',
-  cut: 'Slice the picture at this plane',
+  cut: 'Section plane in the picture',
+};
+
+interface Meaning {
+  /** As the page labels it, in all places. */
+  names: string[];
+  unit: string;
+  meaning: string;
+  measured: string;
+}
+
+/** What the figures mean: each figure of the page, and the names of the scallops. */
+export const figureHelp: {
+  title: string;
+  intro: string;
+  unit: string;
+  measured: string;
+  sketch: string;
+  sides: string[];
+  front: string;
+  back: string;
+  scallops: string[];
+  groups: { title: string; figures: Meaning[] }[];
+} = {
+  title: 'What the figures mean',
+  intro:
+    'All figures are of the valve closed under 120 mmHg, unless they say otherwise. “before” is the valve before the first operation of the plan; with a form open, before this operation.',
+  unit: 'Unit',
+  measured: 'Measured',
+  sketch:
+    'The valve as the surgeon sees it from the atrium: A1, A2, A3 of the anterior leaflet above from left to right, P1, P2, P3 of the posterior leaflet below, the anterolateral commissure on the left, the posteromedial one on the right.',
+  sides: ['AL', 'PM'],
+  front: 'front: aorta',
+  back: 'back',
+  scallops: [
+    'A1, A2, A3 are parts of the anterior leaflet and P1, P2, P3 scallops of the posterior leaflet (Carpentier). 1 is beside the anterolateral commissure, 3 beside the posteromedial one, 2 in the middle.',
+    'A1–P1 and A3–P3 are the commissures. AL and PM are the anterolateral and the posteromedial papillary muscle, AL1 to AL3 heads of it. A2/13 is chord 13 of A2.',
+  ],
+  groups: [
+    {
+      title: 'Leak',
+      figures: [
+        {
+          names: ['Leak', 'Orifice'],
+          unit: 'mm²',
+          meaning: 'How large the hole is that stays open in systole; 0 is sealed.',
+          measured:
+            'The smallest cross-section through which blood gets between the leaflets back into the atrium. Beside a scallop, half of it counts for either side.',
+        },
+        {
+          names: ['Grade'],
+          unit: 'in words',
+          meaning:
+            'Sealed, mild, moderate, moderate–severe, severe. “Sealed, but” names what is wrong beside: an unmet goal, a narrow opening, chordae that may tear.',
+          measured:
+            'By the leak: below 20, 30, 40 mm², and more, as an effective orifice in echocardiography.',
+        },
+      ],
+    },
+    {
+      title: 'How the leaflets meet',
+      figures: [
+        {
+          names: [valveTexts.coaptationMean, valveTexts.coaptationLeast, 'Coaptation'],
+          unit: 'mm',
+          meaning:
+            'How much leaflet lies against the other one. More is a reserve; surgeons aim at 8 mm at A2–P2.',
+          measured:
+            'Along the tissue, from the free edge towards the annulus: the mean and the least of the whole line of closure, in which a gap counts as 0.',
+        },
+        {
+          names: [valveTexts.coaptationHeight],
+          unit: 'mm',
+          meaning: 'The height of contact that a long-axis view of echocardiography shows.',
+          measured: 'Straight along the axis of the valve, in the section through the middle of A2 and P2.',
+        },
+        {
+          names: [valveTexts.coaptationArea],
+          unit: 'mm²',
+          meaning: 'How much tissue of one leaflet touches the other one.',
+          measured: 'One side of the contact.',
+        },
+      ],
+    },
+    {
+      title: 'The shape of the leaflets',
+      figures: [
+        {
+          names: [valveTexts.billow, valveTexts.billowVolume, 'Billow'],
+          unit: 'mm, ml',
+          meaning: 'How far the leaflets bulge into the atrium; more than 2 mm counts as prolapse.',
+          measured: 'The highest point, and the volume, above a surface that spans the annulus.',
+        },
+        {
+          names: ['Edge', 'Free edge'],
+          unit: 'mm',
+          meaning:
+            'How high the free edge of a scallop stands. Above the annulus it prolapses; flail, it stands in the atrium.',
+          measured: 'Its highest point above (+) or below (−) the plane of the annulus.',
+        },
+        {
+          names: [valveTexts.tenting, valveTexts.tentingVolume],
+          unit: 'mm, ml',
+          meaning: 'How deep chordae and papillary muscles hold the closed leaflets in the ventricle.',
+          measured: 'The deepest point below the plane of the annulus, and the volume between the two.',
+        },
+        {
+          names: [valveTexts.stretch95, valveTexts.stress95],
+          unit: '%, kPa',
+          meaning:
+            'How much the tissue of the leaflets is stretched and loaded. Compare them before and after, not with another patient.',
+          measured: 'The value that 95 % of the tissue stays below.',
+        },
+      ],
+    },
+    {
+      title: 'Annulus',
+      figures: [
+        {
+          names: [valveTexts.ap, valveTexts.cc],
+          unit: 'mm',
+          meaning: 'Depth and width of the annulus; 24 to 29 and 35 to 39 mm in healthy adults.',
+          measured:
+            'In systole, from the middle of the anterior annulus to the middle of the posterior one, and between the commissures.',
+        },
+        {
+          names: [valveTexts.circumference, valveTexts.area],
+          unit: 'mm, cm²',
+          meaning: 'The length of the annulus, and the area that it surrounds.',
+          measured: 'Along the annulus; the area as seen from the atrium.',
+        },
+        {
+          names: [valveTexts.saddle, valveTexts.angle],
+          unit: 'mm, °',
+          meaning: 'How much the annulus is a saddle and not flat.',
+          measured:
+            'From its lowest to its highest point; the angle at the middle between front and back, 180° if it is flat.',
+        },
+        {
+          names: [valveTexts.annulusPull],
+          unit: 'N',
+          meaning: 'How strongly the closed leaflets pull at annulus, ring or band.',
+          measured: 'The sum of all forces of the leaflets on the annulus.',
+        },
+      ],
+    },
+    {
+      title: 'How it opens',
+      figures: [
+        {
+          names: [valveTexts.openArea],
+          unit: 'cm²',
+          meaning:
+            'The smallest opening for the inflow. 1.5 cm² or less is a severe stenosis in adults (ACC/AHA 2014).',
+          measured:
+            'On a copy of the valve that is opened by 5 mmHg, between the leaflets or at the annulus, whichever is smaller.',
+        },
+        {
+          names: [valveTexts.gradient],
+          unit: 'mmHg',
+          meaning:
+            'The pressure that the inflow loses at the valve; more than 5 mmHg is too much after a repair.',
+          measured: 'From the open area and the flow that you give (Gorlin).',
+        },
+      ],
+    },
+    {
+      title: 'Chordae',
+      figures: [
+        {
+          names: [tableTexts.pull, repairTexts.pull, valveTexts.strongestPull],
+          unit: 'mN',
+          meaning: 'How strongly a chord is pulled; 1,000 mN are 1 N, about the weight of 100 g.',
+          measured: 'From its stretch, stiffness and thickness; a slack chord pulls at nothing.',
+        },
+        {
+          names: [valveTexts.pullOn('a papillary head')],
+          unit: 'N',
+          meaning: 'How strongly its chordae pull at a head of a papillary muscle.',
+          measured: 'The sum of the pulls of its chordae, each in its direction.',
+        },
+        {
+          names: [tableTexts.length, repairTexts.stretch],
+          unit: 'mm, %',
+          meaning:
+            'The length of a chord before it becomes taut, and how much longer than that it is under load.',
+          measured: 'Along the straight line between its ends.',
+        },
+        {
+          names: [tableTexts.ofLimit, repairTexts.limit],
+          unit: '%, or times',
+          meaning:
+            'The load of a chord beside the load at which such chordae work. Beyond 100 % look at it; from 200 % on it is far beyond and may tear. At which load it tears is not known here.',
+          measured:
+            'The larger share of two limits: a stretch of 11.1 %, and a pull of 2 N for strut chordae and trunks, 0.8 N for others. Artificial chordae are compared with the limit of native ones.',
+        },
+      ],
+    },
+    {
+      title: 'How certain it is',
+      figures: [
+        {
+          names: ['“a to b over 8 closures”'],
+          unit: 'of its figure',
+          meaning:
+            'The leaflets can fold in more than one way, and a figure differs a little from one way to another.',
+          measured:
+            'The least and the largest value, when the valve is closed eight times from different folds.',
+        },
+      ],
+    },
+  ],
 };
 
 export const gestureTexts = {
@@ -954,7 +1216,7 @@ export const gestureTexts = {
     percent: number | null;
     artificial: boolean;
   }) =>
-    `${chord.name}: ${number(chord.rest)} mm without pull, ${chord.strain > 0 ? `pull ${millinewton(chord.tension)}, stretch ${number(100 * chord.strain)} %` : 'slack'}${chord.percent === null ? '' : `, ${chord.percent} % of ${chord.artificial ? 'a native' : 'its'} limit`}`,
+    `${chord.name}: ${number(chord.rest)} mm without pull, ${chord.strain > 0 ? `pull ${millinewton(chord.tension)}, stretch ${number(100 * chord.strain)} %` : 'slack'}${chord.percent === null ? '' : `, ${loadWords(chord.percent, chord.artificial)}`}`,
 };
 
 /** Words for the values of a choice, where those of the library are not a surgeon's. */
@@ -1081,16 +1343,16 @@ export function fieldTip(kind: string, name: string, help: string, usual: string
 /** Tooltips of controls by their visible words: what happens when they are used. */
 export const tips: Record<string, string> = {
   [barTexts.open]: 'Opens a saved session, a valve, or the surface of a patient’s valve (STL, PLY, OBJ)',
-  [barTexts.save]: 'Saves the valve with its plan, checkpoints and notes as one file on this computer',
+  [barTexts.save]: 'Saves the valve with its plan, kept plans and notes as one file on this computer',
   [barTexts.undo]: 'Takes the last operation back',
   [barTexts.redo]: 'Does the operation again that was taken back last',
   [barTexts.startHealthy]: 'Leaves this plan for a healthy valve; you can return to a changed plan',
-  [barTexts.help]: 'All keys and gestures, and the licences',
+  [barTexts.help]: 'All keys and gestures, what the figures mean, and the licences',
   [barTexts.presets.surgeon]: 'View from the atrium with P2 below, as in the operation',
   [barTexts.presets.ventricle]: 'View from the ventricle on chordae and papillary muscles',
   [barTexts.presets.commissure]: 'View from the side, with the atrium above',
   [barTexts.presets.section]:
-    'View of a cut from front to back through both leaflets; drag the blue ball to move it',
+    'View of a section from front to back through both leaflets; drag the blue ball to move it',
   [barTexts.opening]: 'Lets the pressure on the valve fall and rise again, so that it opens and closes',
   [barTexts.cut]: 'Takes away what lies in front of the section plane',
   [barTexts.chordae]: 'Shows or hides the chordae',
@@ -1101,7 +1363,7 @@ export const tips: Record<string, string> = {
   [barTexts.colours]: 'What the colours of leaflets and chordae show',
   [appTexts.valve]: 'Figures of the valve: leak, coaptation, annulus, chordae',
   [appTexts.repair]: 'Operations, and what can be done with a chosen part',
-  [appTexts.plan]: 'What was done, checkpoints, notes, saving and the report',
+  [appTexts.plan]: 'What was done, kept plans, notes, saving and the report',
   [appTexts.tour]: 'Four leaking valves to learn on, with goals',
   [importTexts.tab]: 'Makes a valve of the surface that was opened',
   [appTexts.apply]: 'Does the operation; it can be undone',
@@ -1122,7 +1384,6 @@ export const tips: Record<string, string> = {
   [valveTexts.howCertain]:
     'Closes the valve from several folds of the leaflets, and writes the range beside each figure',
   [sectionTexts.middle]: 'Moves the plane back to the middle of A2 and P2',
-  [sectionTexts.cut]: 'Shows the same cut in the picture',
   [repairTexts.more]: 'Operations that are done less often',
   [repairTexts.letGo]: 'Nothing is chosen any more',
   [repairTexts.changeLength]: operationTips.chord_length,
@@ -1141,15 +1402,16 @@ export const tips: Record<string, string> = {
   [pointTexts.use]: 'Ends the drawing and shows the valve after this cut',
   [pointTexts.back]: 'Takes the last point of the cut away',
   [pointTexts.remove]: 'Forgets the measured ring',
-  [planTexts.checkpoints]: 'Stages of the plan that were kept under a name',
+  [figureHelp.title]: 'Each figure in words, its unit, how it is measured; the names of the scallops',
+  [planTexts.checkpoints]: 'Plans of this valve that were kept under a name',
   [planTexts.checkpointName]: 'The name under which the present plan is kept',
   [planTexts.keep]: 'Keeps the present plan, to return to it or to compare with it',
   [planTexts.returnTo]: 'Makes this plan the present one',
   [planTexts.compare]: 'Shows figures and pictures of both plans side by side',
-  [planTexts.putBack]: 'Brings the checkpoint back',
+  [planTexts.putBack]: 'Brings the kept plan back',
   [planTexts.notes]: 'What you write here stands in the session and in the report',
   [planTexts.files]: 'Files on this computer; nothing is sent anywhere',
-  [planTexts.save]: 'Saves the valve with its plan, checkpoints and notes as one file on this computer',
+  [planTexts.save]: 'Saves the valve with its plan, kept plans and notes as one file on this computer',
   [planTexts.obj]: 'Saves the present valve alone, for other programs',
   [planTexts.report]: 'One page with pictures, plan and figures, to print or to save',
   [planTexts.keepFile]: 'Choose a file; from then on every change is written to it',
@@ -1160,6 +1422,9 @@ export const tips: Record<string, string> = {
   [tourTexts.study.title]: 'The repair of the study, step by step',
   [tourTexts.example.title]: 'One repair that reaches the goals, step by step',
   [leaveTexts.back]: 'Opens that plan again; the present one can be returned to as well',
+  [askTexts.save]: 'Keeps the present plan, then opens the other one',
+  [askTexts.replace]: 'Opens the other plan; a line then offers the way back',
+  [askTexts.stay]: 'Leaves the present plan as it is',
   [importTexts.unit]: 'The length that the number one stands for in the file',
   [importTexts.kind]: 'Which side of the leaflets the surface is, from which their middle follows',
   [importTexts.points.commissures]: 'Then click both ends of the line of closure on the surface',
@@ -1188,8 +1453,8 @@ export const tipTexts = {
   next: 'Opens the next valve of the tour',
   plane: 'Moves the section plane from one commissure towards the other',
   checkpoint: 'Picture and figures of the plan that is compared',
-  rename: 'Gives the checkpoint another name',
-  remove: 'Deletes the checkpoint; it can be put back',
+  rename: 'Gives the plan another name',
+  remove: 'Deletes the kept plan; it can be put back',
   newName: 'Enter takes the name, Escape leaves the old one',
   pick: 'The next click in the picture chooses it',
   picture: help.picture,

@@ -22,7 +22,12 @@ const facts: [string, (chord: Chord) => string, string, ((chord: Chord) => strin
     '%',
     (chord) => limitIn(chordLimit('strain', chord), '%', 1),
   ],
-  [repairTexts.limit, (chord) => String(percentOfLimit(shareOfLimit(chord))), '%'],
+  [
+    repairTexts.limit,
+    (chord) => String(percentOfLimit(shareOfLimit(chord))),
+    '%',
+    (chord) => repairTexts.far(percentOfLimit(shareOfLimit(chord)), chord.artificial),
+  ],
 ];
 
 /** The facts that a form has room for; the share says whether pull or stretch is beyond its limit. */

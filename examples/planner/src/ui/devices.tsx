@@ -75,7 +75,7 @@ export function Devices({ figures }: { figures: Figures }) {
   const devices = picture && topology ? devicesOf(topology, picture, figures) : [];
   if (!devices.length) return null;
   return (
-    <Section title={deviceTexts.title(devices.length)} tip={tipTexts.devices} open>
+    <Section title={deviceTexts.title(devices.length)} tip={tipTexts.devices} name="devices" open>
       <table class="table" data-testid="devices">
         <thead>
           <tr>

@@ -1,33 +1,11 @@
-// Dialogs: the list of keys, the report.
-import { useEffect, useRef } from 'preact/hooks';
-import type { ComponentChildren } from 'preact';
+// Dialogs: the list of keys, the report, what the figures mean, a question.
 import * as state from '../store/state';
-import { appTexts, barTexts, dialogTexts, help, tips } from '../text/texts';
-import { Button } from './parts';
+import { barTexts, dialogTexts, help, tips } from '../text/texts';
+import { Ask } from './ask';
+import { FigureHelp } from './glossary';
+import { Modal } from './modal';
+import { FigureHelpButton } from './parts';
 import { ReportDialog } from './report';
-
-export function Modal(props: { title: string; wide?: boolean; children: ComponentChildren }) {
-  const dialog = useRef<HTMLDialogElement>(null);
-  useEffect(() => dialog.current?.showModal(), []);
-  const close = () => (state.dialog.value = null);
-  return (
-    <dialog
-      ref={dialog}
-      class={props.wide ? 'wide' : ''}
-      aria-label={props.title}
-      onClose={close}
-      onCancel={close}
-    >
-      <div class="form-head">
-        <h2>{props.title}</h2>
-        <Button kind="quiet" onClick={close}>
-          {appTexts.close}
-        </Button>
-      </div>
-      {props.children}
-    </dialog>
-  );
-}
 
 export function Dialogs() {
   if (state.dialog.value === 'keys') {
@@ -46,6 +24,7 @@ export function Dialogs() {
           </tbody>
         </table>
         <p>{dialogTexts.pointer}</p>
+        <FigureHelpButton />
         <details class="section">
           <summary title={tips[dialogTexts.licences]}>{dialogTexts.licences}</summary>
           <pre class="licences">{document.getElementById('licences')?.textContent}</pre>
@@ -54,6 +33,8 @@ export function Dialogs() {
       </Modal>
     );
   }
+  if (state.dialog.value === 'figures') return <FigureHelp />;
   if (state.dialog.value === 'report') return <ReportDialog />;
+  if (state.dialog.value === 'ask') return <Ask />;
   return null;
 }

@@ -7,6 +7,7 @@ import { appTexts, formTexts, t, tips, wordsOf } from '../text/texts';
 import type { FieldInfo } from '../protocol';
 import { ChordFacts } from './chord';
 import { Field } from './fields';
+import { GoalLine } from './goals';
 import { Opening } from './opening';
 import { Button, Section } from './parts';
 
@@ -74,7 +75,7 @@ export function OperationForm() {
       ))}
       {(draft.kind === 'annulus_scale' || draft.kind === 'band') && <AnnulusSize />}
       {more.length > 0 && (
-        <Section title={formTexts.more}>
+        <Section title={formTexts.more} name={`more of ${draft.kind}`}>
           {more.map((field) => (
             <Field key={field.name} kind={draft.kind} field={field} label={words.fields?.[field.name]} />
           ))}
@@ -86,6 +87,7 @@ export function OperationForm() {
         </p>
       )}
       <div class="form-foot">
+        {state.tour.value && <GoalLine number={state.tour.value.number} />}
         <Opening kind={draft.kind} />
         <p class="hint trying">
           {ready && state.outdated.value && (

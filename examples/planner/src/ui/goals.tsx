@@ -1,9 +1,11 @@
-// The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair".
+// The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair" and in the form of an operation.
 import { Check, CircleHelp, X } from 'lucide-preact';
 import { allowedLoad, leastCoaptation } from '../store/limits';
-import { flailHeight, flailOf, reached, startValve } from '../store/tour';
+import { flailHeight, flailOf, reached } from '../store/goals';
+import { startValve } from '../store/tour';
 import * as state from '../store/state';
 import { tipTexts, tourTexts } from '../text/texts';
+import type { Shown } from '../protocol';
 import { Button } from './parts';
 
 interface Check {
@@ -15,14 +17,14 @@ interface Check {
   later?: string;
 }
 
-function checks(number: number): Check[] {
+function checks(number: number, shown: Shown | null): Check[] {
   const { goals, shortGoals } = tourTexts;
-  const { sealed, chords, open, edge, coaptation } = reached();
+  const { sealed, chords, open, edge, coaptation } = reached(shown);
   const scallop = flailOf(number);
   return [
     { text: goals.sealed, short: shortGoals.sealed, done: sealed },
     ...(scallop
-      ? [{ text: goals.edge(scallop, flailHeight()), short: shortGoals.edge(scallop), done: edge }]
+      ? [{ text: goals.edge(scallop, flailHeight(shown)), short: shortGoals.edge(scallop), done: edge }]
       : []),
     { text: goals.coaptation(leastCoaptation()), short: shortGoals.coaptation, done: coaptation },
     { text: goals.chords(allowedLoad()), short: shortGoals.chords, done: chords },
@@ -30,22 +32,41 @@ function checks(number: number): Check[] {
   ];
 }
 
-/** `short`: in one line, without the heading. */
+const sign = ({ done }: Check, size: number) =>
+  done === null ? <CircleHelp size={size} /> : done ? <Check size={size} /> : <X size={size} />;
+
+const classOf = ({ done }: Check): string => (done === null ? 'open' : done ? 'done' : 'missed');
+
+/** In the foot of a form: the goals as the valve of its preview reaches them, in one line. */
+export function GoalLine({ number }: { number: number }) {
+  const name = `${tourTexts.goal(number)}, ${tourTexts.afterOperation}`;
+  return (
+    <ul class="goals line" aria-label={name} data-testid="goal-line">
+      {checks(number, state.preview.value ?? state.main.value).map((check) => (
+        <li class={classOf(check)} title={check.text}>
+          {sign(check, 14)}
+          <span>{check.short}</span>
+          <span class="hidden">{tourTexts.judged(check.done)}</span>
+        </li>
+      ))}
+    </ul>
+  );
+}
+
+/** `short`: in few lines, without the heading. */
 export function Goals({ number, short }: { number: number; short?: boolean }) {
-  const found = checks(number);
+  const found = checks(number, state.main.value);
   const count = state.finished.value.length;
   // in the order of the tour, and back to those that were passed over
   const valves = tourTexts.valves.map((_, k) => k + 1);
   const next = [...valves.slice(number), ...valves].find((k) => !state.finished.value.includes(k));
-  const icon = ({ done }: Check) =>
-    done === null ? <CircleHelp size={18} /> : done ? <Check size={18} /> : <X size={18} />;
   return (
     <>
       {!short && <h3>{tourTexts.goal(number)}</h3>}
       <ul class={`goals${short ? ' short' : ''}`} aria-label={tourTexts.goal(number)} data-testid="goals">
         {found.map((check) => (
-          <li class={check.done === null ? 'open' : check.done ? 'done' : 'missed'}>
-            {icon(check)}
+          <li class={classOf(check)}>
+            {sign(check, 18)}
             <span title={short ? check.text : undefined}>
               {short ? check.short : check.text}
               {!short && check.later && check.done === null && <small> {check.later}</small>}

@@ -74,6 +74,7 @@ export function onKey(event: KeyboardEvent, go: (preset: Preset) => void): void 
   else if (key === 'x') state.sectionOn.value = !state.sectionOn.value;
   else if (key === 'c') state.chordsOn.value = !state.chordsOn.value;
   else if (key === 'n') state.labelsOn.value = !state.labelsOn.value;
+  else if (key === 'f') state.dialog.value = 'figures';
   else if (key === 'm') state.map.value = mapNames[(mapNames.indexOf(state.map.value) + 1) % mapNames.length];
   else if ((key === 'g' || key === 'b') && !state.draft.value) {
     const tool = key === 'g' ? 'grasp' : 'push';

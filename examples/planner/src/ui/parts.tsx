@@ -1,7 +1,8 @@
 // Small parts that all panels use.
 import type { ComponentChildren, JSX } from 'preact';
+import { BookOpen } from 'lucide-preact';
 import * as state from '../store/state';
-import { figure, partTexts, tips } from '../text/texts';
+import { figure, figureHelp, partTexts, tips } from '../text/texts';
 import type { Range } from '../protocol';
 
 export function Figure(props: {
@@ -38,12 +39,15 @@ export function Figure(props: {
   );
 }
 
-/** The range of a figure over the ways in which the leaflets can fold; nothing where its digits do not show it. */
-export function Spread({ range, digits }: { range?: Range | null; digits: number }) {
+/** The range of a figure over the ways in which the leaflets can fold; nothing where its digits do not show it. `bare`: in a table,
+ *  which says below what its ranges are. */
+export function Spread(props: { range?: Range | null; digits: number; bare?: boolean }) {
+  const { range, digits, bare } = props;
   if (!range || !(range[1] - range[0] >= 0.5 * 10 ** -digits)) return null;
+  const closures = bare ? 0 : (state.shownSpread.value?.converged ?? 0);
   return (
     <span class="figure-before spread" title={partTexts.spreadHelp}>
-      {partTexts.range(figure(range[0], digits), figure(range[1], digits))}
+      {partTexts.range(figure(range[0], digits), figure(range[1], digits), closures)}
     </span>
   );
 }
@@ -86,15 +90,36 @@ export function Button(
   );
 }
 
+/** Opens the words on the figures. */
+export function FigureHelpButton() {
+  return (
+    <Button icon={<BookOpen size={16} />} keys="F" onClick={() => (state.dialog.value = 'figures')}>
+      {figureHelp.title}
+    </Button>
+  );
+}
+
+/** A part of a panel that is opened and closed. `name`: by which the page remembers that, where the title changes. */
 export function Section(props: {
   title: string;
   open?: boolean;
   children: ComponentChildren;
   id?: string;
   tip?: string;
+  name?: string;
 }) {
+  const name = props.name ?? props.title;
+  const open = state.sections.value.get(name) ?? !!props.open;
   return (
-    <details class="section" open={props.open} id={props.id}>
+    <details
+      class="section"
+      open={open}
+      id={props.id}
+      onToggle={({ currentTarget }) => {
+        if (currentTarget.open !== open)
+          state.sections.value = new Map(state.sections.value).set(name, currentTarget.open);
+      }}
+    >
       <summary title={props.tip ?? tips[props.title]}>{props.title}</summary>
       <div class="section-body">{props.children}</div>
     </details>

@@ -42,6 +42,9 @@ export function PlanPanel() {
         ))}
       </ol>
       {stepsOf(figures).length === 0 && <p class="hint">{planTexts.nothing}</p>}
+      <p data-testid="plan-verdict">
+        {planTexts.result} <strong>{headline(figures)}</strong>
+      </p>
       <Checkpoints />
       {state.compared.value && <SideBySide />}
       <Section title={planTexts.notes}>

@@ -9,11 +9,13 @@ import { figure, reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '
 import type { Cost, Figures } from '../protocol';
 import { openingOf } from '../store/limits';
 import { measurePlan } from '../store/opening';
+import { keptName, readPlans } from '../store/plans';
 import { fail, request } from '../store/requests';
 import { view } from './app';
 import { areaText, comparedRows, stepsOf } from './compared';
-import { Modal } from './dialogs';
+import { Modal } from './modal';
 import { Button } from './parts';
+import { escape, otherPlans } from './report_plans';
 import { boxOf, lines } from './section';
 
 interface Pictures {
@@ -63,10 +65,6 @@ function takePictures(): Pictures {
   camera.distance = kept.distance;
   viewport.touchScene();
   return { before, after };
-}
-
-function escape(text: string): string {
-  return text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }
 
 const tableRow = (label: string, was: string, now: string): string =>
@@ -126,19 +124,20 @@ function reportHtml(pictures: Pictures, plot: string): string {
   const table = comparedRows(then, now)
     .map((row) => tableRow(...row))
     .join('');
-  return `<h1>${escape(state.title.value || now.valve)}</h1><p>${reportTexts.closed(date)}</p>
+  return `<h1>${escape(state.title.value || now.valve)}</h1><p data-testid="report-plan">${escape(reportTexts.closed(date, keptName(now.hash)))}</p>
 <div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(headline(then))}</p></section>
 <section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
 <div class="pair"><section>${images(pictures.before)}</section><section>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
 <div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table></section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
+${otherPlans(now)}
 ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
 <p><small>${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;
 }
 
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
-table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400;white-space:nowrap}
+table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400;white-space:nowrap}.wrap{white-space:normal}.plans th,.plans td{padding-right:.6rem}
 @page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:58mm;object-fit:cover}svg.cut{max-height:60mm}}`;
 
 export function ReportDialog() {
@@ -150,6 +149,7 @@ export function ReportDialog() {
     write();
     sectionPlot().then((drawn) => ((plot = drawn), write()), fail);
     measurePlan().then(write, fail);
+    readPlans().then(write, fail);
   }, []);
   const saved = useSignal('');
   const save = () => {

@@ -1,6 +1,6 @@
 // Scallops and chordae as tables: the twin of the picture for keyboard and screen reader.
 import * as state from '../store/state';
-import { figure, kindOf, tableTexts, tipTexts } from '../text/texts';
+import { figure, kindOf, partTexts, tableTexts, tipTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import { shownEdges } from '../store/edges';
 import { chordValue, percentOfLimit, shareOfLimit, suture } from '../notable';
@@ -40,15 +40,15 @@ export function Scallops({ figures }: { figures: Figures }) {
                   {was && !waiting && Math.abs(was.coaptationMean - region.coaptationMean) >= 0.05 && (
                     <small>{tableTexts.was(figure(was.coaptationMean))}</small>
                   )}
-                  <Spread range={ranges?.[region.name]?.coaptationMean} digits={1} />
+                  <Spread range={ranges?.[region.name]?.coaptationMean} digits={1} bare />
                 </td>
                 <td class="leak">
                   {dots(region.orifice > 0 ? figure(region.orifice) : '–')}
-                  <Spread range={ranges?.[region.name]?.orifice} digits={1} />
+                  <Spread range={ranges?.[region.name]?.orifice} digits={1} bare />
                 </td>
                 <td>
                   {dots(region.billow > 0 ? figure(region.billow) : '–')}
-                  <Spread range={ranges?.[region.name]?.billow} digits={1} />
+                  <Spread range={ranges?.[region.name]?.billow} digits={1} bare />
                 </td>
                 <td class={edges.get(region.name)! > 0 ? 'edge high' : 'edge'}>
                   {edges.has(region.name) ? tableTexts.signed(edges.get(region.name)!) : ''}
@@ -58,9 +58,16 @@ export function Scallops({ figures }: { figures: Figures }) {
           })}
         </tbody>
       </table>
+      {ranges && <Ranges />}
       {!waiting && regions.some((region) => region.orifice > 0) && <p class="hint">{tableTexts.leakHint}</p>}
     </Section>
   );
+}
+
+/** What the ranges of a table are. */
+function Ranges() {
+  const { value } = state.shownSpread;
+  return value && <p class="hint">{partTexts.ranges(value.converged)}</p>;
 }
 
 export function Chordae({ figures }: { figures: Figures }) {
@@ -72,10 +79,11 @@ export function Chordae({ figures }: { figures: Figures }) {
     .map((chord) => ({ chord, share: shareOfLimit(chord) }))
     .sort((a, b) => b.share - a.share);
   return (
-    <Section title={tableTexts.chordae(chordae.length)} tip={tipTexts.chordae}>
+    <Section title={tableTexts.chordae(chordae.length)} tip={tipTexts.chordae} name="chordae">
       <p class="hint">
         {tableTexts.chordaeHint} {chordae.some((chord) => chord.artificial) && tableTexts.artificialHint}
       </p>
+      {pulls && <Ranges />}
       <div class="scroll">
         <table class="table" data-testid="chords">
           <thead>
@@ -107,7 +115,7 @@ export function Chordae({ figures }: { figures: Figures }) {
                   <td>{chord.strain <= 0 ? tableTexts.slack : `${percentOfLimit(share)} %`}</td>
                   <td>
                     {figure(chordValue('pull', chord), 0)}
-                    <Spread range={times(pulls?.[chord.id], 1000)} digits={0} />
+                    <Spread range={times(pulls?.[chord.id], 1000)} digits={0} bare />
                   </td>
                   <td>{figure(chord.rest)}</td>
                 </tr>

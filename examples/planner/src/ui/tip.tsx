@@ -34,9 +34,16 @@ const hide = (): void => void (shown.value = null);
 /** px between a control and its tooltip. */
 const gap = 6;
 
-/** Puts a box below a control, or above it where there is no room, within the window. */
+/** Puts a box beside the panel of a control, where it covers nothing of it; else below the control, or above it where there is no
+ *  room, within the window. */
 function put(box: HTMLElement, control: HTMLElement): void {
   const [of, own] = [control.getBoundingClientRect(), box.getBoundingClientRect()];
+  const panel = control.closest('.side')?.getBoundingClientRect();
+  if (panel && panel.left >= own.width + 2 * gap) {
+    const top = Math.max(gap, Math.min(of.top, innerHeight - own.height - gap));
+    box.style.transform = `translate(${panel.left - own.width - gap}px, ${top}px)`;
+    return;
+  }
   const below = of.bottom + gap + own.height <= innerHeight;
   const left = Math.max(gap, Math.min(of.left, innerWidth - own.width - gap));
   const top = below ? of.bottom + gap : Math.max(gap, of.top - gap - own.height);
@@ -52,12 +59,14 @@ export function Tip() {
     window.addEventListener('focusout', hide);
     window.addEventListener('keydown', onKey, true);
     window.addEventListener('pointerdown', onPress, true);
+    window.addEventListener('resize', follow);
     document.addEventListener('scroll', follow, true);
     return () => {
       window.removeEventListener('focusin', onFocus);
       window.removeEventListener('focusout', hide);
       window.removeEventListener('keydown', onKey, true);
       window.removeEventListener('pointerdown', onPress, true);
+      window.removeEventListener('resize', follow);
       document.removeEventListener('scroll', follow, true);
     };
   }, []);

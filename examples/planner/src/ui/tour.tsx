@@ -5,9 +5,9 @@ import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
 import { openingOf } from '../store/limits';
 import { showChord, startValve } from '../store/tour';
-import { figure, say, tips, tipTexts, tourTexts } from '../text/texts';
+import { figure, say, tipTexts, tourTexts } from '../text/texts';
 import { Goals } from './goals';
-import { Button } from './parts';
+import { Button, Section } from './parts';
 
 export function TourPanel() {
   const tour = state.tour.value;
@@ -49,21 +49,14 @@ function Goal() {
     <>
       <h2>{texts.title}</h2>
       <p>{texts.story}</p>
-      <details class="section" key={tour.number}>
-        <summary title={tips[tourTexts.hint]}>{tourTexts.hint}</summary>
-        <div class="section-body">
-          <p>{texts.hint}</p>
-          {texts.chord && (
-            <Button
-              icon={<Eye size={16} />}
-              title={tipTexts.chordHint}
-              onClick={() => showChord(texts.chord!)}
-            >
-              {tourTexts.show(texts.chord)}
-            </Button>
-          )}
-        </div>
-      </details>
+      <Section key={tour.number} title={tourTexts.hint} name={`hint ${tour.number}`}>
+        <p>{texts.hint}</p>
+        {texts.chord && (
+          <Button icon={<Eye size={16} />} title={tipTexts.chordHint} onClick={() => showChord(texts.chord!)}>
+            {tourTexts.show(texts.chord)}
+          </Button>
+        )}
+      </Section>
       <Goals number={tour.number} />
       <Button kind="main" icon={<Wrench size={16} />} onClick={() => (state.panel.value = 'repair')}>
         {tourTexts.repair}
@@ -117,17 +110,14 @@ function Score() {
       </table>
       {founding?.repaired && <p class="hint">{tourTexts.columnsHelp(other.help)}</p>}
       {founding?.repaired && (
-        <details class="section">
-          <summary title={tips[other.title]}>{other.title}</summary>
-          <div class="section-body">
-            <ol>
-              {founding.repaired.operations.map((line) => (
-                <li>{say(line)}</li>
-              ))}
-            </ol>
-            <p class="hint">{tourTexts.namesHelp}</p>
-          </div>
-        </details>
+        <Section title={other.title} name={`${other.title} ${tour.number}`}>
+          <ol>
+            {founding.repaired.operations.map((line) => (
+              <li>{say(line)}</li>
+            ))}
+          </ol>
+          <p class="hint">{tourTexts.namesHelp}</p>
+        </Section>
       )}
     </>
   );

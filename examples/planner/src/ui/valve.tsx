@@ -5,7 +5,7 @@ import * as state from '../store/state';
 import { appTexts, tips, valveTexts } from '../text/texts';
 import type { Figures, Measures } from '../protocol';
 import { Devices } from './devices';
-import { Button, Figure, Section, times } from './parts';
+import { Button, Figure, FigureHelpButton, Section, times } from './parts';
 import { SectionPlot } from './section';
 import { Chordae, Scallops } from './tables';
 
@@ -58,6 +58,7 @@ export function ValvePanel() {
           note={billowing(figures)}
         />
       </div>
+      <FigureHelpButton />
       <Scallops figures={figures} />
       <Section title={valveTexts.annulus} open>
         <div class="figures">
