@@ -246,6 +246,13 @@ describe('planner goals', () => {
     await page.getByRole('button', { name: 'Cancel' }).click();
     await answered(page, 200);
     assert.equal(await hash(), other);
+    // the offer stays, and the plan that it replaces can be returned to as well
+    await notice.getByRole('button', { name: 'Return to it' }).click();
+    await page.getByRole('button', { name: 'Go on without keeping it' }).click();
+    await page.getByText('gives exactly the saved valve').waitFor();
+    await closed(page);
+    assert.equal(await hash(), changed);
+    await notice.getByRole('button', { name: 'Return to it' }).waitFor();
   });
 
   it('says_in_the_report_which_plan_it_is_of_and_lists_the_others', async () => {
