@@ -66,7 +66,7 @@ function offerRepair(number: number, left: Left | null): void {
 
 async function comeBack(left: Left): Promise<void> {
   const present = await leave();
-  if (present && !(await mayReplace(left.title, 'file'))) return;
+  if (present && !(await mayReplace(left.title, 'file'))) return offerReturn(left, null);
   if (!(await openSession(left.bytes, present))) return;
   batch(() => {
     state.tour.value = left.tour;

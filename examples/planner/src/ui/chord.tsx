@@ -54,7 +54,7 @@ export function ChordFacts({ chord, after, brief }: { chord: Chord; after?: Chor
               class={label === repairTexts.limit && over ? 'over' : undefined}
               title={label === repairTexts.limit ? help : undefined}
             >
-              {fact(of, unit)} {limit && <small>{limit(after ?? chord)}</small>}
+              {fact(of, unit)} {limit && !brief && <small>{limit(after ?? chord)}</small>}
             </dd>
           </>
         ))}
