@@ -321,7 +321,7 @@ MVS_API mvs_result mvs_snapshot_get_orifice_part(const mvs_snapshot *snapshot, u
                                                  mvs_orifice_part *part);
 
 /* Returns the working range of chordae of a kind: largest strain and tension in N; infinite for
- * sutures. Chordae rupture beyond this range; a chord outside it deserves inspection. Sources:
+ * sutures. It is no limit of strength: a chord outside it deserves inspection. Sources:
  * libmvs/measure/DEFINITIONS.md. */
 MVS_API mvs_result mvs_get_chord_limits(mvs_chord_kind kind, double *strain, double *tension);
 

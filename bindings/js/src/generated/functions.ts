@@ -1277,7 +1277,7 @@ export class Functions extends Calls {
 
   /**
    * Returns the working range of chordae of a kind: largest strain and tension in N; infinite for
-   * sutures. Chordae rupture beyond this range; a chord outside it deserves inspection. Sources:
+   * sutures. It is no limit of strength: a chord outside it deserves inspection. Sources:
    * libmvs/measure/DEFINITIONS.md.
    */
   mvs_get_chord_limits(kind: ChordKind | number): { strain: number; tension: number } {

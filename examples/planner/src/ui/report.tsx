@@ -138,7 +138,7 @@ ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.valu
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
 table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400;white-space:nowrap}.wrap{white-space:normal}.plans th,.plans td{padding-right:.6rem}
-@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:44mm;object-fit:cover}svg.cut{max-height:60mm}}`;
+@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:58mm;object-fit:cover}svg.cut{max-height:60mm}}`;
 
 export function ReportDialog() {
   const html = useSignal('');
