@@ -21,13 +21,13 @@ def leaflet():
     x, y = np.meshgrid(np.arange(0, 12.1, 0.3), np.arange(0, 6.1, 0.3), indexing="ij")
     points = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, TOP)]) * 1e-3
     row = np.arange(points.shape[0]).reshape(x.shape)
-    a, b, c, d = (row[i:i - 1 or None, j:j - 1 or None].ravel() for i, j in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    a, b, c, d = row[:-1, :-1].ravel(), row[1:, :-1].ravel(), row[1:, 1:].ravel(), row[:-1, 1:].ravel()
     return Sheet(points, np.vstack([np.column_stack([a, b, c]), np.column_stack([a, c, d])]),
                  {"thickness": np.full(len(points), 0.8e-3)})
 
 
 def segmented(lines, muscles):
-    """Results of the stages before `paths` of straight chordae (start, end) and round muscles, all in mm, below a leaflet."""
+    """Results of the stages before `paths`: straight chordae (start, end) and round muscles, mm, below a leaflet."""
     shape = (86, 31, 61)  # z, y, x
     at = np.stack(np.meshgrid(*[np.arange(n) for n in shape], indexing="ij"), -1)[..., ::-1] * VOXEL
     mask = np.abs(at[..., 2] - TOP) < 0.4
@@ -49,11 +49,12 @@ def segmented(lines, muscles):
 def ends_of(results):
     """Muscle and the x of the insertion, mm, of each way."""
     paths = paths_of(results)
-    return sorted((label, float(paths.voxels[path[-1]][2] * VOXEL)) for label, path in zip(paths.muscle, paths.paths))
+    return sorted((label, float(paths.voxels[path[-1]][2] * VOXEL))
+                  for label, path in zip(paths.muscle, paths.paths))
 
 
 def test_chordae_that_cross_go_straight_on():
-    """Two chordae touch halfway. The first muscle is nearer to that place: the shortest paths to both ends came from it."""
+    """Two chordae touch halfway. The shortest paths to both ends come from the first muscle, the nearer one."""
     muscles = np.array([[3.0, 3, 4], [9.0, 3, 1.5]])
     lines = [(muscles[0], (9.0, 3, TOP)), (muscles[1], (3.0, 3, TOP))]
     found = ends_of(segmented(lines, muscles))

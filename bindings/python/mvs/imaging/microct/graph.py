@@ -88,7 +88,7 @@ def paths_of(results: Mapping[str, Any]) -> Paths:
     to_muscle = np.linalg.norm(nearest - voxels, axis=1) * step
     height = to_muscle / np.maximum(to_muscle + to_leaflet, 1e-9)
     ways, row = ways_through(
-        Skeleton(voxels * step, pairs, in_muscle, (to_leaflet < REACH) & ~in_muscle, to_leaflet, height))
+        Skeleton(np.asarray(voxels * step, float), pairs, in_muscle, (to_leaflet < REACH) & ~in_muscle, to_leaflet, height))
     return Paths(voxels[row], tuple(ways), tuple(int(own[row[way[0]]]) for way in ways), chords)
 
 

@@ -120,7 +120,8 @@ def _is_end(s: Skeleton, edge: Edge, side: int) -> bool:
 def _without_spurs(s: Skeleton, edges: list[Edge], junction: dict[int, list[int]]
                    ) -> tuple[list[Edge], dict[int, list[int]]]:
     """Drops short dead ends and all but the longest of the short edges of a flare."""
-    kept, flares = [], {}
+    kept: list[Edge] = []
+    flares: dict[int, list[Edge]] = {}
     for edge in edges:
         free = [side for side, at in ((0, edge.lower), (-1, edge.upper)) if at < 0]
         if len(free) == 1 and _length(s, edge) < FLARE:
