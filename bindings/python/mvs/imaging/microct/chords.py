@@ -21,15 +21,8 @@ SAME_HEAD = 0.8e-3
 """m: chords of one muscle that begin nearer than this to each other, a diameter, have one head. Chordae
 spread over several mm of a muscle: one head for all of them would move their ends by as much."""
 
-EXTENSION, ADVANCE = 4e-3, 0.1e-3
-"""m: the end of a chord is continued at most so far to its insertion, in steps"""
-BENT, LAST_PART, CURVED = 0.8e-3, 6e-3, 3e-3
-"""m: the part of a chord before its end that bends to the leaflet, the part before that by which it is continued, and
-the length from which on that part shows its curvature"""
-NEAR_SHEET, ALONG_SHEET = 0.3e-3, 0.5e-3
-"""m from the mid-surface: a chord has come to it; a chord still runs along it"""
-GRAZING = 0.15
-"""Sine of the angle to the mid-surface below which a chord no longer comes nearer to it"""
+EXTENSION = 4e-3
+"""m: the end of a chord is continued at most so far to its insertion"""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -74,13 +67,11 @@ def chords_of(results: Mapping[str, Any]) -> ChordNetwork:
                 nodes.append(at[voxel])
     sheet: Sheet = results["sheet"]
     surface = need("pyvista").PolyData.from_regular_faces(sheet.points * 1e3, sheet.triangles)
-    corners = sheet.points[sheet.triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     segments: dict[tuple[int, int], Points] = {}
     for k, (path, cut) in enumerate(zip(paths.paths, cuts)):
         places = np.flatnonzero(np.isin(path, cut))
         end = len(nodes)
-        nodes.append(_insertion(at[path[places[-2]:]], surface, normals))
+        nodes.append(_insertion(at[path], surface))
         names = [int(head_of[k]), *(branch[int(path[i])] for i in places[1:-1]), end]
         for a, b, i, j in zip(names, names[1:], places, places[1:]):
             if (a, b) not in segments:
@@ -128,54 +119,27 @@ def _cut(path: NDArray[np.int64], use: NDArray[np.int64], at: Points) -> list[in
     return [int(path[0]), *inner, int(path[-1])]
 
 
-def _insertion(line: Points, surface: Any, normals: Points) -> Points:
-    """Where the continuation of the end of a line meets the mid-surface; else the point of that nearest to it.
+def _insertion(line: Points, surface: Any) -> Points:
+    """Where the end of a line, continued straight, first comes within 0.3 mm of the mid-surface; else
+    the nearest point of the mid-surface to that continuation.
 
-    It meets the mid-surface where it goes through it, if it stays along it until there from where it came near. Else
-    as soon as it is near and comes no nearer: an end at a rim lies in the plane of the leaflet, and goes through
-    nowhere.
-
-    normals: of the triangles of the surface, of any length
-    """
-    places = continued(line)
-    cell, closest = surface.find_closest_cell(places * 1e3, return_closest_point=True)
-    off = places - np.atleast_2d(closest) * 1e-3
-    above = (off * normals[np.atleast_1d(cell)]).sum(axis=1) > 0
-    away = np.linalg.norm(off, axis=1)
-    near = np.flatnonzero(away < NEAR_SHEET)
-    if not len(near):
-        at = int(away.argmin())
-    else:
-        at = int(near[0])
-        through = np.flatnonzero((above[1:] != above[:-1]) & (away[1:] < NEAR_SHEET))
-        through = through[through + 1 >= at]
-        if len(through) and (away[at:through[0] + 1] < ALONG_SHEET).all():
-            at = int(through[0]) + 1
-        else:
-            while at + 1 < len(away) and away[at] - away[at + 1] > GRAZING * ADVANCE:
-                at += 1
-    return np.asarray(places[at] - off[at], float)
-
-
-def continued(line: Points) -> Points:
-    """Points (n, 3), ADVANCE apart, from near the end of a line on: a parabola through its last part.
-
-    Where a chord comes near to a leaflet its tissue is joined to it, the sooner the flatter it lies, and the
-    skeleton bends: the last BENT does not count. Slack chordae are curved: in phantoms they turn by 10 to 20 degrees
-    over the 2.5 mm between the end of the skeleton and the insertion, so that a straight line goes 1.2 mm too far.
+    Where a chord comes near to a leaflet its tissue is joined to it, the sooner the flatter it lies, and
+    the skeleton bends: the direction is that of the last 2.5 mm without the last 0.8 mm.
     """
     left = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line[::-1], axis=0), axis=1))])[::-1]
-    part = line[(left > BENT) & (left < BENT + LAST_PART)]
-    if len(part) < 4:
-        return line[-1:]
-    middle = part.mean(axis=0)
-    along = np.linalg.svd(part - middle, full_matrices=False)[2][0]
-    along *= np.sign(along @ (part[-1] - part[0])) or 1.0
-    at = (part - middle) @ along
-    degree = 2 if np.ptp(at) > CURVED else 1
-    curve = np.polynomial.polynomial.polyfit(at, part, degree)
-    start = (line[-1] - middle) @ along - BENT
-    return np.asarray(np.polynomial.polynomial.polyval(start + np.arange(0, EXTENSION, ADVANCE), curve).T)
+    straight = line[(left > 0.8e-3) & (left < 3.3e-3)]
+    places = line[-1:]
+    if len(straight) >= 4:
+        middle = straight.mean(axis=0)
+        along = np.linalg.svd(straight - middle, full_matrices=False)[2][0]
+        along *= np.sign(along @ (straight[-1] - straight[0])) or 1.0
+        start = (line[-1] - middle) @ along - 0.8e-3
+        places = middle + (start + np.arange(0, EXTENSION, 0.1e-3))[:, None] * along
+    _, closest = surface.find_closest_cell(places * 1e3, return_closest_point=True)
+    closest = np.atleast_2d(closest) * 1e-3
+    away = np.linalg.norm(closest - places, axis=1)
+    near = np.flatnonzero(away < 0.3e-3)
+    return np.asarray(closest[near[0] if len(near) else away.argmin()], float)
 
 
 def smooth_line(line: Points, step: float) -> Points:

@@ -1,4 +1,4 @@
-"""Chordae: skeleton of the thin tissue, its voxels as a graph, ways from papillary muscles to leaflets."""
+"""Chordae: skeleton of the thin tissue, a graph of its voxels, paths from papillary muscles to leaflets."""
 
 from __future__ import annotations
 
@@ -14,11 +14,12 @@ from ..needs import need
 from ..orientation import neighbour_pairs
 from .bridges import bridges
 from .segment import EVERYWHERE, Mask, Thick, Tissue, nearest_voxels
-from .ways import Skeleton, ways_through
 
 Points = NDArray[np.float64]
 REACH = 1.5e-3
 """m: an end of the skeleton this near to a leaflet or a muscle is attached to it"""
+SAME_END = 1.2e-3
+"""m: ends on one leaflet nearer than this to each other belong to one chord, which flares there"""
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
@@ -35,10 +36,9 @@ class Muscles:
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Paths:
-    """For each insertion the skeleton's voxels from its muscle to the leaflet.
+    """Skeleton voxels as a graph, and for each insertion the voxels from its muscle to the leaflet.
 
-    voxels: (n, 3) z, y, x, one more than once where chordae cross; paths: rows of voxels, from the muscle on, which
-    begin alike where a chord forks; muscle: label of each path
+    voxels: (n, 3) z, y, x; paths: rows of voxels, from the muscle on; muscle: label of each path
     """
 
     voxels: NDArray[np.int64]
@@ -66,7 +66,8 @@ def muscles_of(results: Mapping[str, Any]) -> Muscles:
 
 
 def paths_of(results: Mapping[str, Any]) -> Paths:
-    """The ways along the skeleton from the muscles to the leaflets (ways.py)."""
+    """The shortest path along the skeleton from the muscles to each end on a leaflet (Dijkstra)."""
+    sparse, search = need("scipy.sparse"), need("scipy.sparse.csgraph")
     tissue: Tissue = results["tissue"]
     muscles: Muscles = results["muscles"]
     leaflets = near_sheet(tissue, results["sheet"])
@@ -83,13 +84,21 @@ def paths_of(results: Mapping[str, Any]) -> Paths:
     to_leaflet = np.where(leaflets[rows], 0, nearest_voxels(leaflets, voxels)[0]) * step
     in_muscle = muscles.mask[rows]
     pairs = np.vstack([pairs, bridges(voxels, pairs, (to_leaflet < REACH) & ~in_muscle, tissue.mask, step)])
+    length = np.linalg.norm(voxels[pairs[:, 0]] - voxels[pairs[:, 1]], axis=1) * step
+    links = sparse.coo_matrix((length, pairs.T), (len(voxels),) * 2).tocsr()
+    degree = np.bincount(pairs.ravel(), minlength=len(voxels))
     nearest = np.where(in_muscle[:, None], voxels, nearest_voxels(muscles.mask, voxels)[1])
     own = results["thick"].label[tuple(nearest.T)]
-    to_muscle = np.linalg.norm(nearest - voxels, axis=1) * step
-    height = to_muscle / np.maximum(to_muscle + to_leaflet, 1e-9)
-    ways, row = ways_through(
-        Skeleton(np.asarray(voxels * step, float), pairs, in_muscle, (to_leaflet < REACH) & ~in_muscle, to_leaflet, height))
-    return Paths(voxels[row], tuple(ways), tuple(int(own[row[way[0]]]) for way in ways), chords)
+    starts = np.flatnonzero(in_muscle)
+    ends = np.flatnonzero((to_leaflet < REACH) & ~in_muscle & (degree == 1))
+    if not len(starts) or not len(ends):
+        return none
+    distance, before, source = search.dijkstra(
+        links, directed=False, indices=starts, min_only=True, return_predecessors=True)
+    ends = ends[np.isfinite(distance[ends])]
+    ends = _one_of_each_flare(ends, voxels, to_leaflet, before, step)
+    paths = tuple(_trace(before, end) for end in ends)
+    return Paths(voxels, paths, tuple(int(own[path[0]]) for path in paths), chords)
 
 
 def near_sheet(tissue: Tissue, sheet: Sheet) -> Mask:
@@ -103,3 +112,28 @@ def near_sheet(tissue: Tissue, sheet: Sheet) -> Mask:
     mask = np.zeros(tissue.mask.shape, bool)
     mask[tuple(voxels[found].T)] = True
     return mask
+
+
+def _trace(before: NDArray[np.int64], end: int) -> NDArray[np.int64]:
+    path = [int(end)]
+    while before[path[-1]] >= 0:
+        path.append(int(before[path[-1]]))
+    return np.array(path[::-1])
+
+
+def _one_of_each_flare(ends: NDArray[np.int64], voxels: NDArray[np.int64], away: Points,
+                       before: NDArray[np.int64], step: float) -> NDArray[np.int64]:
+    """Keeps one end, the nearest to the leaflet, of those near to each other whose paths join soon."""
+    order = ends[np.argsort(away[ends], kind="stable")]
+    kept: list[int] = []
+    reach = int(np.ceil(2 * SAME_END / step))
+    tails: list[set[int]] = []
+    for end in order:
+        tail = set(_trace(before, int(end))[-reach:].tolist())
+        near = [k for k, other in enumerate(kept)
+                if np.linalg.norm(voxels[end] - voxels[other]) * step < SAME_END]
+        if any(tail & tails[k] for k in near):
+            continue
+        kept.append(int(end))
+        tails.append(tail)
+    return np.array(sorted(kept), dtype=np.int64)
