@@ -50,3 +50,9 @@ TEST_CASE("without_a_closure_at_rest_the_leak_is_not_determined") {
   CHECK(range->confidence == 0);
   CHECK(range->sentence.find("not determined: none of 3 closures") != std::string::npos);
 }
+
+TEST_CASE("a_valve_seals_if_no_closure_leaks_more_than_meshes_differ_by") {
+  CHECK(all_seal({0, 0.4e-6}));
+  CHECK(!all_seal({0, 0.6e-6}));
+  CHECK(!all_seal({NAN, 0}));
+}

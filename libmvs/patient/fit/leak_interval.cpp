@@ -143,6 +143,10 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
   findings.push_back(finding);
 }
 
+bool all_seal(const std::vector<double> &leaks) {
+  return std::all_of(leaks.begin(), leaks.end(), [](double leak) { return leak < sealed; });
+}
+
 LengthRange range_after(const ChordFit &fit) {
   LengthRange range;
   double sum = 0;
@@ -164,6 +168,7 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
   std::vector<double> leaks = known;
   const uint32_t most_closures =
       3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_draws;
+  std::vector<double> every = known;  // those of closures that are not at rest as well
   const auto close = [&](const ClosureChange &change) {
     const auto share_done = [&](double share, double) {
       if (tell) tell((interval.closures + share) / most_closures);
@@ -172,6 +177,7 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
     share_done(0, 0);
     const Closed closed = close_with(model->valve, change, edge, share_done);
     ++interval.closures;
+    every.push_back(closed.leak);
     if (closed.at_rest) {
       ++interval.closed;
       leaks.push_back(closed.leak);
@@ -192,8 +198,7 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
   for (size_t k = 0; thickness_error > 0 && k < 2; ++k) {
     interval.tissue_leak[k] = close({{}, 0, thickness(k == 0 ? 1 : -1)}).leak;
   }
-  const bool is_sealed = interval.closed == interval.closures &&
-                         *std::max_element(leaks.begin(), leaks.end()) < sealed;
+  const bool is_sealed = interval.closed > 0 && all_seal(every);
   NormalNumbers random(seed);
   const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
   for (; !is_sealed && interval.draws < most_draws; ++interval.draws) {

@@ -9,7 +9,8 @@ import pytest
 pytest.importorskip("pyvista", reason="needs the extra imaging (PyVista)")
 
 from mvs.imaging.fitted_tissue import (  # noqa: E402
-    CANDIDATES, CLEARLY_NEARER, SEARCH_VERTICES, chosen_tissue, fitted_distance, search_edge)
+    CANDIDATES, CLEARLY_NEARER, SEARCH_VERTICES, chosen_tissue, fitted_distance, search_edge,
+    with_other_tissues)
 from mvs.imaging.mesh import Sheet  # noqa: E402
 
 
@@ -26,6 +27,22 @@ def test_the_default_stays_where_others_are_hardly_nearer():
     near = 1e-3 * CLEARLY_NEARER
     assert chosen_tissue({"bilinear": 1e-3, "prot": 1.001 * near})[0] == "bilinear"
     assert chosen_tissue({"bilinear": 1e-3, "prot": 0.999 * near})[0] == "prot"
+
+
+def test_the_interval_of_leaks_holds_those_of_tissues_that_fit_hardly_worse():
+    interval = mvs.Finding("leak_interval", mvs.FindingSource.MEASURED, 0.7, "0.0 to 2.8 mm2",
+                           np.array([0, 2.8e-6]), "m2")
+    other = mvs.Finding("mesh", mvs.FindingSource.MEASURED, 1.0, "", np.array([1e-3]), "m")
+    away = {"bilinear": 0.83e-3, "prot": 0.74e-3, "may_newman_yin": 1.2e-3}
+    leaks = {"bilinear": 6.5e-6, "prot": 1.3e-6, "may_newman_yin": 40e-6}
+    kept, wider = with_other_tissues((other, interval), "prot", away, leaks)
+    assert kept is other and wider.source == interval.source and wider.confidence < interval.confidence
+    assert list(wider.values) == pytest.approx([0, 7e-6])  # meshes of one valve differ by 0.5 mm2
+    assert "bilinear, 6.5 mm2" in wider.sentence and "may_newman_yin" not in wider.sentence
+    # without another plausible tissue, and where no closure came to rest, nothing changes
+    assert with_other_tissues((interval,), "prot", {"prot": 0.74e-3}, leaks)[0] is interval
+    empty = mvs.Finding("leak_interval", mvs.FindingSource.MEASURED, 0.0, "not determined", np.zeros(0), "m2")
+    assert with_other_tissues((empty,), "prot", away, leaks)[0] is empty
 
 
 def square(side, above=0.0):

@@ -7,7 +7,7 @@ that microct/tissue.py compares closures without a fit.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Optional
 
 import numpy as np
@@ -26,6 +26,13 @@ SEARCH_VERTICES = 500
 CLEARLY_NEARER = 0.9
 """Another law takes the place of the default if its distance is at most this share: two segmentations of one
 valve, or two folds of one closure, differ by a tenth."""
+
+PLAUSIBLE = 1.25
+"""A law may be that of the patient if its distance is at most this many times the least: distances contain the
+errors of the labels, and a law whose own error is three quarters of theirs has 1.25 times their distance."""
+
+MESH_LEAK, UNKNOWN_LEAK = 0.5e-6, 20e-6
+"""m2: by which the leaks of meshes of one valve differ; width of an interval that says nothing (leak_interval.cpp)"""
 
 
 def search_edge(sheet: Sheet) -> float:
@@ -68,3 +75,25 @@ def chosen_tissue(away: Mapping[str, float]) -> tuple[str, mvs.Finding]:
         f"{best}: distances of the leaflets in the loaded image from a coarse valve with fitted chordae (RMS: {words}; "
         "the default stays unless another tissue is a tenth nearer); give --leaflet if the tissue is known",
         [away[law] for law in order], "m")
+
+
+def with_other_tissues(found: Iterable[mvs.Finding], chosen: str, away: Mapping[str, float],
+                       leaks: Mapping[str, float]) -> tuple[mvs.Finding, ...]:
+    """Findings whose `leak_interval` also holds the leaks, m2, of the fits with the other plausible laws.
+
+    Labels hardly determine the tissue, and a valve leaks more or less with another one.
+    """
+    least = min(away.values(), default=0.0)
+    others = [law for law in away if law != chosen and away[law] <= PLAUSIBLE * least]
+    return tuple(_wider(one, {law: leaks[law] for law in others})
+                 if one.name == "leak_interval" and len(one.values) and others else one for one in found)
+
+
+def _wider(interval: mvs.Finding, leaks: Mapping[str, float]) -> mvs.Finding:
+    low = max(0.0, min(interval.values[0], min(leaks.values()) - MESH_LEAK))
+    high = max(interval.values[1], max(leaks.values()) + MESH_LEAK)
+    sure = 0.8 * (1 - min(1.0, (high - low) / UNKNOWN_LEAK))
+    words = ", ".join(f"{law}, {leak * 1e6:.1f} mm2" for law, leak in leaks.items())
+    return finding("leak_interval", mvs.FindingSource(interval.source), min(interval.confidence, sure),
+                   f"{low * 1e6:.1f} to {high * 1e6:.1f} mm2 with other tissues that fit hardly worse ({words}, on a "
+                   f"coarse mesh); with the tissue taken: {interval.sentence}", [low, high], interval.unit)
