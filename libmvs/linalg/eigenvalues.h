@@ -13,7 +13,7 @@ using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 // m = vectors * diagonal of values * transposed vectors, in no order.
 template <typename Matrix>
-struct SymmetricEigen {
+struct JacobiEigen {
   Matrix vectors;
   double values[Matrix::RowsAtCompileTime];
 };
@@ -22,11 +22,11 @@ struct SymmetricEigen {
 // Their loops over single elements give the same bits with every vector width, and compile in a
 // tenth of the time of Eigen's solver.
 template <typename Matrix>
-SymmetricEigen<Matrix> symmetric_eigen(Matrix m) {
+JacobiEigen<Matrix> jacobi_eigen(Matrix m) {
   constexpr int n = Matrix::RowsAtCompileTime;
   // Convergence is quadratic: six sweeps reach rounding at this size.
   constexpr int most_sweeps = 20;
-  SymmetricEigen<Matrix> out = {Matrix::Identity(), {}};
+  JacobiEigen<Matrix> out = {Matrix::Identity(), {}};
   bool rotated = true;
   for (int sweep = 0; sweep < most_sweeps && rotated; ++sweep) {
     rotated = false;
@@ -63,7 +63,7 @@ SymmetricEigen<Matrix> symmetric_eigen(Matrix m) {
 }
 
 inline double largest_eigenvalue(const Mat3 &m) {
-  const auto eigen = symmetric_eigen(m);
+  const auto eigen = jacobi_eigen(m);
   return std::max({eigen.values[0], eigen.values[1], eigen.values[2]});
 }
 
@@ -71,7 +71,7 @@ inline double largest_eigenvalue(const Mat3 &m) {
 template <typename Matrix>
 Matrix with_eigenvalues_in(const Matrix &m, double low, double high) {
   constexpr int n = Matrix::RowsAtCompileTime;
-  const SymmetricEigen<Matrix> eigen = symmetric_eigen(m);
+  const JacobiEigen<Matrix> eigen = jacobi_eigen(m);
   bool inside = true;
   for (const double value : eigen.values) inside = inside && value >= low && value <= high;
   if (inside) return m;
