@@ -1,7 +1,7 @@
 // Edge-to-edge repair: the joined places, and the effect on the valve.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
 #include <numeric>
 
 #include "surgery/leaflet/sheet_map.h"
@@ -208,13 +208,12 @@ TEST_CASE("the_title_of_a_clip_says_how_far_it_is_from_the_middle_and_towards_wh
   };
   for (const double position : {0.5, -0.5}) {
     const Operated done = placed(position);
-    double from_middle = 0;
-    char towards[8] = "";
-    const size_t at = done.title.find(" mm, ");
-    REQUIRE(at != std::string::npos);
-    REQUIRE(std::sscanf(done.title.c_str() + at, " mm, %lf mm towards %7s", &from_middle,
-                        towards) == 2);
-    CHECK(std::string(towards) == (position > 0 ? "A1" : "A3"));
+    const std::string after = " stitches over ", between = " mm towards ";
+    const size_t width = done.title.find(after), place = done.title.find(" mm, ", width);
+    const size_t towards = done.title.find(between, place);
+    REQUIRE(towards != std::string::npos);
+    const double from_middle = std::strtod(done.title.c_str() + place + 5, nullptr);
+    CHECK(done.title.substr(towards + between.size()) == (position > 0 ? "A1" : "A3"));
     // the middle of the valve is x = 0; the first stitch is at the nearest node of the free edge,
     // within half an edge of 2 mm
     const Model &model = *done.current.model;
