@@ -7,7 +7,7 @@ import { closed, figures, sharePlanner, temporaryFile } from './fixtures/browser
 import { repeated } from './fixtures/native.mjs';
 import { answered, apply, begin, open, openPanel, save, startAfresh, undo } from './fixtures/person.mjs';
 
-const listed = (page) => page.getByTestId('closed-valves').locator('.closed-valve');
+const listed = (page) => page.getByTestId('earlier-valves').locator('.earlier-valve');
 const startHealthy = async (page) => {
   await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
   // a plan that is left is kept first, and a busy worker takes its time
@@ -75,7 +75,7 @@ describe('valves that were left', () => {
     await begin(page, 'band');
     await apply(page);
     await startHealthy(page);
-    assert.match(await notice.innerText(), /no room for so many closed valves: “Old” left the list/);
+    assert.match(await notice.innerText(), /no room for so many earlier valves: “Old” left the list/);
   });
 
   it('offers_the_repair_of_a_tour_valve_there_and_nowhere_else', async () => {

@@ -19,7 +19,7 @@ function tell(said: Said, text: string, action = said?.action): void {
   if (all) state.notice.value = { kind: said?.kind ?? 'info', text: all, action };
 }
 
-/** The words for valves that the list of closed valves has no room for. */
+/** The words for valves that the list of earlier valves has no room for. */
 const lost = (titles: string[]): string => (titles.length ? leaveTexts.dropped(titles) : '');
 
 /** Keeps the valve that was left in the list, and offers the way back to a changed one after what `said` the notice before. */

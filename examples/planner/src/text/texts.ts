@@ -565,12 +565,12 @@ const withKept = (count: number): string => (count ? ` with its ${keptPlans(coun
 /** The present valve as the one before the repair. */
 export const startTexts = {
   begin: 'Take this valve as the one before the repair',
-  tip: 'Comparison, section and report then begin with this valve; the plan that led to it stays among the closed valves',
+  tip: 'Comparison, section and report then begin with this valve; the plan that led to it stays among the earlier valves',
   leaks: 'The valve leaks after this. Was that the disease, and the repair comes now?',
   title: (title: string) => (/, changed$/.test(title) ? title : `${title}, changed`),
   steps: (title: string, steps: string[]) =>
     steps.length ? `Before the repair, from “${title}”: ${steps.join('; ')}.` : '',
-  done: 'This valve is the one before the repair. The plan that led to it can be returned to.',
+  done: 'This valve is the one before the repair.',
 };
 
 export const leaveTexts = {
@@ -581,8 +581,8 @@ export const leaveTexts = {
   listed: (title: string, kept: number) =>
     `“${title || 'without a name'}” was closed${withKept(kept)}; the panel Plan lists it.`,
   dropped: (titles: string[]) =>
-    `There is no room for so many closed valves: ${listOf(titles.map((title) => `“${title}”`))} left the list.`,
-  heading: (count: number) => `Closed valves (${count})`,
+    `There is no room for so many earlier valves: ${listOf(titles.map((title) => `“${title}”`))} left the list.`,
+  heading: (count: number) => `Earlier valves (${count})`,
   headingTip: 'Valves that were left since the page was opened, with their plans',
   hint: 'They stay until this page is closed. What must last longer: “Save session”.',
   contents: (verdict: string, steps: number, kept: number) =>
@@ -591,7 +591,7 @@ export const leaveTexts = {
       .join(' · '),
   again: 'Open it again',
   againTip: 'Opens this valve with its plan and kept plans; the present valve takes its place in the list',
-  own: 'Your repair of this valve that was closed:',
+  own: 'Your earlier repair of this valve:',
   repaired: 'Your repair of this valve can be opened again.',
   back: 'Return to it',
 };
@@ -1286,7 +1286,7 @@ export const operationTips: Record<string, string> = {
   chord_add: 'Ties a chord with the stiffness of natural tissue, as in a transplantation of chordae.',
 };
 
-const newLength = 'Length without pull. Left empty, the chord becomes as taut as its neighbours.';
+const newLength = 'Rest length, without pull. Left empty, the chord becomes as taut as its neighbours.';
 const nameTip = 'Its name in lists, in the history and in the report';
 const fromMuscle = 'The papillary muscle from which it comes; or click it in the picture';
 const onLeaflet = 'Where it is tied to the leaflet; or click the place in the picture';
@@ -1330,7 +1330,7 @@ export const fieldTips: Record<string, Record<string, string>> = {
   },
   chord_length: {
     chord: 'The chord that is changed; or click it in the picture',
-    length: 'The new length without pull. Shorter holds the leaflet deeper in the ventricle.',
+    length: 'The new rest length, without pull. Shorter holds the leaflet deeper in the ventricle.',
     factor: 'The new length as a share of the present one; less than all of it shortens',
   },
   chord_remove: { chord: 'The chord that is cut; or click it in the picture' },
@@ -1340,7 +1340,7 @@ export const fieldTips: Record<string, Record<string, string>> = {
     site: 'The new place on a leaflet; or click it in the picture',
     head: 'The new papillary muscle; or click it in the picture',
     length:
-      'Length without pull. Left empty, it stays for another leaflet, and is made as taut as its neighbours for another muscle.',
+      'Rest length, without pull. Left empty, it stays for another leaflet, and is made as taut as its neighbours for another muscle.',
   },
   head_move: {
     head: 'The papillary muscle whose tip is moved; or click it in the picture',

@@ -10,7 +10,7 @@ import * as state from '../store/state';
 import { headline } from '../store/verdict';
 import { appTexts, barTexts, figureNames, planTexts, say, tips, valveTexts } from '../text/texts';
 import { Checkpoints } from './checkpoints';
-import { BeginHere, ClosedValves } from './closed';
+import { BeginHere, EarlierValves } from './earlier';
 import { areaText, comparedRows, stepsOf } from './compared';
 import { Button, Section } from './parts';
 
@@ -49,7 +49,7 @@ export function PlanPanel() {
       </p>
       <BeginHere />
       <Checkpoints />
-      <ClosedValves />
+      <EarlierValves />
       {state.compared.value && <SideBySide />}
       <Section title={planTexts.notes}>
         <textarea

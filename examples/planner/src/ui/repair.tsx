@@ -22,7 +22,7 @@ import * as state from '../store/state';
 import { appTexts, figure, operationTips, repairTexts, wordsOf } from '../text/texts';
 import type { FieldValue } from '../protocol';
 import { ChordFacts } from './chord';
-import { MadeLeak } from './closed';
+import { MadeLeak } from './earlier';
 import { OperationForm } from './form';
 import { Goals } from './goals';
 import { Button, Section } from './parts';

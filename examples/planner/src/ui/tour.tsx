@@ -7,7 +7,7 @@ import { reachesAll } from '../store/goals';
 import { openingOf } from '../store/limits';
 import { showChord, startValve } from '../store/tour';
 import { figure, say, tipTexts, tourTexts } from '../text/texts';
-import { OwnRepair } from './closed';
+import { OwnRepair } from './earlier';
 import { Goals } from './goals';
 import { Button, Section } from './parts';
 
@@ -17,7 +17,7 @@ function signOf(number: number): 'now' | 'before' | 'none' {
   return state.finished.value.includes(number) ? 'before' : 'none';
 }
 
-const signs = { now: <Check size={16} />, before: <History class="soft" size={14} />, none: undefined };
+const signs = { now: <Check size={16} />, before: <History class="soft" size={12} />, none: undefined };
 
 export function TourPanel() {
   const tour = state.tour.value;

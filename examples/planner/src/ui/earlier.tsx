@@ -8,7 +8,7 @@ import { Button, Section } from './parts';
 
 function Row({ left, title }: { left: Left; title: string }) {
   return (
-    <div class="row closed-valve">
+    <div class="row earlier-valve">
       <span>
         {title} <small>{leaveTexts.contents(left.verdict, left.steps, left.kept)}</small>
       </span>
@@ -20,12 +20,12 @@ function Row({ left, title }: { left: Left; title: string }) {
 }
 
 /** In the panel "Plan": all valves that were left, the newest first. */
-export function ClosedValves() {
+export function EarlierValves() {
   const all = leftValves.value;
   if (!all.length) return null;
   return (
-    <Section title={leaveTexts.heading(all.length)} name="closed valves" tip={leaveTexts.headingTip} open>
-      <div data-testid="closed-valves">
+    <Section title={leaveTexts.heading(all.length)} name="earlier valves" tip={leaveTexts.headingTip} open>
+      <div data-testid="earlier-valves">
         {all.map((left) => (
           <Row key={left.content} left={left} title={left.title} />
         ))}
@@ -48,7 +48,7 @@ export function OwnRepair({ number }: { number: number }) {
 /** The button that makes the present valve the one before the repair. */
 export function BeginHere() {
   return state.canUndo.value ? (
-    <div class="row">
+    <div class="row begin-here">
       <Button icon={<Flag size={16} />} title={startTexts.tip} onClick={() => void beginHere()}>
         {startTexts.begin}
       </Button>
