@@ -233,6 +233,8 @@ describe('planner goals', () => {
       const { setTimeout: later } = window;
       window.setTimeout = (work, ms, ...rest) => (ms === 30_000 ? 0 : later(work, ms, ...rest));
     });
+    // not the offer of the plan before
+    await startAfresh(page);
     await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
     const notice = page.getByTestId('notice');
     await notice.waitFor();
