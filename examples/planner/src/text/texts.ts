@@ -900,7 +900,7 @@ export const repairTexts = {
   chord: (name: string) => `Chord ${name}`,
   between: (kind: string, heads: string, scallops: string) =>
     `${kind} chord, from ${heads ? `head ${heads}` : 'a branch'} to ${scallops || 'a branch'}`,
-  rest: 'Rest length, without pull',
+  rest: 'Rest length',
   pull: 'Pull',
   stretch: 'Stretch',
   slack: 'slack',
