@@ -6,6 +6,7 @@ import { App } from './ui/app';
 import { openShipped } from './store/files';
 import { connect, fail, request } from './store/requests';
 import { keepFollowing, visited } from './store/keep';
+import { leftValves } from './store/left';
 import { findCopies } from './store/recovery';
 import * as state from './store/state';
 import { watchOpening } from './store/opening';
@@ -53,7 +54,8 @@ async function start(): Promise<void> {
 }
 
 window.addEventListener('beforeunload', (event) => {
-  if (state.changed.value || state.marked.value) event.preventDefault();
+  const earlier = leftValves.value.some(({ changed }) => changed);
+  if (state.changed.value || state.marked.value || earlier) event.preventDefault();
 });
 
 void start();

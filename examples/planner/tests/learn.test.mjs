@@ -29,7 +29,7 @@ describe('planner to learn with', () => {
     // the verdict names the chord, and the goal the load that is compared with
     await openPanel(page, 'Learn');
     const note =
-      /1 chord far beyond its limit \(([\d.]+ times)\)[^]*A2\/4 \1[^]*No chord above 111\s% of its working limit/;
+      /1 chord far beyond its limit \(([\d.]+ times)\)[^]*A2\/4 \1[^]*No chord loaded above 111\s% of its working limit/;
     await page.evaluate(() => {
       window.notes = [];
       const text = (id) => document.querySelector(`[data-testid=${id}]`)?.innerText;
@@ -233,6 +233,8 @@ describe('planner goals', () => {
       const { setTimeout: later } = window;
       window.setTimeout = (work, ms, ...rest) => (ms === 30_000 ? 0 : later(work, ms, ...rest));
     });
+    // not the offer of the plan before
+    await startAfresh(page);
     await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
     const notice = page.getByTestId('notice');
     await notice.waitFor();
@@ -271,5 +273,34 @@ describe('planner goals', () => {
     await page.getByRole('button', { name: 'Report' }).click();
     assert.match(flat(await of()), /The plan “Plan 1”/);
     await page.keyboard.press('Escape');
+  });
+
+  it('reports_the_kept_plan_that_is_seen_and_names_plans_that_are_compared', async () => {
+    const { kept, changed } = await twoPlans();
+    await page.getByRole('button', { name: 'Compare' }).click();
+    const heads = () => page.getByTestId('compare').locator('th').allInnerTexts();
+    await page.getByTestId('compare').waitFor();
+    assert.deepEqual((await heads()).slice(0, 3), ['', 'Plan 1', 'Present plan']);
+    const compared = page.getByRole('group', { name: 'Before or now' });
+    await compared.getByRole('button', { name: 'Plan 1' }).click();
+    const seen = () => page.evaluate(() => window.planner.state.shown.value.figures.hash);
+    assert.equal(await seen(), kept);
+    await page.getByRole('button', { name: 'Report' }).click();
+    const dialog = page.locator('dialog');
+    assert.match(flat(await dialog.getByTestId('report-plan').innerText()), /The plan “Plan 1”/);
+    assert.equal(await dialog.locator('ol li').count(), 1, 'the steps of Plan 1');
+    assert.ok((await dialog.innerText()).includes(kept));
+    const rows = dialog.getByTestId('report-plans').locator('tr');
+    await rows.nth(2).waitFor();
+    assert.match(flat(await rows.nth(2).innerText()), /^Present plan/);
+    await page.keyboard.press('Escape');
+    await answered(page, 200);
+    assert.equal(await seen(), kept, 'the same valve is seen afterwards');
+    await compared.getByRole('button', { name: 'Present plan' }).click();
+    assert.equal(await seen(), changed);
+    await page.getByRole('button', { name: 'Keep this plan' }).click();
+    await answered(page, 200);
+    assert.equal((await heads())[2], 'Plan 2');
+    await compared.getByRole('button', { name: 'Plan 2' }).waitFor();
   });
 });

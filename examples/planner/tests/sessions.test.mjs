@@ -3,9 +3,142 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
-import { figures, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
+import { closed, figures, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
 import { repeated } from './fixtures/native.mjs';
 import { answered, apply, begin, open, openPanel, save, startAfresh, undo } from './fixtures/person.mjs';
+
+const listed = (page) => page.getByTestId('earlier-valves').locator('.earlier-valve');
+const startHealthy = async (page) => {
+  await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
+  // a plan that is left is kept first, and a busy worker takes its time
+  while ((await figures(page)).history.length) await page.waitForTimeout(50);
+  await closed(page);
+};
+const openTour = async (page, number) => {
+  await openPanel(page, 'Learn');
+  await page.getByRole('button', { name: `Valve ${number}`, exact: true }).click();
+  await page
+    .getByTestId('score')
+    .getByText(number > 3 ? 'Example' : 'Study surgeon')
+    .waitFor();
+  await closed(page);
+};
+
+describe('valves that were left', () => {
+  let page;
+  sharePlanner((opened) => ({ page } = opened));
+
+  it('keeps_every_valve_with_its_kept_plans_through_many_switches', async () => {
+    const hashes = [];
+    for (const [k, kind] of ['annulus_scale', 'band', 'ring'].entries()) {
+      await startHealthy(page);
+      await begin(page, kind);
+      await apply(page);
+      await openPanel(page, 'Plan');
+      for (let n = 0; n <= k; ++n) {
+        await page.getByLabel('Name of the plan').fill(`${kind} ${n}`);
+        await page.keyboard.press('Enter');
+        await answered(page);
+      }
+      hashes.unshift((await figures(page)).hash);
+    }
+    await openTour(page, 2);
+    const notice = page.getByTestId('notice');
+    assert.match(await notice.innerText(), /with its 3 kept plans/);
+    await page.evaluate(() => (window.planner.state.notice.value = null));
+    await openPanel(page, 'Plan');
+    const texts = await listed(page).allInnerTexts();
+    assert.equal(texts.length, 3);
+    assert.match(texts[0], /Healthy valve\s+Sealed · 1 step · 3 kept plans/);
+    // the oldest, then the one that was last before
+    for (const [row, hash, plans] of [
+      [2, hashes[2], ['annulus_scale 0']],
+      [1, hashes[0], ['ring 0', 'ring 1', 'ring 2']],
+    ]) {
+      await listed(page).nth(row).getByRole('button', { name: 'Open it again' }).click();
+      await page.getByText('gives exactly the saved valve').waitFor();
+      await closed(page);
+      assert.equal((await figures(page)).hash, hash);
+      assert.deepEqual(await page.locator('.checkpoint > span').allInnerTexts(), plans);
+      await startHealthy(page);
+      await openPanel(page, 'Plan');
+      assert.equal(await listed(page).count(), 3, 'opened again and left, each is there once');
+    }
+    // what the memory has no room for is named
+    await page.evaluate(() => {
+      const { leftValves } = window.planner;
+      leftValves.value = [
+        ...leftValves.value,
+        { ...leftValves.value[0], content: 'x', title: 'Old', bytes: { length: 48e6 } },
+      ];
+    });
+    await begin(page, 'band');
+    await apply(page);
+    await startHealthy(page);
+    assert.match(await notice.innerText(), /no room for so many earlier valves: “Old” left the list/);
+  });
+
+  it('offers_the_repair_of_a_tour_valve_there_and_nowhere_else', async () => {
+    await openTour(page, 4);
+    await begin(page, 'band');
+    await apply(page);
+    const repaired = (await figures(page)).hash;
+    await startHealthy(page);
+    await begin(page, 'annulus_scale');
+    await apply(page);
+    // whatever is left, valve 4 offers its own repair first
+    await openTour(page, 4);
+    const notice = page.getByTestId('notice');
+    assert.match(await notice.innerText(), /“Healthy valve” was closed; .*Your repair of this valve/s);
+    assert.equal(await page.getByTestId('own-repair').count(), 1);
+    await startHealthy(page);
+    assert.equal(await notice.filter({ hasText: 'repair of this valve' }).count(), 0);
+    await openTour(page, 4);
+    await notice.getByRole('button', { name: 'Return to it' }).click();
+    await page.getByText('gives exactly the saved valve').waitFor();
+    await closed(page);
+    assert.equal((await figures(page)).hash, repaired);
+  });
+
+  it('takes_a_valve_that_was_made_ill_as_the_one_before_the_repair', async () => {
+    await startHealthy(page);
+    await begin(page, 'annulus_scale');
+    await page.locator('#f-factor').fill('125');
+    await page.keyboard.press('Tab');
+    await answered(page, 200);
+    await apply(page);
+    const ill = await figures(page);
+    assert.ok(ill.measures.orifice > 0);
+    await page.getByTestId('made-leak').getByRole('button').click();
+    await page.getByText('This valve is the one before the repair').waitFor();
+    await closed(page);
+    const start = await figures(page);
+    assert.deepEqual(start.history, []);
+    // the page settles the valve again, to 1e-4 N
+    assert.ok(Math.abs(start.measures.orifice - ill.measures.orifice) < 0.05 * ill.measures.orifice);
+    await begin(page, 'ring');
+    await page.locator('#f-size').fill('34');
+    await page.keyboard.press('Tab');
+    await answered(page, 200);
+    await apply(page);
+    await openPanel(page, 'Plan');
+    await page.getByRole('button', { name: 'Report' }).click();
+    const report = page.locator('dialog');
+    const leak = await report.getByRole('row', { name: /^Leak/ }).first().locator('td').allInnerTexts();
+    assert.equal(leak[0], `${start.measures.orifice.toFixed(1)} mm²`);
+    assert.match(
+      await report.innerText(),
+      /Healthy valve, changed[^]*Before the repair, from “Healthy valve”: /,
+    );
+    await page.keyboard.press('Escape');
+    // the plan that made it ill
+    await listed(page).first().getByRole('button', { name: 'Open it again' }).click();
+    await page.getByRole('button', { name: 'Go on without keeping it' }).click();
+    await page.getByText('gives exactly the saved valve').waitFor();
+    await closed(page);
+    assert.equal((await figures(page)).hash, ill.hash);
+  });
+});
 
 describe('sessions', () => {
   let page;

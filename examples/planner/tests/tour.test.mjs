@@ -145,14 +145,19 @@ describe('tour', () => {
             /The plan “Valve 1: .*” was closed; it reaches all goals/,
           );
           assert.equal(await page.getByTestId('present').innerText(), 'Valve 2 of the tour');
-          assert.equal(await button.locator('svg').count(), 1, 'the tick stays');
+          assert.equal(await button.locator('svg.soft').count(), 1, 'reached before');
           const next = page.getByRole('button', { name: 'Valve 2' });
           assert.equal(await next.locator('svg').count(), 0, 'the goals are not judged on the valve before');
           await button.click();
-          await page.getByText('Your repair of this valve').waitFor();
+          await page.getByTestId('notice').getByText('Your repair of this valve').waitFor();
+          // the leaking valve has no tick, and the repaired one has it again
+          await page.getByTestId('reached-before').waitFor();
+          assert.equal(await button.locator('svg:not(.soft)').count(), 0);
           await page.getByRole('button', { name: 'Return to it' }).click();
           await page.getByText('gives exactly the saved valve').waitFor();
           assert.equal((await figures(page)).measures.orifice, 0);
+          await button.locator('svg:not(.soft)').waitFor();
+          assert.equal(await page.getByTestId('own-repair').count(), 0, 'it is open');
         }
         if (number === 3) await page.getByRole('button', { name: 'On to valve 4' }).waitFor();
         if (number === 4) {
@@ -160,6 +165,9 @@ describe('tour', () => {
           await page.getByRole('button', { name: 'On to valve 1' }).waitFor();
           await page.evaluate(() => (window.planner.state.finished.value = [1, 2, 3, 4]));
           await page.getByText('All four valves are sealed').waitFor();
+          // the end of the tour leads to a valve of one's own
+          await page.getByRole('button', { name: 'Open your own valve' }).waitFor();
+          assert.equal(await page.getByRole('button', { name: 'Repair this valve' }).count(), 0);
         }
       });
     });

@@ -1,78 +1,60 @@
 // Opening: shipped valves, valve files, sessions, and surfaces that become a valve.
 import { batch } from '@preact/signals';
 import { shippedVertices } from '../shipped';
-import { leaveTexts, t } from '../text/texts';
+import { leaveTexts, say, startTexts, t } from '../text/texts';
 import { millimetres } from '../units';
 import type { FileUnit, Shown } from '../protocol';
 import { mayReplace } from './ask';
 import { discard } from './edit';
-import { reachesAll } from './goals';
-import { request, run, show } from './requests';
+import { learnFounding } from './founding';
+import { forget, leave, remember, repairOf, type Left } from './left';
+import { run, show } from './requests';
 import * as state from './state';
 
-/** A changed plan that gives way to another one, as a session. */
-interface Left {
-  title: string;
-  bytes: Uint8Array;
-  tour: typeof state.tour.value;
-  /** A valve of the tour whose goals it reaches. */
-  finished: boolean;
+type Said = typeof state.notice.value;
+
+/** Shows a notice after what `said` another one. */
+function tell(said: Said, text: string, action = said?.action): void {
+  const all = [said?.text, text].filter(Boolean).join(' ');
+  if (all) state.notice.value = { kind: said?.kind ?? 'info', text: all, action };
 }
 
-/** The last changed plan of each valve of the tour, by its number. */
-const repairs = new Map<number, Left>();
+/** The words for valves that the list of earlier valves has no room for. */
+const lost = (titles: string[]): string => (titles.length ? leaveTexts.dropped(titles) : '');
 
-/** The present plan if it has something that is not saved: operations, checkpoints, notes, or a valve that is in no file. */
-export async function leave(): Promise<Left | null> {
-  const { canUndo, checkpoints, notes, onlyHere } = state;
-  const something = canUndo.value || checkpoints.value.length || notes.value || onlyHere.value;
-  if (!state.changed.value || !something) return null;
-  const title = state.title.value;
-  try {
-    return {
-      title,
-      tour: state.tour.value,
-      finished: reachesAll(),
-      bytes: await request('save_session', { title, notes: state.notes.value }),
-    };
-  } catch {
-    return null;
-  }
+/** Keeps the valve that was left in the list, and offers the way back to a changed one after what `said` the notice before. */
+export function offerReturn(left: Left | null, said: Said = state.notice.value): void {
+  const dropped = lost(remember(left));
+  if (!left?.changed) return tell(said, dropped);
+  const words = left.finished ? leaveTexts.finished : leaveTexts.left;
+  const text = [words(left.title, left.kept), dropped].filter(Boolean).join(' ');
+  tell(said, text, { text: leaveTexts.back, run: () => void comeBack(left) });
 }
 
-/** Offers the way back to a plan that was left, after what `said` the notice before. */
-export function offerReturn(left: Left | null, said = state.notice.value): void {
-  if (!left) return;
-  state.notice.value = {
-    kind: said?.kind ?? 'info',
-    text: [said?.text, left.finished ? leaveTexts.finished(left.title) : leaveTexts.left(left.title)]
-      .filter(Boolean)
-      .join(' '),
-    action: { text: leaveTexts.back, run: () => void comeBack(left) },
-  };
-}
-
-/** Offers the repair of a valve of the tour that is opened again, or the way back to a plan of another kind. */
+/** On a valve of the tour: offers its own repair that was left before any other plan, which stays in the list. */
 function offerRepair(number: number, left: Left | null): void {
-  if (left?.tour) repairs.set(left.tour.number, left);
-  const own = repairs.get(number);
-  if (!own || (left && !left.tour)) return offerReturn(left, null);
-  state.notice.value = {
-    kind: 'info',
-    text: leaveTexts.repaired,
-    action: { text: leaveTexts.back, run: () => void comeBack(own) },
-  };
+  const own = repairOf(number);
+  if (!own) return;
+  const other = left?.changed && left !== own ? leaveTexts.listed(left.title, left.kept) : '';
+  const text = [other, leaveTexts.repaired].filter(Boolean).join(' ');
+  tell(null, text, { text: leaveTexts.back, run: () => void comeBack(own) });
 }
 
-async function comeBack(left: Left): Promise<void> {
+/** Opens a valve that was left; the present one is kept in its place. */
+export async function comeBack(left: Left): Promise<void> {
   const present = await leave();
-  if (present && !(await mayReplace(left.title, 'file'))) return offerReturn(left, null);
+  if (present?.changed && !(await mayReplace(left.title, 'file'))) {
+    const back = { text: leaveTexts.back, run: () => void comeBack(left) };
+    return tell(null, leaveTexts.left(left.title, left.kept), back);
+  }
   if (!(await openSession(left.bytes, present))) return;
   batch(() => {
+    forget(left);
     state.tour.value = left.tour;
-    state.changed.value = true;
+    state.changed.value = left.changed;
     state.onlyHere.value = true;
   });
+  if (left.tour) await learnFounding(left.tour.number);
 }
 
 /** Leaves a surface, and its panel, for a valve. */
@@ -82,7 +64,13 @@ function leaveSurface(): void {
 }
 
 /** Shows a valve with which a plan begins; `onlyHere`: it is in no file. */
-function begun(shown: Shown | null, title: string, left: Left | null, onlyHere = false): void {
+function begun(
+  shown: Shown | null,
+  title: string,
+  left: Left | null,
+  onlyHere = false,
+  said: Said = null,
+): void {
   if (!shown) return;
   leaveSurface();
   batch(() => {
@@ -92,7 +80,7 @@ function begun(shown: Shown | null, title: string, left: Left | null, onlyHere =
     state.onlyHere.value = onlyHere;
     show(shown, true);
   });
-  offerReturn(left, null);
+  offerReturn(left, said);
 }
 
 export async function openShipped(
@@ -129,6 +117,25 @@ export async function openShipped(
     begun(shown, title, left);
     state.tour.value = tour;
     if (tour) offerRepair(tour.number, left);
+  });
+}
+
+/** Begins another plan with the present valve, which is then the one before the repair; the plan that led to it is left. */
+export async function beginHere(): Promise<void> {
+  const figures = state.main.value?.figures;
+  if (!figures) return;
+  discard();
+  const title = state.title.value || figures.valve;
+  const steps = figures.history.filter((entry) => !entry.undone).map((entry) => say(entry.title));
+  const notes = [state.notes.value, startTexts.steps(title, steps)].filter(Boolean).join('\n');
+  const left = await leave();
+  const bytes = await run(t.saving, 'save_obj', null);
+  const shown = bytes && (await run(t.closing, 'open_file', { name: title, bytes }));
+  if (!shown) return;
+  batch(() => {
+    state.tour.value = null;
+    begun(shown, startTexts.title(title), left, true, { kind: 'info', text: startTexts.done });
+    state.notes.value = notes;
   });
 }
 

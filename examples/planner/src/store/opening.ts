@@ -82,10 +82,10 @@ function watchNarrowed(): void {
   });
 }
 
-/** Measures the first and the present valve of the plan, for the report; larger ones too. */
-export async function measurePlan(): Promise<void> {
-  const { first, main } = state;
-  if (!openingOf(main.value?.figures.hash)) await measure('main');
+/** Measures the valve with this hash and the first one of the plan, for the report; larger ones too. */
+export async function measurePlan(hash: string, which: CostRequest['which']): Promise<void> {
+  const { first } = state;
+  if (!openingOf(hash)) await measure(which);
   if (!openingOf(first.value?.figures.hash)) await measure('first');
 }
 

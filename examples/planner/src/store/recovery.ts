@@ -12,7 +12,8 @@ import {
   type Copy,
   type LeftCopy,
 } from './copies';
-import { beginImport, leave, openSession } from './files';
+import { beginImport, openSession } from './files';
+import { leave } from './left';
 import { fail, request } from './requests';
 import * as state from './state';
 

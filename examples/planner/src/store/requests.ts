@@ -104,6 +104,8 @@ export function show(shown: Shown, fresh: boolean, done = ''): void {
     state.picking.value = null;
     if (fresh) {
       ++state.plan.value;
+      // a notice belongs to its valve
+      state.notice.value = null;
       state.first.value = shown;
       state.choice.value = null;
       state.receiveCheckpoints({ names: [], hashes: [], removed: null });

@@ -1,17 +1,12 @@
 // The tour: opening its valves, and measuring how far a sealed valve opens, which is one of the goals.
 import { effect } from '@preact/signals';
-import { shippedVertices } from '../shipped';
 import { tourTexts } from '../text/texts';
-import type { FoundingResult } from '../protocol';
 import { openShipped } from './files';
+import { knownFounding, learnFounding } from './founding';
 import { measureCost } from './measure';
 import { reachesAll } from './goals';
 import { openingOf } from './limits';
-import { fail, request } from './requests';
 import * as state from './state';
-
-/** The healthy valve of the tour, the same for all its valves: known from the first moment of the second one. */
-let healthyValve: FoundingResult['healthy'] | null = null;
 
 /** Chooses a chord of the valve of the plan and shows it from the ventricle. */
 export function showChord(name: string): void {
@@ -23,25 +18,10 @@ export function showChord(name: string): void {
 }
 
 export async function startValve(number: number): Promise<void> {
-  const founding = healthyValve ? { healthy: healthyValve } : null;
-  await openShipped(`founding${number}`, tourTexts.valves[number - 1].title, { number, founding });
+  const tour = { number, founding: knownFounding() };
+  await openShipped(`founding${number}`, tourTexts.valves[number - 1].title, tour);
   state.panel.value = 'tour';
-  // two requests, between which a preview has its turn
-  try {
-    const healthy = await request('founding_healthy', { vertices: shippedVertices });
-    healthyValve = healthy;
-    learn(number, { healthy });
-    learn(number, {
-      healthy,
-      repaired: await request('founding_repair', { number, vertices: shippedVertices }),
-    });
-  } catch (error) {
-    fail(error);
-  }
-}
-
-function learn(number: number, founding: FoundingResult): void {
-  if (state.tour.value?.number === number) state.tour.value = { ...state.tour.value, founding };
+  await learnFounding(number);
 }
 
 /** Remembers the valves whose goals are reached. */

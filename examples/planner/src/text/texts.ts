@@ -107,12 +107,16 @@ export const operationWords: Record<string, Words> = {
   chord_length: {
     title: 'Chord length',
     short: 'Shorten or lengthen a chord',
-    fields: { chord: 'Chord', length: 'Length without pull', factor: 'Length, in % of the present one' },
+    fields: {
+      chord: 'Chord',
+      length: 'Rest length, without pull',
+      factor: 'Length, in % of the present one',
+    },
   },
   chord_remove: { title: 'Cut a chord', short: 'Remove a chord', fields: { chord: 'Chord' } },
   chord_add: {
-    title: 'Native chord',
-    short: 'Tie a chord of natural tissue',
+    title: 'Tissue chord',
+    short: 'Add a chord of the patient’s own kind of tissue',
     fields: {
       head: 'Papillary muscle',
       site: 'Place on the leaflet',
@@ -226,6 +230,7 @@ export function say(sentence: string): string {
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
     .replace(clipEnd, (end) => `, ${clipSaid(clipWords(end)!)}`)
     .replace(/\bmm2\b/g, 'mm²')
+    .replace(/(\d) x (?=\d)/g, '$1 × ')
     .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
     .replace(/^mvs_\w+: /, '');
 }
@@ -289,15 +294,21 @@ export const tourTexts = {
   /** Of a goal, for those who do not see its sign; null: not known yet. */
   judged: (done: boolean | null) => (done === null ? 'not known yet' : done ? 'reached' : 'missed'),
   repair: 'Repair this valve',
+  repairOn: 'Go on repairing it',
+  reachedBefore:
+    'All goals of this valve were reached before, by another plan; the present one does not reach them.',
+  signs: { now: 'All goals reached', before: 'All goals were reached before', none: '' },
+  after:
+    'Next, a valve of your own: open the surface of its leaflets from an image (STL, PLY, OBJ) and mark the commissures, or a saved valve.',
+  own: 'Open your own valve…',
   next: (number: number) => `On to valve ${number}`,
   present: (k: number) => `Valve ${k} of the tour`,
-  finished: 'All goals reached',
   finishedOf: (count: number) =>
     count < 4 ? `${count} of 4 valves sealed.` : 'All four valves are sealed: the tour is finished.',
   study: {
     title: 'What the study’s surgeon did',
     column: 'Study surgeon',
-    help: 'Study surgeon: the repair of 2011, repeated here.',
+    help: 'Study surgeon: the repair in the study of Tenenholtz and others (2011), repeated here.',
   },
   example: {
     title: 'A way to repair it',
@@ -320,7 +331,7 @@ export const tourTexts = {
   },
   heading: 'Learn it on four leaking valves',
   intro: [
-    'A surgeon in the study of 2011 learned this kind of program in ten minutes and sealed the first three of these valves; the fourth has a flail leaflet.',
+    'A surgeon in the study of Tenenholtz and others (2011) learned this kind of program in ten minutes and sealed the first three of these valves; the fourth has a flail leaflet.',
     'Turn the valve with the left button (or one finger), zoom with the wheel (or two fingers). The red area is the leak.',
     'Open “Repair”, choose an operation, and watch the closed valve while you change it. Nothing is done until you press Apply, and everything can be undone.',
   ],
@@ -359,7 +370,7 @@ export const tourTexts = {
     coaptation: (least: number | null) =>
       `Coaptation length at least 90 % of that before the illness, in the mean${least === null ? '' : `: ${number(least)} mm`}. (Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.)`,
     chords: (percent: number | null) =>
-      `No chord above ${percent ?? '…'} % of its working limit: 10 % above the limit, or above the load before the illness where that was higher`,
+      `No chord loaded above ${percent ?? '…'} % of its working limit. (Allowed are 10 % more than the limit or, where that is more, than the highest load before the illness.)`,
     open: 'Open area at least 90 % of that before the illness',
   },
   shortGoals: {
@@ -548,9 +559,39 @@ export const verdictTexts = {
     'No limit of ePTFE is known here. An artificial chord is compared with the limit of a native chord of the free edge, as a measure of how much more it pulls than what it replaces; whether thread and stitches hold is not calculated.',
 };
 
+const keptPlans = (count: number): string => `${count} kept ${count === 1 ? 'plan' : 'plans'}`;
+const withKept = (count: number): string => (count ? ` with its ${keptPlans(count)}` : '');
+
+/** The present valve as the one before the repair. */
+export const startTexts = {
+  begin: 'Take this valve as the one before the repair',
+  tip: 'Comparison, section and report then begin with this valve; the plan that led to it stays among the earlier valves',
+  leaks: 'The valve leaks after this. Was that the disease, and the repair comes now?',
+  title: (title: string) => (/, changed$/.test(title) ? title : `${title}, changed`),
+  steps: (title: string, steps: string[]) =>
+    steps.length ? `Before the repair, from “${title}”: ${steps.join('; ')}.` : '',
+  done: 'This valve is the one before the repair.',
+};
+
 export const leaveTexts = {
-  finished: (title: string) => `The plan “${title}” was closed; it reaches all goals.`,
-  left: (title: string) => `The changed plan “${title || 'without a name'}” was closed.`,
+  finished: (title: string, kept: number) =>
+    `The plan “${title}” was closed${withKept(kept)}; it reaches all goals.`,
+  left: (title: string, kept: number) =>
+    `The changed plan “${title || 'without a name'}” was closed${withKept(kept)}.`,
+  listed: (title: string, kept: number) =>
+    `“${title || 'without a name'}” was closed${withKept(kept)}; the panel Plan lists it.`,
+  dropped: (titles: string[]) =>
+    `There is no room for so many earlier valves: ${listOf(titles.map((title) => `“${title}”`))} left the list.`,
+  heading: (count: number) => `Earlier valves (${count})`,
+  headingTip: 'Valves that were left since the page was opened, with their plans',
+  hint: 'They stay until this page is closed. What must last longer: “Save session”.',
+  contents: (verdict: string, steps: number, kept: number) =>
+    [verdict, steps ? `${steps} ${steps === 1 ? 'step' : 'steps'}` : '', kept ? keptPlans(kept) : '']
+      .filter(Boolean)
+      .join(' · '),
+  again: 'Open it again',
+  againTip: 'Opens this valve with its plan and kept plans; the present valve takes its place in the list',
+  own: 'Your earlier repair of this valve:',
   repaired: 'Your repair of this valve can be opened again.',
   back: 'Return to it',
 };
@@ -634,7 +675,7 @@ export const barTexts = {
   over: 'chord beyond its limit',
   slack: 'slack chord',
   artificial: 'artificial chord',
-  stitch: 'stitch of a clip or a suture',
+  stitch: 'clip, suture',
 };
 
 export const valveTexts = {
@@ -669,12 +710,13 @@ export const valveTexts = {
   strongestPull: 'Strongest chord pull',
   pullOn: (head: string) => `Pull on ${head}`,
   head: (h: number) => `head ${h}`,
-  closedAt: 'Closed at 120 mmHg. Fingerprint of the valve, the same only for a valve that is identical:',
+  closedAt:
+    'Closed at 120 mmHg. Identity of this valve, to tell whether two files or reports are of the very same one:',
   chordsCross:
     'Chordae are straight lines between their ends, and leaflets do not push them aside: in the picture of an open valve a chord may pass through a leaflet. Its pull and its length are those of the straight line.',
   howCertain: 'How certain? Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
-    `${converged} of ${members} closures came to rest, ${shapes === 1 ? 'all in one shape' : `in ${shapes} shapes of the folds`}, which differ by at most ${number(apart)} mm.`,
+    `${converged} of ${members} closures came to rest, ${shapes === 1 ? `all in the same folds${apart < 0.05 ? '' : `, at most ${number(apart)} mm apart`}` : `in ${shapes} shapes of the folds, which differ by at most ${number(apart)} mm`}.`,
   spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
@@ -710,7 +752,7 @@ export const tableTexts = {
   chordaeHint: 'The most loaded first. Choose one to shorten, lengthen or cut it.',
   artificialHint: 'Artificial chordae: % of the limit of a native one.',
   chord: 'Chord',
-  length: 'Length without pull, mm',
+  length: 'Rest length, mm',
   pull: 'Pull, mN',
   ofLimit: '% of limit',
   slack: 'slack',
@@ -765,7 +807,7 @@ export const formTexts = {
     `Annulus front to back ${number(was.ap)} → ${number(now.ap)} mm, side to side ${number(was.cc)} → ${number(now.cc)} mm.`,
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
-  leftEmpty: (fallback: string) => `an empty field means: ${fallback}`,
+  leftEmpty: (fallback: string) => `as long as you type no number: ${fallback}`,
   auto: 'auto',
   choose: 'choose…',
   none: 'none',
@@ -858,7 +900,7 @@ export const repairTexts = {
   chord: (name: string) => `Chord ${name}`,
   between: (kind: string, heads: string, scallops: string) =>
     `${kind} chord, from ${heads ? `head ${heads}` : 'a branch'} to ${scallops || 'a branch'}`,
-  rest: 'Length without pull',
+  rest: 'Rest length',
   pull: 'Pull',
   stretch: 'Stretch',
   slack: 'slack',
@@ -960,7 +1002,7 @@ export const reportTexts = {
   figures: 'Figures',
   notes: 'Notes',
   foot: (version: string, hash: string) =>
-    `libmvs ${version}, fingerprint ${hash}. Research simulator: not for decisions on treatment.`,
+    `libmvs ${version}, identity of the repaired valve ${hash} (equal only for the very same valve). Research simulator: not for decisions on treatment.`,
   gradient: (flow: number) => `Mean pressure gradient at ${number(flow, 0)} ml/s`,
   save: 'Save as HTML',
   print: 'Print',
@@ -1166,7 +1208,7 @@ export const figureHelp: {
           names: [tableTexts.pull, repairTexts.pull, valveTexts.strongestPull],
           unit: 'mN',
           meaning: 'How strongly a chord is pulled; 1,000 mN are 1 N, about the weight of 100 g.',
-          measured: 'From its stretch, stiffness and thickness; a slack chord pulls at nothing.',
+          measured: 'From its stretch, stiffness and thickness; a slack chord has no pull.',
         },
         {
           names: [valveTexts.pullOn('a papillary head')],
@@ -1244,7 +1286,7 @@ export const operationTips: Record<string, string> = {
   chord_add: 'Ties a chord with the stiffness of natural tissue, as in a transplantation of chordae.',
 };
 
-const newLength = 'Length without pull. Left empty, the chord becomes as taut as its neighbours.';
+const newLength = 'Rest length, without pull. Left empty, the chord becomes as taut as its neighbours.';
 const nameTip = 'Its name in lists, in the history and in the report';
 const fromMuscle = 'The papillary muscle from which it comes; or click it in the picture';
 const onLeaflet = 'Where it is tied to the leaflet; or click the place in the picture';
@@ -1288,7 +1330,7 @@ export const fieldTips: Record<string, Record<string, string>> = {
   },
   chord_length: {
     chord: 'The chord that is changed; or click it in the picture',
-    length: 'The new length without pull. Shorter holds the leaflet deeper in the ventricle.',
+    length: 'The new rest length, without pull. Shorter holds the leaflet deeper in the ventricle.',
     factor: 'The new length as a share of the present one; less than all of it shortens',
   },
   chord_remove: { chord: 'The chord that is cut; or click it in the picture' },
@@ -1298,7 +1340,7 @@ export const fieldTips: Record<string, Record<string, string>> = {
     site: 'The new place on a leaflet; or click it in the picture',
     head: 'The new papillary muscle; or click it in the picture',
     length:
-      'Length without pull. Left empty, it stays for another leaflet, and is made as taut as its neighbours for another muscle.',
+      'Rest length, without pull. Left empty, it stays for another leaflet, and is made as taut as its neighbours for another muscle.',
   },
   head_move: {
     head: 'The papillary muscle whose tip is moved; or click it in the picture',
@@ -1419,6 +1461,8 @@ export const tips: Record<string, string> = {
   [planTexts.autosave]: planTexts.autosaveHint,
   [tourTexts.hint]: 'What may help with this valve',
   [tourTexts.repair]: 'Opens the panel with the operations',
+  [tourTexts.repairOn]: 'Opens the panel with the operations; the goals stay in sight',
+  [tourTexts.own]: 'Opens a surface, a valve or a session from this computer',
   [tourTexts.study.title]: 'The repair of the study, step by step',
   [tourTexts.example.title]: 'One repair that reaches the goals, step by step',
   [leaveTexts.back]: 'Opens that plan again; the present one can be returned to as well',

@@ -2,6 +2,8 @@
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { apply, discard, edit } from '../store/edit';
 import { openFile } from '../store/files';
+import { leftValves } from '../store/left';
+import { keptName } from '../store/plans';
 import * as state from '../store/state';
 import { appTexts, barTexts, help, planTexts, t, tips, tipTexts } from '../text/texts';
 import type { Preset } from '../view/camera';
@@ -100,6 +102,9 @@ function Busy() {
   );
 }
 
+/** The name of the present plan beside one that it is compared with. */
+const presentName = (): string => keptName(state.main.value?.figures.hash) || planTexts.present;
+
 /** The valve before in picture and figures, to compare. */
 function Compare() {
   if (!state.other.value || state.motion.value || state.surface.value) return null;
@@ -121,7 +126,7 @@ function Compare() {
         pressed={!past}
         onClick={() => (state.past.value = false)}
       >
-        {state.preview.value ? appTexts.preview : compared ? planTexts.present : appTexts.now}
+        {state.preview.value ? appTexts.preview : compared ? presentName() : appTexts.now}
       </Button>
     </div>
   );
@@ -139,7 +144,7 @@ function Picture() {
   useLayoutEffect(() => {
     const wanted = /#(webgl|software)/.exec(location.hash)?.[1] ?? '';
     viewport = new Viewport(host.current!, wanted as 'webgl' | 'software' | '');
-    Object.assign(window, { planner: { state, viewport, edit } });
+    Object.assign(window, { planner: { state, viewport, edit, leftValves } });
   }, []);
   return (
     <main class="picture">

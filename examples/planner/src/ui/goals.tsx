@@ -1,5 +1,5 @@
 // The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair" and in the form of an operation.
-import { Check, CircleHelp, X } from 'lucide-preact';
+import { Check, CircleHelp, FolderOpen, X } from 'lucide-preact';
 import { allowedLoad, leastCoaptation } from '../store/limits';
 import { flailHeight, flailOf, reached } from '../store/goals';
 import { startValve } from '../store/tour';
@@ -7,6 +7,7 @@ import * as state from '../store/state';
 import { tipTexts, tourTexts } from '../text/texts';
 import type { Shown } from '../protocol';
 import { Button } from './parts';
+import { chooseFile } from './toolbar';
 
 interface Check {
   text: string;
@@ -79,10 +80,17 @@ export function Goals({ number, short }: { number: number; short?: boolean }) {
           <p>
             {tourTexts.won} {count > 0 && tourTexts.finishedOf(count)}
           </p>
-          {next && (
+          {next ? (
             <Button kind="main" title={tipTexts.next} onClick={() => void startValve(next)}>
               {tourTexts.next(next)}
             </Button>
+          ) : (
+            <>
+              <p>{tourTexts.after}</p>
+              <Button kind="main" icon={<FolderOpen size={16} />} onClick={chooseFile}>
+                {tourTexts.own}
+              </Button>
+            </>
           )}
         </div>
       )}

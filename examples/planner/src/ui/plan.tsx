@@ -5,10 +5,12 @@ import { redo, undo } from '../store/history';
 import { canKeepFile, chooseKeptFile, keptFile, leaveKeptFile, saveObj, saveSession } from '../store/keep';
 import { allowAutosave, autosave, storageWorks } from '../store/recovery';
 import { openingOf } from '../store/limits';
+import { keptName } from '../store/plans';
 import * as state from '../store/state';
 import { headline } from '../store/verdict';
 import { appTexts, barTexts, figureNames, planTexts, say, tips, valveTexts } from '../text/texts';
 import { Checkpoints } from './checkpoints';
+import { BeginHere, EarlierValves } from './earlier';
 import { areaText, comparedRows, stepsOf } from './compared';
 import { Button, Section } from './parts';
 
@@ -45,7 +47,9 @@ export function PlanPanel() {
       <p data-testid="plan-verdict">
         {planTexts.result} <strong>{headline(figures)}</strong>
       </p>
+      <BeginHere />
       <Checkpoints />
+      <EarlierValves />
       {state.compared.value && <SideBySide />}
       <Section title={planTexts.notes}>
         <textarea
@@ -119,7 +123,7 @@ function SideBySide() {
         <tr>
           <th></th>
           <th>{state.compareWith.value}</th>
-          <th>{planTexts.present}</th>
+          <th>{keptName(now.hash) || planTexts.present}</th>
         </tr>
       </thead>
       <tbody>

@@ -22,6 +22,7 @@ import * as state from '../store/state';
 import { appTexts, figure, operationTips, repairTexts, wordsOf } from '../text/texts';
 import type { FieldValue } from '../protocol';
 import { ChordFacts } from './chord';
+import { MadeLeak } from './earlier';
 import { OperationForm } from './form';
 import { Goals } from './goals';
 import { Button, Section } from './parts';
@@ -125,6 +126,7 @@ export function RepairPanel() {
   return (
     <div class="panel-body">
       {state.tour.value && <Goals number={state.tour.value.number} short />}
+      <MadeLeak />
       <Chosen />
       <div class="cards">{cards(0, often)}</div>
       <Section title={repairTexts.more}>

@@ -6,7 +6,7 @@ import { download } from '../store/keep';
 import * as state from '../store/state';
 import { headline, relieved } from '../store/verdict';
 import { figure, reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
-import type { Cost, Figures } from '../protocol';
+import type { Cost, Figures, SectionRequest, Shown } from '../protocol';
 import { openingOf } from '../store/limits';
 import { measurePlan } from '../store/opening';
 import { keptName, readPlans } from '../store/plans';
@@ -25,8 +25,22 @@ interface Pictures {
 
 const views = ['surgeon', 'ventricle'] as const;
 
-/** Surgeon's view and ventricle of both valves at one scale; the page shows the present valve again afterwards. */
-function takePictures(): Pictures {
+/** The plan that the picture shows: a kept one that is compared, where that is looked at, else the present one. */
+interface Seen {
+  shown: Shown;
+  /** As the worker calls it. */
+  which: 'main' | `checkpoint ${string}`;
+}
+
+function seenPlan(): Seen {
+  const { compared, compareWith, inPast, other, main } = state;
+  if (inPast.value && compared.value && other.value === compared.value)
+    return { shown: compared.value, which: `checkpoint ${compareWith.value}` };
+  return { shown: main.value!, which: 'main' };
+}
+
+/** Surgeon's view and ventricle of both valves at one scale; the page shows the valve that it showed again afterwards. */
+function takePictures(seen: Shown): Pictures {
   const viewport = view()!;
   const { camera } = viewport;
   const kept = {
@@ -35,10 +49,11 @@ function takePictures(): Pictures {
     distance: camera.distance,
   };
   const now = state.main.value!;
-  const [section, choice] = [state.sectionOn.value, state.choice.value];
+  const [section, choice, past] = [state.sectionOn.value, state.choice.value, state.past.value];
   state.sectionOn.value = false;
   state.choice.value = null;
-  const valves = [state.first.value ?? now, now];
+  state.past.value = false;
+  const valves = [state.first.value ?? now, seen];
   const distances = views.map((preset) =>
     Math.max(
       ...valves.map((shown) => {
@@ -60,6 +75,7 @@ function takePictures(): Pictures {
   state.main.value = now;
   state.sectionOn.value = section;
   state.choice.value = choice;
+  state.past.value = past;
   camera.target.copy(kept.target);
   camera.orientation.copy(kept.orientation);
   camera.distance = kept.distance;
@@ -86,10 +102,10 @@ function openingRows(then: Figures, now: Figures): string {
 }
 
 /** The leaflets in the plane through the middle, before and after, as an SVG picture. */
-async function sectionPlot(): Promise<string> {
-  const frame = state.main.value!.figures.frame;
-  const ask = (which: 'first' | 'main') => request('section', { which, frame, offset: 0 });
-  const [before, after] = [await ask('first'), await ask('main')];
+async function sectionPlot({ shown, which }: Seen): Promise<string> {
+  const { frame } = shown.figures;
+  const ask = (which: SectionRequest['which']) => request('section', { which, frame, offset: 0 });
+  const [before, after] = [await ask('first'), await ask(which)];
   const { x, y, width, height, text: size } = boxOf([before, after]);
   const [left, right, bottom] = [x + size / 2, x + width - size / 2, y + height];
   const word = (x: number, y: number, anchor: string, text: string, colour = '#5a6a79') =>
@@ -105,9 +121,9 @@ ${word(left, bottom + 2.2 * size, 'start', reportTexts.thin)}</svg>`;
 }
 
 /** The report as the body of an HTML page. */
-function reportHtml(pictures: Pictures, plot: string): string {
-  const now = state.main.value!.figures;
-  const then = (state.first.value ?? state.main.value!).figures;
+function reportHtml({ shown }: Seen, pictures: Pictures, plot: string): string {
+  const now = shown.figures;
+  const then = (state.first.value ?? shown).figures;
   const images = (list: string[]) =>
     list
       .map((source, k) => {
@@ -143,12 +159,13 @@ table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25re
 export function ReportDialog() {
   const html = useSignal('');
   useEffect(() => {
-    const pictures = takePictures();
+    const seen = seenPlan();
+    const pictures = takePictures(seen.shown);
     let plot = '';
-    const write = () => (html.value = reportHtml(pictures, plot));
+    const write = () => (html.value = reportHtml(seen, pictures, plot));
     write();
-    sectionPlot().then((drawn) => ((plot = drawn), write()), fail);
-    measurePlan().then(write, fail);
+    sectionPlot(seen).then((drawn) => ((plot = drawn), write()), fail);
+    measurePlan(seen.shown.figures.hash, seen.which).then(write, fail);
     readPlans().then(write, fail);
   }, []);
   const saved = useSignal('');

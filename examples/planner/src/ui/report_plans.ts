@@ -33,6 +33,10 @@ function row(name: string, figures: Figures): string {
 /** The table of all plans, that of the report first; empty where no other plan is kept. */
 export function otherPlans(now: Figures): string {
   const others = [...state.keptPlans.value].filter(([, { figures }]) => figures.hash !== now.hash);
+  const present = state.main.value!;
+  // the report may be that of a kept plan
+  if (present.figures.hash !== now.hash)
+    others.unshift([keptName(present.figures.hash) || reportTexts.present, present]);
   if (!others.length) return '';
   const names = [
     figureNames.plan,

@@ -1,13 +1,23 @@
 // The tour: three leaking valves of the founding study and one with a flail leaflet, a goal, and a score beside the healthy
 // valve and the repair of the founding surgeon, or an example.
-import { Check, Eye, Wrench } from 'lucide-preact';
+import { Check, Eye, History, Wrench } from 'lucide-preact';
 import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
+import { reachesAll } from '../store/goals';
 import { openingOf } from '../store/limits';
 import { showChord, startValve } from '../store/tour';
 import { figure, say, tipTexts, tourTexts } from '../text/texts';
+import { OwnRepair } from './earlier';
 import { Goals } from './goals';
 import { Button, Section } from './parts';
+
+/** Whether the present plan reaches all goals of a valve, or another one did since the page was opened. */
+function signOf(number: number): 'now' | 'before' | 'none' {
+  if (state.tour.value?.number === number && reachesAll()) return 'now';
+  return state.finished.value.includes(number) ? 'before' : 'none';
+}
+
+const signs = { now: <Check size={16} />, before: <History class="soft" size={12} />, none: undefined };
 
 export function TourPanel() {
   const tour = state.tour.value;
@@ -26,10 +36,8 @@ export function TourPanel() {
           <Button
             kind={tour?.number === k + 1 ? 'main' : 'plain'}
             pressed={tour?.number === k + 1}
-            icon={state.finished.value.includes(k + 1) ? <Check size={16} /> : undefined}
-            title={[tipTexts.valve, state.finished.value.includes(k + 1) ? tourTexts.finished : '']
-              .filter(Boolean)
-              .join('. ')}
+            icon={signs[signOf(k + 1)]}
+            title={[tipTexts.valve, tourTexts.signs[signOf(k + 1)]].filter(Boolean).join('. ')}
             onClick={() => void startValve(k + 1)}
           >
             {tourTexts.valveOf(k + 1)}
@@ -57,9 +65,19 @@ function Goal() {
           </Button>
         )}
       </Section>
+      {signOf(tour.number) === 'before' && (
+        <p class="hint" data-testid="reached-before">
+          {tourTexts.reachedBefore}
+        </p>
+      )}
+      <OwnRepair number={tour.number} />
       <Goals number={tour.number} />
-      <Button kind="main" icon={<Wrench size={16} />} onClick={() => (state.panel.value = 'repair')}>
-        {tourTexts.repair}
+      <Button
+        kind={reachesAll() ? 'plain' : 'main'}
+        icon={<Wrench size={16} />}
+        onClick={() => (state.panel.value = 'repair')}
+      >
+        {reachesAll() ? tourTexts.repairOn : tourTexts.repair}
       </Button>
       <Score />
     </>
