@@ -4,6 +4,7 @@ import { chordValue, clipOf, leakPlaces, shareOfLimit, suture } from '../notable
 import { clipIn } from '../text/texts';
 import type { Fields, Picture, Topology } from '../protocol';
 import * as state from '../store/state';
+import { clipParts } from './clips';
 import { isChordMap } from './colours';
 import { cutMeshes } from './cut';
 import { atrialSide, ventricularSide } from './leaflets';
@@ -66,7 +67,8 @@ export function cutOf(
   const lower = ventricularSide(topology, picture);
   const closed = state.motion.value ? (state.resting.value?.picture ?? null) : null;
   const sides = { middle: picture.positions, upper, lower };
-  return cutMeshes(topology, picture, sides, plane, frame, radius, closed);
+  const clips = () => clipParts(topology, picture, frame, clipTurns(topology));
+  return cutMeshes(topology, picture, sides, plane, frame, radius, closed, clips);
 }
 
 /** The meshes of the valve; an empty list before the first valve. */

@@ -202,10 +202,11 @@ export class Viewport {
   }
 
   scene(): Scene {
-    const meshes = [...this.meshes];
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
     const plane = this.plane();
+    // a section shows what is behind its plane as it is: devices do not shine through the cut leaflets
+    const meshes = this.meshes.filter((mesh) => !(plane && mesh.cut && mesh.overlay));
     if (plane && topology && !this.surface) {
       meshes.push(...cutOf(topology, picture, plane, this.frameOf(), this.radius()));
     }
