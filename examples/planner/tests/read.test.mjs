@@ -143,7 +143,7 @@ describe('planner read and touched', () => {
     // seen at a slant, so that the plane moves in the picture
     await page.keyboard.press('3');
     await cameraRests(page);
-    const name = page.locator('.label-handle', { hasText: 'Section plane' });
+    const name = page.locator('.label-handle', { hasText: 'Cut plane' });
     const { x, y, height } = await name.boundingBox();
     const at = () => page.evaluate(() => window.planner.state.sectionAt.value);
     const before = await at();

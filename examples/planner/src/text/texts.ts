@@ -375,12 +375,12 @@ export const tourTexts = {
 export const help = {
   picture: 'Arrow keys turn the valve, Shift and arrow keys move it, plus and minus zoom.',
   keys: [
-    ['1 2 3 4', 'Views: surgeon, ventricle, side, section'],
+    ['1 2 3 4', 'Views: surgeon, ventricle, from behind, section'],
     ['Arrows, + −', 'Turn, zoom (in the picture)'],
     ['V R P L I', 'Panels: Valve, Repair, Plan, Learn; Import, once a surface was opened'],
     ['O', 'Open and close the valve'],
     ['W', 'The valve before, and the present one again'],
-    ['X', 'Section plane in the picture on and off'],
+    ['X', 'Cut plane in the picture on and off: nothing stands before it'],
     ['C', 'Chordae on and off'],
     ['N', 'Names on and off'],
     ['M', 'Next colour map'],
@@ -609,14 +609,14 @@ export const barTexts = {
   help: 'Keys and help',
   view: 'View',
   viewOf: (name: string) => `View: ${name}`,
-  presets: { surgeon: 'Surgeon', ventricle: 'Ventricle', commissure: 'Side', section: 'Section' },
+  presets: { surgeon: 'Surgeon', ventricle: 'Ventricle', commissure: 'Behind', section: 'Section' },
   opened: 'Open',
   closed: 'Closed',
   opening: 'Open or closed',
   show: 'Show',
-  cut: 'Section plane in the picture',
+  cut: 'Cut plane in the picture',
   // short words below the icons; each begins the name of its button
-  words: { cut: 'Section', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
+  words: { cut: 'Cut', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
   pointer: 'Pointer',
@@ -801,9 +801,14 @@ export const formTexts = {
   fileAxis: (axis: number, value: number) => `${'xyz'[axis]} of the file: ${number(value)} mm`,
 };
 
+/** Where the cut plane is, mm from the middle. */
+const awayWords = (mm: number): string =>
+  `${number(Math.abs(mm))} mm from the middle towards the ${formTexts.sides[mm > 0 ? 0 : 1]} commissure`;
+
 /** Names in the picture, of handles too. */
 export const markTexts = {
-  plane: (through: string[]) => `Section plane through ${listOf(through)}: drag`,
+  plane: (through: string[], mm: number) =>
+    `Cut plane through ${listOf(through)}${mm === 0 ? '' : `, ${awayWords(mm)}`}: drag`,
   chord: (name: string, length: number, percent: number | null, artificial: boolean) =>
     `${name}  ${number(length)} mm${percent === null ? '' : `, ${loadWords(percent, artificial)}`}`,
   clip: 'Clip: drag',
@@ -988,12 +993,13 @@ export const sectionTexts = {
   scale: '10 mm',
   healthy: 'before its illness',
   now: 'now',
+  closed: 'closed',
   before: 'before',
   preview: 'preview',
   plane: (mm: number, through: string[]) =>
-    `Plane through ${listOf(through)}, ${mm === 0 ? 'in the middle' : `${number(Math.abs(mm))} mm from the middle towards the ${formTexts.sides[mm > 0 ? 0 : 1]} commissure`}`,
+    `Cut plane through ${listOf(through)}, ${mm === 0 ? 'in the middle' : awayWords(mm)}`,
   middle: 'To the middle',
-  cut: 'Section plane in the picture',
+  cut: 'Cut plane in the picture',
 };
 
 interface Meaning {
@@ -1350,11 +1356,11 @@ export const tips: Record<string, string> = {
   [barTexts.help]: 'All keys and gestures, what the figures mean, and the licences',
   [barTexts.presets.surgeon]: 'View from the atrium with P2 below, as in the operation',
   [barTexts.presets.ventricle]: 'View from the ventricle on chordae and papillary muscles',
-  [barTexts.presets.commissure]: 'View from the side, with the atrium above',
+  [barTexts.presets.commissure]: 'View from behind the posterior leaflet, with the atrium above',
   [barTexts.presets.section]:
-    'View of a section from front to back through both leaflets; drag the blue ball to move it',
+    'View along the valve with a cut from front to back through both leaflets; drag the blue ball to move it',
   [barTexts.opening]: 'Lets the pressure on the valve fall and rise again, so that it opens and closes',
-  [barTexts.cut]: 'Takes away what lies in front of the section plane',
+  [barTexts.cut]: 'Takes away what lies before the cut plane; the other views show the whole valve again',
   [barTexts.chordae]: 'Shows or hides the chordae',
   [barTexts.names]: 'Shows or hides the names of scallops and papillary muscles',
   [barTexts.look]: 'Drag to turn the valve, click to choose a chord, a muscle or a scallop',
@@ -1451,7 +1457,7 @@ export const tipTexts = {
   devices: 'Everything that was implanted',
   valve: 'Opens this leaking valve with its goals; a changed plan can be returned to',
   next: 'Opens the next valve of the tour',
-  plane: 'Moves the section plane from one commissure towards the other',
+  plane: 'Moves the cut plane from one commissure towards the other',
   checkpoint: 'Picture and figures of the plan that is compared',
   rename: 'Gives the plan another name',
   remove: 'Deletes the kept plan; it can be put back',

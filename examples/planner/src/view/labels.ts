@@ -40,7 +40,7 @@ function handleLabels(view: Viewport, topology: Topology, x: Float32Array): Labe
   const plane = view.plane();
   if (plane) {
     const through = cutScallops(topology, x, plane);
-    labels.push({ text: markTexts.plane(through), at: view.handle(), kind: 'handle' });
+    labels.push({ text: markTexts.plane(through, state.sectionAt.value), at: view.handle(), kind: 'handle' });
   }
   const clip = clipPlace();
   if (clip)

@@ -8,7 +8,7 @@ import { clipParts } from './clips';
 import { isChordMap } from './colours';
 import { cutMeshes } from './cut';
 import { atrialSide, ventricularSide } from './leaflets';
-import type { Mesh } from './mesh';
+import { point, type Mesh } from './mesh';
 import type { CutPlane } from './renderer';
 import { sceneMeshes } from './scene';
 
@@ -30,17 +30,18 @@ function guessedFrame(): number[] {
   return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
 }
 
-/** Radius of the annulus about the origin of a frame, mm. */
+/** The places of the annulus, mm. */
+export function annulusOf(picture: Picture): number[][] {
+  const topology = state.topologyOf(picture);
+  return Array.from(topology?.annulus ?? [], (node) => point(picture.positions, node));
+}
+
+/** Radius of the annulus about the origin of a frame, mm: of the larger one of the valve and its preview. */
 export function shownRadius(frame: number[]): number {
   const picture = state.resting.value?.picture ?? state.picture.value;
-  const topology = picture && state.topologyOf(picture);
-  if (!picture || !topology) return 20;
-  let largest = 5;
-  for (const node of topology.annulus) {
-    const [x, y, z] = [0, 1, 2].map((c) => picture.positions[3 * node + c] - frame[c]);
-    largest = Math.max(largest, Math.hypot(x, y, z));
-  }
-  return largest;
+  const places = [picture, state.preview.value?.picture].flatMap((one) => (one ? annulusOf(one) : []));
+  if (!places.length) return 20;
+  return Math.max(5, ...places.map((at) => Math.hypot(...at.map((v, c) => v - frame[c]))));
 }
 
 /** Values per node of the valve that is shown at rest. */

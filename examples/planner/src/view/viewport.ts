@@ -11,7 +11,7 @@ import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
-import { cutOf, shownFrame, shownRadius, valveMeshes } from './shown';
+import { annulusOf, cutOf, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh } from './surface';
 import { WebGl } from './webgl';
@@ -43,6 +43,9 @@ export class Viewport {
   private framed = '';
   private builtFrom: unknown[] = [];
   private overlaid: unknown[] = [];
+  /** The annulus that was drawn last at rest, mm, and of which valve. */
+  private held: number[][] = [];
+  private heldOf = '';
   /** ms of the last pictures, for the tests. */
   readonly times: number[] = [];
   /** A surface to show instead of a valve, during an import. */
@@ -201,6 +204,19 @@ export class Viewport {
     this.go('surgeon', true);
   }
 
+  /** Goes back where a valve grows out of a picture that held the whole annulus of the one before. */
+  private followGrowth(): void {
+    const { main, preview, motion, surface, picture } = state;
+    if (!main.value || motion.value || surface.value || !picture.value) return;
+    const rim = annulusOf(picture.value);
+    const [before, key] = [this.held, `${main.value.figures.hash} ${preview.value?.figures.hash ?? ''}`];
+    if (this.heldOf === key) return;
+    const whole = before.length > 0 && this.camera.shows(before, this.width, this.height);
+    if (whole && !this.camera.shows(rim, this.width, this.height))
+      this.camera.fit(rim, this.width, this.height);
+    [this.held, this.heldOf] = [rim, key];
+  }
+
   scene(): Scene {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
@@ -228,7 +244,10 @@ export class Viewport {
   draw(fast: boolean): void {
     const begin = performance.now();
     this.frameNewValve();
-    if (this.sceneDirty) this.buildScene();
+    if (this.sceneDirty) {
+      this.buildScene();
+      this.followGrowth();
+    }
     this.camera.update();
     this.renderer.draw(this.scene(), this.camera, fast);
     this.labels.update(this);
