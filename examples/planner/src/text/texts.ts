@@ -207,6 +207,9 @@ export function clipIn(name: string, titles: string[]): ClipWords | null {
   return title === undefined ? null : clipWords(title);
 }
 
+/** How far a clip is from the middle, as the title of its operation says it; null of another title. */
+export const clipPlaceIn = (title: string): string | null => clipWords(title)?.place ?? null;
+
 const turned = (angle: number): string =>
   angle === 0
     ? 'across the edge'
@@ -765,6 +768,16 @@ export const formTexts = {
     `Annulus front to back ${number(was.ap)} → ${number(now.ap)} mm, side to side ${number(was.cc)} → ${number(now.cc)} mm.`,
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
+  ringSizes: (low: number, high: number) => `Rings are made in sizes of ${low} to ${high} mm. `,
+  /** Of a number that its slider does not reach. */
+  beyond: (value: number, low: number, high: number, unit: string) => {
+    const [all, from, to] = [value, low, high].map((one) => +one.toPrecision(4));
+    return `${all} ${unit} is beyond the slider, which goes from ${from} to ${to} ${unit}.`;
+  },
+  oversized: (more: number) =>
+    `Oversized: ${number(more)} mm wider than the annulus. It spreads the leaflets instead of bringing them nearer.`,
+  /** The place of a clip in its preview. */
+  placed: (place: string | null) => `In the preview: ${place ?? '…'}`,
   leftEmpty: (fallback: string) => `an empty field means: ${fallback}`,
   auto: 'auto',
   choose: 'choose…',
@@ -824,9 +837,12 @@ export const openingTexts = {
       : `${word[0].toUpperCase()}${word.slice(1)}: in adults 1.5 cm² or less is severe, 1.0 cm² or less very severe (ACC/AHA 2014).`,
   elsewhere:
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
-  beside: (before: number | undefined, least: number | null) =>
+  /** `same`: the opening does not differ from that before by more than is known of it. */
+  beside: (before: number | undefined, least: number | null, same: boolean) =>
     [
-      before === undefined ? '' : `without it ${number(before / 100, 2)} cm²`,
+      before === undefined
+        ? ''
+        : `${same ? 'about the same as without it' : 'without it'} ${number(before / 100, 2)} cm²`,
       least === null ? '' : `goal ${number(least / 100, 2)} cm² or more`,
     ]
       .filter(Boolean)
@@ -892,6 +908,7 @@ export const repairTexts = {
   none: 'none',
   neochord: 'Artificial chord',
   resect: 'Resect',
+  clip: 'Clip',
 };
 
 export const planTexts = {
@@ -1399,6 +1416,7 @@ export const tips: Record<string, string> = {
   [repairTexts.move]: operationTips.head_move,
   [repairTexts.neochord]: operationTips.neochord,
   [repairTexts.resect]: operationTips.resect,
+  [repairTexts.clip]: operationTips.clip,
   [formTexts.leave]: 'Leaves the form; the valve stays as it is',
   [formTexts.more]: 'Fields that are rarely changed',
   [formTexts.alongTip]: 'Moves the place along the scallop',

@@ -7,8 +7,8 @@ export type Preset = 'surgeon' | 'ventricle' | 'commissure' | 'section';
 
 /** Largest distance to the target, mm. */
 const farthest = 400;
-/** Factors by which the camera goes back until all is seen, and once more for a margin. */
-const fitStep = 1.03;
+/** Factor by which the camera goes back until all is seen. */
+const fitStep = 1.02;
 
 export class Camera {
   readonly target = new Vector3();
@@ -90,22 +90,22 @@ export class Camera {
     this.goal = { orientation, target, distance: (room * radius) / Math.tan(this.fov / 2) / narrow };
   }
 
-  /** Whether points are in the picture, which is `width` by `height` pixels. */
-  shows(points: number[][], width: number, height: number): boolean {
+  /** Whether points are in the picture, which is `width` by `height` pixels, `foot` pixels above its lower border. */
+  shows(points: number[][], width: number, height: number, foot = 0): boolean {
     this.update();
     return points.every(([x, y, z]) => {
       const [px, py] = this.project(x, y, z, width, height);
-      return px >= 0 && py >= 0 && px <= width && py <= height;
+      return px >= 0 && py >= 0 && px <= width && py <= height - foot;
     });
   }
 
   /** Begins to go back until points are in the picture. */
-  fit(points: number[][], width: number, height: number): void {
+  fit(points: number[][], width: number, height: number, foot = 0): void {
     const { distance, orientation, target } = this;
     this.distance = this.goal?.distance ?? distance;
-    while (!this.shows(points, width, height) && this.distance < farthest) this.distance *= fitStep;
+    while (!this.shows(points, width, height, foot) && this.distance < farthest) this.distance *= fitStep;
     this.goal ??= { orientation: orientation.clone(), target: target.clone(), distance };
-    this.goal.distance = fitStep * this.distance;
+    this.goal.distance = this.distance;
     this.distance = distance;
     this.update();
   }

@@ -50,7 +50,7 @@ export function sceneMeshes(topology: Topology, middle: Picture, options: SceneO
   ];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options, under));
   const devices = new Shapes();
-  for (const part of clipParts(topology, picture, options.frame, options.clipTurns)) devices.add(part);
+  for (const part of clipParts(topology, middle, options.frame, options.clipTurns)) devices.add(part);
   if (!devices.isEmpty()) meshes.push(...throughTissue(devices.mesh({ cut: true }), behindDevice));
   if (picture.orificeTriangles.length) meshes.push(...throughTissue(orifice(picture)));
   if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));

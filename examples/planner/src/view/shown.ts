@@ -7,6 +7,7 @@ import * as state from '../store/state';
 import { clipParts } from './clips';
 import { isChordMap } from './colours';
 import { cutMeshes } from './cut';
+import { ringRadius } from './heart';
 import { atrialSide, ventricularSide } from './leaflets';
 import { point, type Mesh } from './mesh';
 import type { CutPlane } from './renderer';
@@ -30,8 +31,19 @@ function guessedFrame(): number[] {
   return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
 }
 
+/** The outline of the annulus as it is drawn, with a ring on it, mm. */
+export function rimOf(picture: Picture): number[][] {
+  const places = annulusOf(picture);
+  const middle = [0, 1, 2].map((c) => places.reduce((sum, at) => sum + at[c] / places.length, 0));
+  return places.map((at) => {
+    const away = at.map((v, c) => v - middle[c]);
+    const share = ringRadius / Math.hypot(...away);
+    return at.map((v, c) => v + share * away[c]);
+  });
+}
+
 /** The places of the annulus, mm. */
-export function annulusOf(picture: Picture): number[][] {
+function annulusOf(picture: Picture): number[][] {
   const topology = state.topologyOf(picture);
   return Array.from(topology?.annulus ?? [], (node) => point(picture.positions, node));
 }

@@ -11,10 +11,13 @@ import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
-import { annulusOf, cutOf, shownFrame, shownRadius, valveMeshes } from './shown';
+import { cutOf, rimOf, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh } from './surface';
 import { WebGl } from './webgl';
+
+/** Pixels of the keys of the colours at the foot of the picture. */
+const keysHeight = 40;
 
 /** ms without motion until the picture is drawn in full. */
 const still = 140;
@@ -208,12 +211,12 @@ export class Viewport {
   private followGrowth(): void {
     const { main, preview, motion, surface, picture } = state;
     if (!main.value || motion.value || surface.value || !picture.value) return;
-    const rim = annulusOf(picture.value);
+    const rim = rimOf(picture.value);
     const [before, key] = [this.held, `${main.value.figures.hash} ${preview.value?.figures.hash ?? ''}`];
     if (this.heldOf === key) return;
     const whole = before.length > 0 && this.camera.shows(before, this.width, this.height);
-    if (whole && !this.camera.shows(rim, this.width, this.height))
-      this.camera.fit(rim, this.width, this.height);
+    if (whole && !this.camera.shows(rim, this.width, this.height, keysHeight))
+      this.camera.fit(rim, this.width, this.height, keysHeight);
     [this.held, this.heldOf] = [rim, key];
   }
 
