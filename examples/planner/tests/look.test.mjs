@@ -163,9 +163,7 @@ describe('planner to look at', () => {
     // the next valve is whole, and its section in the middle
     await press('Section');
     await page.evaluate(() => (window.planner.state.sectionAt.value = -8.5));
-    await page
-      .locator('.label-handle', { hasText: '8.5 mm from the middle towards the posteromedial commissure' })
-      .waitFor();
+    await page.locator('.label-handle', { hasText: /8\.5\smm towards posteromedial/ }).waitFor();
     await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
     await answered(page, 300);
     assert.deepEqual(await section(), [false, 0], 'the section of the valve before');

@@ -821,7 +821,7 @@ const awayWords = (mm: number): string =>
 /** Names in the picture, of handles too. */
 export const markTexts = {
   plane: (through: string[], mm: number) =>
-    `Cut plane through ${listOf(through)}${mm === 0 ? '' : `, ${awayWords(mm)}`}: drag`,
+    `Cut plane through ${listOf(through)}${mm === 0 ? '' : `, ${number(Math.abs(mm))} mm towards ${formTexts.sides[mm > 0 ? 0 : 1]}`}: drag`,
   chord: (name: string, length: number, percent: number | null, artificial: boolean) =>
     `${name}  ${number(length)} mm${percent === null ? '' : `, ${loadWords(percent, artificial)}`}`,
   clip: 'Clip: drag',
