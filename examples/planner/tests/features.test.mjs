@@ -187,7 +187,7 @@ describe('planner features', () => {
   it('names_the_section_plane_and_marks_the_cut', async () => {
     await page.keyboard.press('4');
     await cameraRests(page);
-    const name = page.locator('.label-handle', { hasText: 'Section plane' });
+    const name = page.locator('.label-handle', { hasText: 'Cut plane' });
     await name.waitFor();
     // a mesh in the plane, of the line of the cut and of the frame of the plane
     const away = await page.evaluate(() => {

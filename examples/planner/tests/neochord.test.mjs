@@ -104,7 +104,7 @@ describe('planner, artificial chord by mouse', () => {
       const triangle = await corners(page);
       // a head of the other muscle
       const other = asked.head.startsWith('AL') ? 'PM3' : 'AL3';
-      await view(page, 'Side');
+      await view(page, 'Behind');
       await clickAt(page, await headPlace(page, other));
       const chosen = await formOf(page);
       assert.equal(chosen.head, other);
@@ -130,7 +130,7 @@ describe('planner, artificial chord by mouse', () => {
   it('starts_from_a_head_that_is_clicked_first', async () => {
     await withPlanner({}, async ({ page }) => {
       await flail(page);
-      await view(page, 'Side');
+      await view(page, 'Behind');
       await clickAt(page, await headPlace(page, 'PM3'));
       await press(page, page.getByRole('button', { name: 'Artificial chord from here' }));
       assert.equal((await formOf(page)).head, 'PM3');

@@ -138,12 +138,11 @@ describe('planner read and touched', () => {
   });
 
   it('drags_the_section_plane', async () => {
-    await page.keyboard.press('4');
-    await cameraRests(page);
-    // seen at a slant, so that the plane moves in the picture
+    // seen at a slant, so that the plane moves in the picture; views other than the section show the whole valve
     await page.keyboard.press('3');
     await cameraRests(page);
-    const name = page.locator('.label-handle', { hasText: 'Section plane' });
+    await page.keyboard.press('x');
+    const name = page.locator('.label-handle', { hasText: 'Cut plane' });
     const { x, y, height } = await name.boundingBox();
     const at = () => page.evaluate(() => window.planner.state.sectionAt.value);
     const before = await at();

@@ -56,16 +56,16 @@ describe('planner sides', () => {
   it('of_the_section_are_those_of_the_surgeons_view', async () => {
     await openPanel(page, 'Valve');
     await page.locator('summary', { hasText: 'Section through the valve' }).click();
-    await page.keyboard.press('x');
     await surgeonsView();
+    await page.keyboard.press('x');
     const slider = page.locator('.slider', { hasText: 'Plane through' }).locator('input');
-    await follows('section', slider, () => label('Section plane'));
+    await follows('section', slider, () => label('Cut plane'));
     assert.match(await slider.getAttribute('aria-valuetext'), /towards the posteromedial commissure/);
     await page.getByRole('button', { name: 'To the middle' }).click();
     // in the view along the axis the plane follows a drag as it follows its slider
     await page.keyboard.press('4');
     await cameraRests(page);
-    const { x, y, height } = await page.locator('.label-handle', { hasText: 'Section plane' }).boundingBox();
+    const { x, y, height } = await page.locator('.label-handle', { hasText: 'Cut plane' }).boundingBox();
     await page.mouse.move(x - 24, y + height / 2);
     await page.mouse.down();
     await page.mouse.move(x + 26, y + height / 2, { steps: 5 });
@@ -88,6 +88,97 @@ describe('planner sides', () => {
     await surgeonsView();
     const along = page.locator('.slider', { hasText: 'Along the scallop' }).locator('input');
     await follows('artificial chord', along, () => across('added chord'));
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+  });
+
+  /** Opacity of devices that leaflets hide: of nothing else that is drawn over all. */
+  const seenThrough = 0.45;
+
+  it('of_a_clip_are_told_by_one_body_that_its_handles_are_on', async () => {
+    await begin(page, 'clip');
+    await surgeonsView();
+    for (const fields of [{}, { position: 0.4, angle: -20 }, { position: -0.8, angle: 30 }]) {
+      await page.evaluate((given) => window.planner.edit('clip', given), fields);
+      await answered(page, 300);
+      await page.waitForTimeout(250);
+      const { away, drawnTwice } = await page.evaluate((opacity) => {
+        const { viewport } = window.planner;
+        const { meshes } = viewport.scene();
+        const body = meshes.find((mesh) => mesh.overlay && mesh.opacity === opacity);
+        const marks = meshes.at(-1);
+        // both are symmetric about the middle of the clip
+        const middle = [0, 1, 2].map((c) => {
+          const all = [...body.positions].filter((_, k) => k % 3 === c);
+          return all.reduce((sum, v) => sum + v, 0) / all.length;
+        });
+        const [x, y] = viewport.camera.project(...middle, viewport.width, viewport.height);
+        const label = [...document.querySelectorAll('.label-handle')].find((one) =>
+          one.textContent.startsWith('Clip'),
+        );
+        const [px, py] = label.style.transform.match(/-?[\d.]+/g).map(Number);
+        const colour = [...body.front.slice(0, 3)].join();
+        const drawnTwice = Array.from({ length: marks.front.length / 3 }).some(
+          (_, k) => [...marks.front.slice(3 * k, 3 * k + 3)].join() === colour,
+        );
+        return { away: Math.hypot(x - px, y - py), drawnTwice };
+      }, seenThrough);
+      // places of labels are written to a tenth of a pixel
+      assert.ok(away < 0.2, `${JSON.stringify(fields)}: the ball is ${away} pixels from the clip`);
+      assert.ok(!drawnTwice, `${JSON.stringify(fields)}: the handles have a bar of their own`);
+    }
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+  });
+
+  it('of_a_section_end_at_its_plane_for_clips_too', async () => {
+    const { seen, capped, ends } = await page.evaluate(async () => {
+      const { state, viewport, edit } = window.planner;
+      edit('clip', { position: 0 });
+      await new Promise((done) => {
+        const wait = () =>
+          state.preview.value?.figures.known === 'all' && !state.pending.value
+            ? done()
+            : requestAnimationFrame(wait);
+        wait();
+      });
+      viewport.go('section', true);
+      viewport.draw(false);
+      const body = viewport.scene().meshes.find((mesh) => mesh.overlay && mesh.opacity === 0.45);
+      const blue = [...body.front.slice(0, 3)];
+      state.sectionOn.value = true;
+      const { normal } = viewport.plane();
+      const away = Array.from({ length: body.positions.length / 3 }, (_, k) =>
+        normal.reduce((sum, n, c) => sum + n * body.positions[3 * k + c], 0),
+      );
+      const f = viewport.frameOf();
+      const origin = normal.reduce((sum, n, c) => sum + n * f[c], 0);
+      const [low, high] = [Math.min(...away) - origin, Math.max(...away) - origin];
+      // faces of a cut are darker than the surface
+      const darker = blue.map((v) => 0.75 * v);
+      const [seen, capped] = [{}, {}];
+      for (const [name, offset] of [
+        ['before', low - 1],
+        ['through', (low + high) / 2],
+        ['behind', high + 1],
+      ]) {
+        state.sectionAt.value = offset;
+        const { meshes } = viewport.scene();
+        seen[name] = meshes.filter((mesh) => mesh.overlay && mesh.opacity === 0.45).length;
+        const faces = meshes.filter((mesh) => mesh.flat && !mesh.overlay);
+        capped[name] = faces.some(({ front }) =>
+          Array.from({ length: front.length / 3 }).some((_, k) =>
+            darker.every((v, c) => Math.abs(front[3 * k + c] - v) < 1e-4),
+          ),
+        );
+      }
+      const ends = viewport.scene().meshes.filter(({ positions }) => positions === body.positions);
+      [state.sectionOn.value, state.sectionAt.value] = [false, 0];
+      return { seen, capped, ends: ends.map(({ cut }) => cut) };
+    });
+    assert.deepEqual(ends, [true]);
+    assert.deepEqual(seen, { before: 0, through: 0, behind: 0 });
+    assert.deepEqual(capped, { before: false, through: true, behind: false });
     await page.keyboard.press('Escape');
     await page.keyboard.press('Escape');
   });

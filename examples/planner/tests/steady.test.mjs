@@ -269,6 +269,74 @@ describe('planner words that cover nothing', () => {
     await page.getByText('is below the goal').first().waitFor();
     assert.ok((await figures(page)).measures.chordsOver > 0);
     assert.equal(await cut(), '');
+    // and a leak in two places after a clip, which narrows the valve
+    await begin(page, 'clip');
+    await page.evaluate(() => {
+      const { state } = window.planner;
+      const { figures, ...shown } = state.preview.value;
+      const [part] = [...figures.orificeParts, { area: 9, centroid: [0, 0, 0], direction: [0, 0, 1] }];
+      const commissure = figures.regions.find((region) => region.commissure);
+      const regions = figures.regions.map((region) => ({
+        ...region,
+        orifice: region === commissure || /^P/.test(region.name) ? 5 : 0,
+      }));
+      const chords = figures.chords.map((chord) => ({ ...chord, tension: 4.7 * chord.tensionLimit }));
+      const measures = { ...figures.measures, orifice: 17, chordLoad: 4.7, chordsOver: 29 };
+      const hash = 'many lines';
+      state.openings.value = new Map([[hash, { hash, openArea: 172 }]]);
+      const parts = [part, { ...part, centroid: part.centroid.map((v) => v + 20) }].map((one) => ({
+        ...one,
+        area: 9,
+      }));
+      const changed = { ...figures, hash, regions, chords, measures, orificeParts: parts };
+      state.preview.value = { ...shown, figures: changed };
+    });
+    await page.locator('.verdict .beyond-names').waitFor();
+    assert.match(
+      await page.getByTestId('verdict').innerText(),
+      /opens to 1\.7\scm²[^]*chordae[^]*and others, in 2\splaces[^]*times/,
+    );
+    assert.equal(await cut(), '');
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+    await closed(page);
     await undo(page);
+  });
+
+  it('shows_each_field_of_a_form_above_its_foot', async () => {
+    for (const [width, height] of [
+      [1366, 768],
+      [1280, 720],
+    ]) {
+      await page.setViewportSize({ width, height });
+      for (const kind of ['clip', 'resect']) {
+        await begin(page, kind);
+        await page
+          .getByTestId('opening')
+          .getByText(/without it \d/)
+          .waitFor();
+        const covered = await page.evaluate(async () => {
+          const found = [];
+          for (const field of document.querySelectorAll('.form > .field, .form .fields > .field')) {
+            field.scrollIntoView({ block: 'nearest' });
+            await new Promise(requestAnimationFrame);
+            const box = field.getBoundingClientRect();
+            const [foot, head] = ['.form-foot', '.tabs'].map((part) =>
+              document.querySelector(part).getBoundingClientRect(),
+            );
+            if (box.bottom > foot.top + 1 || box.top < head.bottom - 1)
+              found.push(
+                `${field.innerText}: ${[box.top, box.bottom, head.bottom, foot.top].map(Math.round)}`,
+              );
+          }
+          return found;
+        });
+        assert.deepEqual(covered, [], `${kind} at ${width} x ${height}`);
+        await page.keyboard.press('Escape');
+        await page.keyboard.press('Escape');
+        await closed(page);
+      }
+    }
+    await page.setViewportSize({ width: 1280, height: 720 });
   });
 });

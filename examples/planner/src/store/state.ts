@@ -222,3 +222,9 @@ effect(() => {
   if (gone || now.some((value, k) => value !== seen[k])) past.value = false;
   [seen, previewing] = [now, !!preview.value];
 });
+
+/** A plan that begins shows the whole valve, and its section in the middle. */
+effect(() => {
+  plan.value;
+  batch(() => ([sectionOn.value, sectionAt.value] = [false, 0]));
+});

@@ -211,6 +211,9 @@ export function clipIn(name: string, titles: string[]): ClipWords | null {
   return title === undefined ? null : clipWords(title);
 }
 
+/** How far a clip is from the middle, as the title of its operation says it; null of another title. */
+export const clipPlaceIn = (title: string): string | null => clipWords(title)?.place ?? null;
+
 const turned = (angle: number): string =>
   angle === 0
     ? 'across the edge'
@@ -386,12 +389,12 @@ export const tourTexts = {
 export const help = {
   picture: 'Arrow keys turn the valve, Shift and arrow keys move it, plus and minus zoom.',
   keys: [
-    ['1 2 3 4', 'Views: surgeon, ventricle, side, section'],
+    ['1 2 3 4', 'Views: surgeon, ventricle, from behind, section'],
     ['Arrows, + −', 'Turn, zoom (in the picture)'],
     ['V R P L I', 'Panels: Valve, Repair, Plan, Learn; Import, once a surface was opened'],
     ['O', 'Open and close the valve'],
     ['W', 'The valve before, and the present one again'],
-    ['X', 'Section plane in the picture on and off'],
+    ['X', 'Cut plane in the picture on and off: nothing stands before it'],
     ['C', 'Chordae on and off'],
     ['N', 'Names on and off'],
     ['M', 'Next colour map'],
@@ -650,14 +653,14 @@ export const barTexts = {
   help: 'Keys and help',
   view: 'View',
   viewOf: (name: string) => `View: ${name}`,
-  presets: { surgeon: 'Surgeon', ventricle: 'Ventricle', commissure: 'Side', section: 'Section' },
+  presets: { surgeon: 'Surgeon', ventricle: 'Ventricle', commissure: 'Behind', section: 'Section' },
   opened: 'Open',
   closed: 'Closed',
   opening: 'Open or closed',
   show: 'Show',
-  cut: 'Section plane in the picture',
+  cut: 'Cut plane in the picture',
   // short words below the icons; each begins the name of its button
-  words: { cut: 'Section', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
+  words: { cut: 'Cut', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
   pointer: 'Pointer',
@@ -808,6 +811,16 @@ export const formTexts = {
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
   leftEmpty: (fallback: string) => `as long as you type no number: ${fallback}`,
+  ringSizes: (low: number, high: number) => `Rings are made in sizes of ${low} to ${high} mm. `,
+  /** Of a number that its slider does not reach. */
+  beyond: (value: number, low: number, high: number, unit: string) => {
+    const [all, from, to] = [value, low, high].map((one) => +one.toPrecision(4));
+    return `${all} ${unit} is beyond the slider, which goes from ${from} to ${to} ${unit}.`;
+  },
+  oversized: (more: number) =>
+    `Oversized: ${number(more)} mm wider than the annulus. It spreads the leaflets instead of bringing them nearer.`,
+  /** The place of a clip in its preview. */
+  placed: (place: string | null) => `In the preview: ${place ?? '…'}`,
   auto: 'auto',
   choose: 'choose…',
   none: 'none',
@@ -843,9 +856,14 @@ export const formTexts = {
   fileAxis: (axis: number, value: number) => `${'xyz'[axis]} of the file: ${number(value)} mm`,
 };
 
+/** Where the cut plane is, mm from the middle. */
+const awayWords = (mm: number): string =>
+  `${number(Math.abs(mm))} mm from the middle towards the ${formTexts.sides[mm > 0 ? 0 : 1]} commissure`;
+
 /** Names in the picture, of handles too. */
 export const markTexts = {
-  plane: (through: string[]) => `Section plane through ${listOf(through)}: drag`,
+  plane: (through: string[], mm: number) =>
+    `Cut plane through ${listOf(through)}${mm === 0 ? '' : `, ${number(Math.abs(mm))} mm towards ${formTexts.sides[mm > 0 ? 0 : 1]}`}: drag`,
   chord: (name: string, length: number, percent: number | null, artificial: boolean) =>
     `${name}  ${number(length)} mm${percent === null ? '' : `, ${loadWords(percent, artificial)}`}`,
   clip: 'Clip: drag',
@@ -861,9 +879,12 @@ export const openingTexts = {
       : `${word[0].toUpperCase()}${word.slice(1)}: in adults 1.5 cm² or less is severe, 1.0 cm² or less very severe (ACC/AHA 2014).`,
   elsewhere:
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
-  beside: (before: number | undefined, least: number | null) =>
+  /** `same`: the opening does not differ from that before by more than is known of it. */
+  beside: (before: number | undefined, least: number | null, same: boolean) =>
     [
-      before === undefined ? '' : `without it ${number(before / 100, 2)} cm²`,
+      before === undefined
+        ? ''
+        : `${same ? 'about the same as without it' : 'without it'} ${number(before / 100, 2)} cm²`,
       least === null ? '' : `goal ${number(least / 100, 2)} cm² or more`,
     ]
       .filter(Boolean)
@@ -929,6 +950,7 @@ export const repairTexts = {
   none: 'none',
   neochord: 'Artificial chord',
   resect: 'Resect',
+  clip: 'Clip',
 };
 
 export const planTexts = {
@@ -1030,12 +1052,13 @@ export const sectionTexts = {
   scale: '10 mm',
   healthy: 'before its illness',
   now: 'now',
+  closed: 'closed',
   before: 'before',
   preview: 'preview',
   plane: (mm: number, through: string[]) =>
-    `Plane through ${listOf(through)}, ${mm === 0 ? 'in the middle' : `${number(Math.abs(mm))} mm from the middle towards the ${formTexts.sides[mm > 0 ? 0 : 1]} commissure`}`,
+    `Cut plane through ${listOf(through)}, ${mm === 0 ? 'in the middle' : awayWords(mm)}`,
   middle: 'To the middle',
-  cut: 'Section plane in the picture',
+  cut: 'Cut plane in the picture',
 };
 
 interface Meaning {
@@ -1392,11 +1415,11 @@ export const tips: Record<string, string> = {
   [barTexts.help]: 'All keys and gestures, what the figures mean, and the licences',
   [barTexts.presets.surgeon]: 'View from the atrium with P2 below, as in the operation',
   [barTexts.presets.ventricle]: 'View from the ventricle on chordae and papillary muscles',
-  [barTexts.presets.commissure]: 'View from the side, with the atrium above',
+  [barTexts.presets.commissure]: 'View from behind the posterior leaflet, with the atrium above',
   [barTexts.presets.section]:
-    'View of a section from front to back through both leaflets; drag the blue ball to move it',
+    'View along the valve with a cut from front to back through both leaflets; drag the blue ball to move it',
   [barTexts.opening]: 'Lets the pressure on the valve fall and rise again, so that it opens and closes',
-  [barTexts.cut]: 'Takes away what lies in front of the section plane',
+  [barTexts.cut]: 'Takes away what lies before the cut plane; the other views show the whole valve again',
   [barTexts.chordae]: 'Shows or hides the chordae',
   [barTexts.names]: 'Shows or hides the names of scallops and papillary muscles',
   [barTexts.look]: 'Drag to turn the valve, click to choose a chord, a muscle or a scallop',
@@ -1435,6 +1458,7 @@ export const tips: Record<string, string> = {
   [repairTexts.move]: operationTips.head_move,
   [repairTexts.neochord]: operationTips.neochord,
   [repairTexts.resect]: operationTips.resect,
+  [repairTexts.clip]: operationTips.clip,
   [formTexts.leave]: 'Leaves the form; the valve stays as it is',
   [formTexts.more]: 'Fields that are rarely changed',
   [formTexts.alongTip]: 'Moves the place along the scallop',
@@ -1495,7 +1519,7 @@ export const tipTexts = {
   devices: 'Everything that was implanted',
   valve: 'Opens this leaking valve with its goals; a changed plan can be returned to',
   next: 'Opens the next valve of the tour',
-  plane: 'Moves the section plane from one commissure towards the other',
+  plane: 'Moves the cut plane from one commissure towards the other',
   checkpoint: 'Picture and figures of the plan that is compared',
   rename: 'Gives the plan another name',
   remove: 'Deletes the kept plan; it can be put back',

@@ -24,7 +24,11 @@ import { Verdict } from './verdict';
 
 let viewport: Viewport | null = null;
 export const view = (): Viewport | null => viewport;
-const go = (preset: Preset): void => viewport?.go(preset);
+/** Turns the picture to a view: that of the section is cut, the others show the whole valve. */
+function go(preset: Preset): void {
+  state.sectionOn.value = preset === 'section';
+  viewport?.go(preset);
+}
 
 function Panels() {
   const panel = state.panel.value;

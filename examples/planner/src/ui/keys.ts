@@ -61,10 +61,7 @@ export function onKey(event: KeyboardEvent, go: (preset: Preset) => void): void 
   )
     return void apply();
   const views: Record<string, Preset> = { 1: 'surgeon', 2: 'ventricle', 3: 'commissure', 4: 'section' };
-  if (views[key]) {
-    if (key === '4') state.sectionOn.value = true;
-    return go(views[key]);
-  }
+  if (views[key]) return go(views[key]);
   if (clipKey(key)) return;
   const panel = tabs().find(([, , letter]) => letter.toLowerCase() === key);
   if (panel) showPanel(panel[0]);

@@ -1,7 +1,7 @@
 // A number of an operation, with a slider where it has a usual range.
 import { setField } from '../store/edit';
 import * as state from '../store/state';
-import { fieldTip, figure, formTexts } from '../text/texts';
+import { clipPlaceIn, fieldTip, figure, formTexts } from '../text/texts';
 import type { FieldInfo } from '../protocol';
 import { SliderEnds } from './parts';
 
@@ -37,7 +37,7 @@ export function labelOf({ field, label }: FieldProps): string {
 
 /** The unit in which a field is shown, and its factor on the value: shares are shown in percent. */
 function shownUnit(field: FieldInfo): { unit: string; scale: number } {
-  const isShare = shares.has(field.name) && field.unit === '';
+  const isShare = (shares.has(field.name) || field.name === 'position') && field.unit === '';
   return isShare ? { unit: '%', scale: 100 } : { unit: field.unit, scale: 1 };
 }
 
@@ -73,6 +73,27 @@ function textOf(value: number | undefined, scale: number, present: number | null
   return value === present ? figure(value) : String(+(value * scale).toPrecision(6));
 }
 
+/** How far the previewed clip is from the middle, in words of the plan; null until its preview is shown. */
+function previewedPlace(): string | null {
+  if (state.outdated.value) return null;
+  const title = state.preview.value?.figures.history.filter((entry) => !entry.undone).at(-1)?.title;
+  return title === undefined ? null : clipPlaceIn(title);
+}
+
+/** A sentence on a ring that is wider than the annulus by more than its width is known. */
+function Oversized({ size }: { size: number }) {
+  const annulus = state.main.value?.figures.measures.annulusCc ?? NaN;
+  if (!(size > oversized * annulus)) return null;
+  return (
+    <small class="warn" data-testid="oversized">
+      {formTexts.oversized(size - annulus)}
+    </small>
+  );
+}
+
+/** Sizes of rings go by 2 mm, about 5 %: the nearest size above the annulus is none too large. */
+const oversized = 1.05;
+
 /** ms without a key after which a typed number is tried. */
 const pause = 700;
 let typing = 0;
@@ -97,6 +118,7 @@ export function NumberField(props: FieldProps) {
   const high = rest ? +(1.6 * rest).toFixed(1) : range?.[1];
   const position = isPosition(kind, field.name);
   const slider = (of: number) => (position ? -of : of) * scale;
+  const beyond = value !== undefined && !!range && (value < low! || value > high!);
   return (
     <div class="field" title={tipOf(props)}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
@@ -105,13 +127,14 @@ export function NumberField(props: FieldProps) {
           <span class="slide">
             <input
               type="range"
+              class={beyond ? 'beyond' : undefined}
               aria-label={labelOf(props)}
               aria-valuetext={position ? formTexts.position(shown ?? 0) : undefined}
               min={slider(position ? high! : low!)}
               max={slider(position ? low! : high!)}
               step={range[2] * scale}
               value={slider(shown ?? (low! + high!) / 2)}
-              onInput={({ currentTarget: { value: text } }) => set(position ? String(-text) : text)}
+              onInput={({ currentTarget: { value: text } }) => set(position ? String(0 - +text) : text)}
             />
             <SliderEnds
               ends={position ? formTexts.sides : [low!, high!].map((end) => +(end * scale).toPrecision(4))}
@@ -156,7 +179,15 @@ export function NumberField(props: FieldProps) {
       {kind === 'ring' && field.name === 'size' && (
         <small>{formTexts.sizeFrom(state.main.value?.figures.measures.annulusCc ?? NaN)}</small>
       )}
+      {beyond && (
+        <small class="warn" role="status" data-testid="beyond">
+          {kind === 'ring' && formTexts.ringSizes(low!, high!)}
+          {formTexts.beyond(value * scale, low! * scale, high! * scale, unit)}
+        </small>
+      )}
+      {kind === 'ring' && field.name === 'size' && <Oversized size={value ?? NaN} />}
       {position && <small>{formTexts.position(value ?? 0)}</small>}
+      {position && kind === 'clip' && <small>{formTexts.placed(previewedPlace())}</small>}
       {rest !== null && value !== undefined && <small>{formTexts.change(rest, value)}</small>}
       {value === undefined &&
         field.fallback &&

@@ -6,6 +6,9 @@ import { openingTexts, stenosis, verdictTexts } from '../text/texts';
 /** Operations that make the annulus smaller. */
 const ofAnnulus = new Set(['ring', 'band']);
 
+/** Share by which two openings differ no more than they are known. */
+const accuracy = 0.02;
+
 export function Opening({ kind }: { kind: string }) {
   const preview = state.preview.value?.figures;
   if (!narrowing.has(kind) || !preview) return null;
@@ -15,8 +18,11 @@ export function Opening({ kind }: { kind: string }) {
   const word = now ? stenosis(now.openArea) : '';
   const small = smallAnnulus();
   const warn = !!word || (now && least !== null && now.openArea < least);
+  const share = now && before ? now.openArea / before.openArea : NaN;
+  const same = Math.abs(share - 1) <= accuracy;
+  const narrower = preview.measures.annulusCc < (state.main.value?.figures.measures.annulusCc ?? 0);
   // the annulus became smaller and the opening did not
-  const elsewhere = ofAnnulus.has(kind) && now && before && now.openArea >= before.openArea;
+  const elsewhere = ofAnnulus.has(kind) && narrower && share >= 1 - accuracy;
   const why = [
     word && (small === null ? openingTexts.narrow(word) : verdictTexts.smallAnnulus(small)),
     elsewhere && openingTexts.elsewhere,
@@ -28,7 +34,7 @@ export function Opening({ kind }: { kind: string }) {
       title={[openingTexts.help, ...why].join(' ')}
     >
       {openingTexts.opens(now?.openArea)}
-      <span class="was"> {openingTexts.beside(before?.openArea, least)}</span>
+      <span class="was"> {openingTexts.beside(before?.openArea, least, same)}</span>
       {why.map((text) => (
         <small>{text}</small>
       ))}

@@ -76,6 +76,15 @@ export function firstFields(kind: string): Record<string, FieldValue> {
   return {};
 }
 
+/** The clip that joins a scallop to the one that lies opposite; null where there is none. */
+function clipFields(name: string): Record<string, FieldValue> | null {
+  const scallops = state.topologyOf(state.main.value!.picture)?.scallops ?? [];
+  const [anterior, posterior] = ['A', 'P'].map((leaflet) =>
+    scallops.find((part) => /^[AP]\d$/.test(name) && part.name === leaflet + name[1]),
+  );
+  return anterior && posterior ? { anterior: anterior.id, posterior: posterior.id } : null;
+}
+
 /** The field that the first click in the picture fills. */
 export function firstPick(kind: string, fields: Record<string, FieldValue>): string | null {
   const info = state.operationOf(kind);
@@ -210,6 +219,7 @@ function Chosen() {
   const region = figures.regions.find((item) => item.name === part?.name);
   if (!part || !region) return null;
   const edge = shownEdges.value.get(part.name);
+  const opposite = clipFields(part.name);
   return (
     <div class="chosen-card" data-testid="chosen">
       <LetGo />
@@ -235,6 +245,11 @@ function Chosen() {
         <Button icon={<Triangle size={16} />} onClick={() => edit('resect', { scallop: choice.id })}>
           {repairTexts.resect}
         </Button>
+        {opposite && (
+          <Button icon={<Paperclip size={16} />} onClick={() => edit('clip', opposite)}>
+            {repairTexts.clip}
+          </Button>
+        )}
       </div>
     </div>
   );

@@ -3,7 +3,7 @@ import { useSignal, useSignalEffect } from '@preact/signals';
 import { fail, request } from '../store/requests';
 import * as state from '../store/state';
 import { formTexts, sectionTexts, tips, tipTexts } from '../text/texts';
-import type { Section, SectionRequest } from '../protocol';
+import type { Picture, Section, SectionRequest } from '../protocol';
 import { crossings, cutScallops, planeOf } from '../view/cut';
 import { isClosed, ringCurves, ringRadius } from '../view/heart';
 import { Button, SliderEnds } from './parts';
@@ -62,6 +62,39 @@ function ringDots(): number[][] {
   );
 }
 
+/** Where the plane cuts the valve that is being opened or moved by hand: rows as of the worker. */
+export function movingSection(picture: Picture, frame: number[], offset: number): Section {
+  const topology = state.topologyOf(picture);
+  const ends: number[] = [];
+  if (!topology) return new Float32Array(0);
+  const along = (node: number, row: number) =>
+    [0, 1, 2].reduce((sum, c) => sum + (picture.positions[3 * node + c] - frame[c]) * frame[3 * row + c], 0);
+  const { triangles } = topology;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const nodes = [...triangles.subarray(t, t + 3)];
+    const away = nodes.map((node) => along(node, 2) - offset);
+    for (let k = 0; k < 3; ++k) {
+      const next = (k + 1) % 3;
+      if (away[k] < 0 === away[next] < 0) continue;
+      const s = away[k] / (away[k] - away[next]);
+      for (const row of [1, 3]) ends.push((1 - s) * along(nodes[k], row) + s * along(nodes[next], row));
+    }
+  }
+  return Float32Array.from(ends);
+}
+
+/** The curves beside that of a moving valve, in which the resting one is the closed one. */
+function beside(curves: Curve[], frame: number[]): Curve[] {
+  const motion = state.motion.value;
+  if (!motion) return curves;
+  const others = curves.map((curve) =>
+    curve.style === 'now' ? { ...curve, style: 'before', name: sectionTexts.closed } : curve,
+  );
+  const points = movingSection(motion.picture, frame, state.sectionAt.value);
+  const rest = others.filter(({ name }) => name !== sectionTexts.before);
+  return [...rest, { points, style: 'now', name: sectionTexts.now }];
+}
+
 /** The curves to draw, and a key that changes with the valves, the plane and the preview. */
 function wanted(): { key: string; curves: (Omit<Curve, 'points'> & { which: SectionRequest['which'] })[] } {
   const preview = state.preview.value?.figures.hash;
@@ -105,7 +138,8 @@ export function SectionPlot() {
   const outdated = state.outdated.value || shown.value !== wanted().key;
   const limit = 0.5 * (state.figures.value?.measures.annulusCc ?? 40);
   if (!state.main.value) return null;
-  const box = boxOf(curves.value.map(({ points }) => points));
+  const drawn = beside(curves.value, state.main.value.figures.frame);
+  const box = boxOf(drawn.map(({ points }) => points));
   const text = { class: 'plot-text', style: { fontSize: `${box.text}px` } };
   const [left, right] = [box.x + box.text / 2, box.x + box.width - box.text / 2];
   const bottom = box.y + box.height;
@@ -127,10 +161,9 @@ export function SectionPlot() {
         <text x={right} y={box.y + 1.3 * box.text} text-anchor="end" {...text}>
           {sectionTexts.posterior}
         </text>
-        {ringDots().map(([ap, height]) => (
-          <circle cx={-ap} cy={-height} r={ringRadius} class="plot-ring" />
-        ))}
-        {curves.value.map((curve) => (
+        {!state.motion.value &&
+          ringDots().map(([ap, height]) => <circle cx={-ap} cy={-height} r={ringRadius} class="plot-ring" />)}
+        {drawn.map((curve) => (
           <path d={lines(curve.points)} class={`plot-${curve.style}`} />
         ))}
         <line
@@ -148,7 +181,7 @@ export function SectionPlot() {
         </text>
       </svg>
       <div class="legend">
-        {curves.value.map((curve) => (
+        {drawn.map((curve) => (
           <span>
             <i class={`key key-${curve.style}`} />
             {curve.name}

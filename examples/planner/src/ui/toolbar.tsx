@@ -102,10 +102,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
             keys={String(k + 1)}
             title={tips[name]}
             disabled={surface && preset === 'section'}
-            onClick={() => {
-              if (preset === 'section') state.sectionOn.value = true;
-              props.go(preset);
-            }}
+            onClick={() => props.go(preset)}
           >
             {name}
           </Button>

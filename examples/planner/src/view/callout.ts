@@ -37,7 +37,7 @@ export function meets([ax, ay, bx, by]: Line, box: Box): boolean {
   return enter <= leave;
 }
 
-const overlap = (a: Box, b: Box): boolean =>
+export const overlap = (a: Box, b: Box): boolean =>
   a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
 export class Callout {

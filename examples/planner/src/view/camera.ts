@@ -5,6 +5,11 @@ import { Matrix4, Quaternion, Vector3 } from 'three';
 /** A view: rows of `frame` are origin, AP, CC and the axis into the atrium (Figures.frame). */
 export type Preset = 'surgeon' | 'ventricle' | 'commissure' | 'section';
 
+/** Largest distance to the target, mm. */
+const farthest = 400;
+/** Factor by which the camera goes back until all is seen. */
+const fitStep = 1.02;
+
 export class Camera {
   readonly target = new Vector3();
   readonly orientation = new Quaternion();
@@ -59,7 +64,7 @@ export class Camera {
 
   zoom(factor: number): void {
     this.goal = null;
-    this.distance = Math.min(400, Math.max(15, this.distance * factor));
+    this.distance = Math.min(farthest, Math.max(15, this.distance * factor));
   }
 
   /** Begins to move to a preset; `advance` carries it out. */
@@ -83,6 +88,26 @@ export class Camera {
     const room = preset === 'surgeon' ? 1.02 : 1.2;
     const narrow = Math.min(1, this.aspect);
     this.goal = { orientation, target, distance: (room * radius) / Math.tan(this.fov / 2) / narrow };
+  }
+
+  /** Whether points are in the picture, which is `width` by `height` pixels, `foot` pixels above its lower border. */
+  shows(points: number[][], width: number, height: number, foot = 0): boolean {
+    this.update();
+    return points.every(([x, y, z]) => {
+      const [px, py] = this.project(x, y, z, width, height);
+      return px >= 0 && py >= 0 && px <= width && py <= height - foot;
+    });
+  }
+
+  /** Begins to go back until points are in the picture. */
+  fit(points: number[][], width: number, height: number, foot = 0): void {
+    const { distance, orientation, target } = this;
+    this.distance = this.goal?.distance ?? distance;
+    while (!this.shows(points, width, height, foot) && this.distance < farthest) this.distance *= fitStep;
+    this.goal ??= { orientation: orientation.clone(), target: target.clone(), distance };
+    this.goal.distance = this.distance;
+    this.distance = distance;
+    this.update();
   }
 
   /** Moves towards the goal by the time that has passed, s; false when there is nothing to do. */

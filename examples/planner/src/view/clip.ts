@@ -1,9 +1,11 @@
-// The clip of the form in the picture: its place on the free edge of its two scallops, at its position between their
-// ends, and its turn. Positions grow along the CC axis and angles are anticlockwise as seen from the atrium, as in the
+// The clip of the form in the picture: its place, which is that of its body where the preview shows one, else on the free edge of
+// its two scallops, at its position between their ends; and its turn. Positions grow along the CC axis and angles are anticlockwise as seen from the atrium, as in the
 // library.
 import * as state from '../store/state';
 import { edit } from '../store/edit';
+import { clipOf, suture } from '../notable';
 import type { Topology } from '../protocol';
+import { clipBodies } from './clips';
 
 export interface ClipPlace {
   at: number[];
@@ -16,6 +18,8 @@ export interface ClipPlace {
   arm: number[];
   /** Where its turn is held, mm. */
   handle: number[];
+  /** The picture shows its body. */
+  drawn: boolean;
 }
 
 /** mm from the middle of the clip to the handle of its turn, and to the ends of its arms. */
@@ -38,13 +42,34 @@ function scallopOf(topology: Topology, id: unknown, fallback: string): number {
   return k >= 0 ? k : topology.scallops.findIndex((part) => part.name === fallback);
 }
 
-/** Where the clip is while its form is open; null without such a form. */
+/** Names of the clips of a valve. */
+const namesOf = ({ chords, chordKind }: Topology): string[] => [
+  ...new Set(
+    chords.flatMap(({ name }, k) => (chordKind[k] === suture && clipOf(name) ? [clipOf(name)] : [])),
+  ),
+];
+
+const numberIn = (draft: state.Draft, name: string): number =>
+  typeof draft.fields[name] === 'number' ? draft.fields[name] : 0;
+
+/** The middle of the clip that the preview adds, mm; null before the first preview. */
+function previewedMiddle(): number[] | null {
+  const [now, then] = [state.preview.value, state.main.value];
+  const [topology, old] = [now, then].map((shown) => shown && state.topologyOf(shown.picture));
+  if (!now || !topology || !old || state.previewed.value?.kind !== 'clip') return null;
+  const before = new Set(namesOf(old));
+  const name = namesOf(topology).find((one) => !before.has(one));
+  if (name === undefined) return null;
+  return clipBodies(topology, now.picture, now.figures.frame).get(name)?.middle ?? null;
+}
+
+/** Where the clip is while its form is open; null without such a form, and in the valve before. */
 export function clipPlace(): ClipPlace | null {
   const draft = state.draft.value;
   const picture = state.picture.value;
   const topology = picture && state.topologyOf(picture);
   const frame = state.figures.value?.frame;
-  if (draft?.kind !== 'clip' || !picture || !topology || !frame) return null;
+  if (draft?.kind !== 'clip' || !picture || !topology || !frame || state.inPast.value) return null;
   const x = picture.positions;
   const cc = (node: number) =>
     [0, 1, 2].reduce((sum, c) => sum + (x[3 * node + c] - frame[c]) * frame[6 + c], 0);
@@ -53,22 +78,26 @@ export function clipPlace(): ClipPlace | null {
     edgeOf(topology, scallopOf(topology, draft.fields.posterior, 'P2')),
   ];
   if (sides.some((nodes) => !nodes.length)) return null;
-  const position = typeof draft.fields.position === 'number' ? draft.fields.position : 0;
-  const at = [0, 0, 0];
+  const position = numberIn(draft, 'position');
+  const edge = [0, 0, 0];
   let half = 0;
   for (const nodes of sides) {
     const places = nodes.map(cc);
     const [low, high] = [Math.min(...places), Math.max(...places)];
     const wanted = 0.5 * (low + high) + 0.5 * position * (high - low);
     const nearest = nodes.reduce((a, b) => (Math.abs(cc(a) - wanted) <= Math.abs(cc(b) - wanted) ? a : b));
-    for (let c = 0; c < 3; ++c) at[c] += 0.5 * x[3 * nearest + c];
+    for (let c = 0; c < 3; ++c) edge[c] += 0.5 * x[3 * nearest + c];
     half += 0.25 * (high - low);
   }
-  const angle = typeof draft.fields.angle === 'number' ? draft.fields.angle : 0;
+  const middle = previewedMiddle();
+  // ahead of the body while the preview of a newer position is still to come
+  const ahead = middle ? half * (position - numberIn(state.previewed.value!, 'position')) : 0;
+  const at = middle ? middle.map((v, c) => v + ahead * frame[6 + c]) : edge;
+  const angle = numberIn(draft, 'angle');
   const [c, s] = [Math.cos((angle * Math.PI) / 180), Math.sin((angle * Math.PI) / 180)];
   const arm = [0, 1, 2].map((k) => c * frame[3 + k] + s * frame[6 + k]);
   const handle = at.map((v, k) => v + handleAway * arm[k]);
-  return { at, position, half: Math.max(half, 1), angle, arm, handle };
+  return { at, position, half: Math.max(half, 1), angle, arm, handle, drawn: !!middle };
 }
 
 /** The largest turn of the form's field, degrees. */

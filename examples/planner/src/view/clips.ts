@@ -3,7 +3,7 @@
 import type { Picture, Topology } from '../protocol';
 import { clipOf, suture } from '../notable';
 import { tissue } from './colours';
-import { point, Shapes, type Mesh } from './mesh';
+import { point, Shapes } from './mesh';
 
 /** mm: a bar as thick as the leaflets that it holds. */
 const radius = 1;
@@ -36,35 +36,50 @@ function ends(stitches: number[][], up: number[]): [number[], number[]] {
   return best;
 }
 
-/** Devices of all clips; `turns`: of each in degrees against the clock, by its name. Null without a clip. */
-export function clips(
+/** Where a clip is: its middle, and half of its width, mm. */
+export interface ClipBody {
+  middle: number[];
+  half: number;
+}
+
+/** The bodies of all clips, by their names. */
+export function clipBodies(topology: Topology, picture: Picture, frame: number[]): Map<string, ClipBody> {
+  return new Map(
+    [...stitchesOf(topology, picture)].map(([name, stitches]) => {
+      const [a, b] = ends(stitches, frame.slice(9, 12));
+      return [name, { middle: a.map((v, c) => 0.5 * (v + b[c])), half: 0.5 * apart(a, b) }];
+    }),
+  );
+}
+
+/** Devices of all clips as convex parts, the bar and both arms of each; `turns`: of each in degrees against the clock, by its name. */
+export function clipParts(
   topology: Topology,
   picture: Picture,
   frame: number[],
   turns: Map<string, number>,
-): Mesh | null {
-  const found = stitchesOf(topology, picture);
-  if (!found.size) return null;
-  const shapes = new Shapes();
+): Shapes[] {
+  const parts: Shapes[] = [];
   const [ap, cc] = [frame.slice(3, 6), frame.slice(6, 9)];
-  for (const [name, stitches] of found) {
-    const [a, b] = ends(stitches, frame.slice(9, 12));
-    const middle = a.map((v, c) => 0.5 * (v + b[c]));
+  for (const [name, { middle, half }] of clipBodies(topology, picture, frame)) {
     const angle = ((turns.get(name) ?? 0) * Math.PI) / 180;
     const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
     const arm = ap.map((v, c) => cos * v + sin * cc[c]);
     const bar = cc.map((v, c) => cos * v - sin * ap[c]);
     const at = (along: number[], by: number) => middle.map((v, c) => v + by * along[c]);
-    const half = 0.5 * apart(a, b);
-    shapes.tube(at(bar, -half), at(bar, half), radius, tissue.suture, 12);
+    const body = new Shapes();
+    body.tube(at(bar, -half), at(bar, half), radius, tissue.suture, 12);
+    parts.push(body);
     for (const side of [-1, 1]) {
-      shapes.tube(at(bar, side * half), at(bar, side * (half + 0.4)), radius, tissue.suture, 12, 0.02);
+      body.tube(at(bar, side * half), at(bar, side * (half + 0.4)), radius, tissue.suture, 12, 0.02);
       const tip = at(arm, side * armLength);
-      shapes.tube(middle, tip, armRadii[0], tissue.suture, 12, armRadii[1]);
-      shapes.sphere(tip, armRadii[1], tissue.suture, 8, 12);
+      const one = new Shapes();
+      one.tube(middle, tip, armRadii[0], tissue.suture, 12, armRadii[1]);
+      one.sphere(tip, armRadii[1], tissue.suture, 8, 12);
+      parts.push(one);
     }
   }
-  return shapes.mesh();
+  return parts;
 }
 
 /** mm between the outermost stitches of each clip as seen from the atrium, by its name. */

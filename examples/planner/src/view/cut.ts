@@ -1,5 +1,5 @@
 // The section plane in the picture: a frame round the valve, the leaflets as they are cut, with their thickness, and the cuts of
-// the annulus and of rings.
+// the annulus, of rings and of clips.
 import type { Picture, Topology } from '../protocol';
 import { cross, dot, unit, type Vector } from '../vector';
 import { tissue } from './colours';
@@ -136,6 +136,44 @@ function tubeCuts(
   }
 }
 
+/** Where a convex solid is cut: the hull of the places where its edges cross the plane. */
+function solidCut(shapes: Shapes, solid: Shapes, plane: CutPlane, layer: number): void {
+  const { positions, index, front } = solid.mesh();
+  const corners: Vector[] = [];
+  for (let k = 0; k < index.length; ++k) {
+    const [a, b] = [index[k], index[k % 3 === 2 ? k - 2 : k + 1]].map((node) => point(positions, node));
+    const [da, db] = [a, b].map((at) => dot(at, plane.normal) - plane.offset);
+    if (da < 0 === db < 0) continue;
+    const s = da / (da - db);
+    corners.push(a.map((v, c) => v + s * (b[c] - v) + before * layer * plane.normal[c]) as Vector);
+  }
+  if (corners.length < 3) return;
+  const right = anyAcross(plane.normal);
+  const up = cross(plane.normal, right);
+  const hull = hullOf(corners, right, up);
+  if (hull.length > 2) shapes.polygon(hull, [0, 1, 2].map((c) => cutShade * front[c]) as unknown as Colour);
+}
+
+/** The convex hull of points in a plane with two axes, anticlockwise: Andrew's two chains. */
+function hullOf(points: Vector[], right: Vector, up: Vector): Vector[] {
+  const flat = points
+    .map((at) => ({ at, x: dot(at, right), y: dot(at, up) }))
+    .sort((a, b) => a.x - b.x || a.y - b.y);
+  const chain = (row: typeof flat) => {
+    const found: typeof flat = [];
+    for (const next of row) {
+      for (;;) {
+        const [a, b] = found.slice(-2);
+        if (!b || (b.x - a.x) * (next.y - a.y) - (b.y - a.y) * (next.x - a.x) > 1e-9) break;
+        found.pop();
+      }
+      found.push(next);
+    }
+    return found.slice(0, -1);
+  };
+  return [...chain(flat), ...chain([...flat].reverse())].map(({ at }) => at);
+}
+
 const anyAcross = (n: Vector): Vector => unit(cross(n, Math.abs(n[0]) < 0.7 ? [1, 0, 0] : [0, 1, 0]));
 
 /** A rectangle in the plane, from the front to the back of the annulus. */
@@ -156,7 +194,7 @@ let built: { picture: Picture; upper: Float32Array; offset: number; meshes: Mesh
 /** The light line along the atrial side of a cut leaflet, which parts leaflets that touch. */
 const lining: Colour = tissue.atrialAnterior;
 
-/** The cut leaflets, annulus and rings, and the frame of the plane; the last ones are kept. */
+/** The cut leaflets, annulus, rings and clips, and the frame of the plane; the last ones are kept. */
 export function cutMeshes(
   topology: Topology,
   picture: Picture,
@@ -165,6 +203,7 @@ export function cutMeshes(
   frame: number[],
   radius: number,
   closed: Picture | null,
+  clips: () => Shapes[],
 ): Mesh[] {
   const same = built?.picture === picture && built.upper === sides.upper && built.offset === plane.offset;
   if (same) return built!.meshes;
@@ -174,6 +213,7 @@ export function cutMeshes(
     lines.tube(a[0], b[0], lineRadius, lining, 5);
   }
   tubesOf(topology, picture, closed).forEach((tube, layer) => tubeCuts(faces, tube, plane, layer));
+  for (const part of clips()) solidCut(faces, part, plane, 1);
   lines.path(frameCorners(plane, frame, radius), frameRadius, tissue.chosen, true, 5);
   const meshes = [faces.mesh({ flat: true }), lines.mesh()];
   built = { picture, upper: sides.upper, offset: plane.offset, meshes };

@@ -30,6 +30,7 @@ export function overlayInputs(): unknown[] {
     state.picking.value,
     state.outline.value,
     draft?.kind === 'clip' ? draft : null,
+    draft?.kind === 'clip' ? state.previewed.value : null,
   ];
 }
 

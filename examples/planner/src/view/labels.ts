@@ -3,7 +3,7 @@ import * as state from '../store/state';
 import { percentOfLimit, shareOfLimit } from '../notable';
 import { markTexts } from '../text/texts';
 import { cutScallops } from './cut';
-import { Callout, type Box, type Line } from './callout';
+import { Callout, overlap, type Box, type Line } from './callout';
 import { clipPlace } from './clip';
 import { pickSurface } from './pick';
 import type { Topology } from '../protocol';
@@ -40,7 +40,7 @@ function handleLabels(view: Viewport, topology: Topology, x: Float32Array): Labe
   const plane = view.plane();
   if (plane) {
     const through = cutScallops(topology, x, plane);
-    labels.push({ text: markTexts.plane(through), at: view.handle(), kind: 'handle' });
+    labels.push({ text: markTexts.plane(through, state.sectionAt.value), at: view.handle(), kind: 'handle' });
   }
   const clip = clipPlace();
   if (clip)
@@ -108,7 +108,8 @@ export class Labels {
     const names = state.labelsOn.value
       ? [...headLabels(topology, x), ...scallopLabels(view, topology, x)]
       : [];
-    return [...names, ...chordLabel(topology, x), ...handleLabels(view, topology, x)];
+    // names of handles first: those of tissue give way to them
+    return [...handleLabels(view, topology, x), ...names, ...chordLabel(topology, x)];
   }
 
   /** Whether a leaflet lies between the eye and a place. */
@@ -150,12 +151,30 @@ export class Labels {
         tissue &&
         taken.some(({ x, y, width, height }) => Math.hypot(x + width / 2 - px, y + height / 2 - py) < 32);
       element.hidden = covered || (label.kind === 'head' && this.hidden(view, label, px, py));
+      if (label.kind === 'handle') return this.besideHandle(view, element, [px, py], taken);
       if (!element.hidden) taken.push({ x: px - 12, y: py - 9, width: 24, height: 18 });
-      // of a handle beside it, on its left where the picture ends on its right
-      const leaves = label.kind === 'handle' && px + besideHandle + element.offsetWidth > view.width;
-      const beside = leaves ? `calc(-100% - ${besideHandle}px)` : `${besideHandle}px`;
-      element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(${label.kind === 'handle' ? beside : '-50%'}, -50%)`;
+      element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(-50%, -50%)`;
     });
+  }
+
+  /** The name of a handle stands on its right, or on its left where the picture ends or another name is there. */
+  private besideHandle(view: Viewport, element: HTMLElement, [px, py]: [number, number], taken: Box[]): void {
+    element.hidden = false;
+    const [width, height] = [element.offsetWidth, element.offsetHeight];
+    const box = (left: boolean): Box => ({
+      x: left ? px - besideHandle - width : px + besideHandle,
+      y: py - height / 2,
+      width,
+      height,
+    });
+    const isFree = (left: boolean) =>
+      !taken.some((other) => overlap(other, box(left))) &&
+      box(left).x >= 0 &&
+      box(left).x + width <= view.width;
+    const left = px + besideHandle + width > view.width || (!isFree(false) && isFree(true));
+    taken.push(box(left));
+    const beside = left ? `calc(-100% - ${besideHandle}px)` : `${besideHandle}px`;
+    element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(${beside}, -50%)`;
   }
 
   /** The label of a chord stands beside all chordae, at the end of a line. */

@@ -34,11 +34,11 @@ function addedEnd(): Float32Array | null {
   return picture.positions.subarray(3 * node, 3 * node + 3);
 }
 
-/** The clip of the form from above: its arms to both sides, the ball that slides it, the handle that turns it. */
-function clipMarks(shapes: Shapes, { at, arm, handle }: ClipPlace): void {
+/** The handles of the clip of the form: the ball that slides it, the one that turns it; its arms, where the picture has no body of it. */
+function clipMarks(shapes: Shapes, { at, arm, handle, drawn }: ClipPlace): void {
   const end = (by: number) => at.map((v, c) => v + by * arm[c]);
-  shapes.tube(end(-armLength), end(armLength), 0.55, tissue.suture);
-  shapes.tube(end(armLength), handle, 0.15, tissue.chosen);
+  if (!drawn) shapes.tube(end(-armLength), end(armLength), 0.55, tissue.suture);
+  shapes.tube(drawn ? at : end(armLength), handle, 0.15, tissue.chosen);
   shapes.sphere(at, 1.1, tissue.chosen);
   shapes.sphere(handle, 0.9, tissue.chosen);
 }

@@ -134,6 +134,19 @@ export class Shapes {
     for (let k = 2; k < corners.length; ++k) this.index.push(first, first + k - 1, first + k);
   }
 
+  isEmpty(): boolean {
+    return !this.index.length;
+  }
+
+  /** Takes the shapes of another collection as well. */
+  add(other: Shapes): void {
+    const first = this.positions.length / 3;
+    this.positions.push(...other.positions);
+    this.normals.push(...other.normals);
+    this.colours.push(...other.colours);
+    this.index.push(...other.index.map((vertex) => first + vertex));
+  }
+
   mesh(options: Partial<Pick<Mesh, 'opacity' | 'overlay' | 'cut' | 'flat'>> = {}): Mesh {
     const front = Float32Array.from(this.colours);
     return {

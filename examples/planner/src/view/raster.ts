@@ -86,9 +86,9 @@ export function render(
   }
 }
 
-/** Opaque meshes first, then translucent ones, overlays last. */
+/** Opaque meshes first, then translucent ones, overlays last and in their order, as with WebGL. */
 function rank(mesh: Mesh): number {
-  return (mesh.overlay ? 2 : 0) + (mesh.opacity < 1 ? 1 : 0);
+  return mesh.overlay ? 2 : mesh.opacity < 1 ? 1 : 0;
 }
 
 function transform(

@@ -1,7 +1,7 @@
 // Everything that is drawn of a valve, as meshes: leaflets and seams, what holds them, chordae, the leak, marks of chosen parts.
 import type { Fields, OrificePart, Picture, Topology } from '../protocol';
 import { chordae, throughAll } from './chordae';
-import { clips } from './clips';
+import { clipParts } from './clips';
 import { tissue, type MapName } from './colours';
 import { annulusAndRings, heads } from './heart';
 import { atrialSide, leafletMeshes, ventricularSide } from './leaflets';
@@ -49,8 +49,9 @@ export function sceneMeshes(topology: Topology, middle: Picture, options: SceneO
     heads(topology, picture, options),
   ];
   if (options.chordsOn) meshes.push(chordae(topology, picture, options, under));
-  const devices = clips(topology, picture, options.frame, options.clipTurns);
-  if (devices) meshes.push(...throughTissue(devices, behindDevice));
+  const devices = new Shapes();
+  for (const part of clipParts(topology, middle, options.frame, options.clipTurns)) devices.add(part);
+  if (!devices.isEmpty()) meshes.push(...throughTissue(devices.mesh({ cut: true }), behindDevice));
   if (picture.orificeTriangles.length) meshes.push(...throughTissue(orifice(picture)));
   if (options.jets.length) meshes.push(...throughTissue(jets(options.jets)));
   if (options.chosenChord >= 0) meshes.push(throughAll(topology, picture, options.chosenChord, under));

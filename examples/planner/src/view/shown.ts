@@ -4,10 +4,12 @@ import { chordValue, clipOf, leakPlaces, shareOfLimit, suture } from '../notable
 import { clipIn } from '../text/texts';
 import type { Fields, Picture, Topology } from '../protocol';
 import * as state from '../store/state';
+import { clipParts } from './clips';
 import { isChordMap } from './colours';
 import { cutMeshes } from './cut';
+import { ringRadius } from './heart';
 import { atrialSide, ventricularSide } from './leaflets';
-import type { Mesh } from './mesh';
+import { point, type Mesh } from './mesh';
 import type { CutPlane } from './renderer';
 import { sceneMeshes } from './scene';
 
@@ -29,17 +31,29 @@ function guessedFrame(): number[] {
   return [...centre, 0, 1, 0, -1, 0, 0, 0, 0, 1];
 }
 
-/** Radius of the annulus about the origin of a frame, mm. */
+/** The outline of the annulus as it is drawn, with a ring on it, mm. */
+export function rimOf(picture: Picture): number[][] {
+  const places = annulusOf(picture);
+  const middle = [0, 1, 2].map((c) => places.reduce((sum, at) => sum + at[c] / places.length, 0));
+  return places.map((at) => {
+    const away = at.map((v, c) => v - middle[c]);
+    const share = ringRadius / Math.hypot(...away);
+    return at.map((v, c) => v + share * away[c]);
+  });
+}
+
+/** The places of the annulus, mm. */
+function annulusOf(picture: Picture): number[][] {
+  const topology = state.topologyOf(picture);
+  return Array.from(topology?.annulus ?? [], (node) => point(picture.positions, node));
+}
+
+/** Radius of the annulus about the origin of a frame, mm: of the larger one of the valve and its preview. */
 export function shownRadius(frame: number[]): number {
   const picture = state.resting.value?.picture ?? state.picture.value;
-  const topology = picture && state.topologyOf(picture);
-  if (!picture || !topology) return 20;
-  let largest = 5;
-  for (const node of topology.annulus) {
-    const [x, y, z] = [0, 1, 2].map((c) => picture.positions[3 * node + c] - frame[c]);
-    largest = Math.max(largest, Math.hypot(x, y, z));
-  }
-  return largest;
+  const places = [picture, state.preview.value?.picture].flatMap((one) => (one ? annulusOf(one) : []));
+  if (!places.length) return 20;
+  return Math.max(5, ...places.map((at) => Math.hypot(...at.map((v, c) => v - frame[c]))));
 }
 
 /** Values per node of the valve that is shown at rest. */
@@ -66,7 +80,8 @@ export function cutOf(
   const lower = ventricularSide(topology, picture);
   const closed = state.motion.value ? (state.resting.value?.picture ?? null) : null;
   const sides = { middle: picture.positions, upper, lower };
-  return cutMeshes(topology, picture, sides, plane, frame, radius, closed);
+  const clips = () => clipParts(topology, picture, frame, clipTurns(topology));
+  return cutMeshes(topology, picture, sides, plane, frame, radius, closed, clips);
 }
 
 /** The meshes of the valve; an empty list before the first valve. */

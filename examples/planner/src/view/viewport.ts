@@ -11,10 +11,13 @@ import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
-import { cutOf, shownFrame, shownRadius, valveMeshes } from './shown';
+import { cutOf, rimOf, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh } from './surface';
 import { WebGl } from './webgl';
+
+/** Pixels of the keys of the colours at the foot of the picture. */
+const keysHeight = 40;
 
 /** ms without motion until the picture is drawn in full. */
 const still = 140;
@@ -43,6 +46,9 @@ export class Viewport {
   private framed = '';
   private builtFrom: unknown[] = [];
   private overlaid: unknown[] = [];
+  /** The annulus that was drawn last at rest, mm, and of which valve. */
+  private held: number[][] = [];
+  private heldOf = '';
   /** ms of the last pictures, for the tests. */
   readonly times: number[] = [];
   /** A surface to show instead of a valve, during an import. */
@@ -201,11 +207,25 @@ export class Viewport {
     this.go('surgeon', true);
   }
 
+  /** Goes back where a valve grows out of a picture that held the whole annulus of the one before. */
+  private followGrowth(): void {
+    const { main, preview, motion, surface, picture } = state;
+    if (!main.value || motion.value || surface.value || !picture.value) return;
+    const rim = rimOf(picture.value);
+    const [before, key] = [this.held, `${main.value.figures.hash} ${preview.value?.figures.hash ?? ''}`];
+    if (this.heldOf === key) return;
+    const whole = before.length > 0 && this.camera.shows(before, this.width, this.height);
+    if (whole && !this.camera.shows(rim, this.width, this.height, keysHeight))
+      this.camera.fit(rim, this.width, this.height, keysHeight);
+    [this.held, this.heldOf] = [rim, key];
+  }
+
   scene(): Scene {
-    const meshes = [...this.meshes];
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
     const plane = this.plane();
+    // a section shows what is behind its plane as it is: devices do not shine through the cut leaflets
+    const meshes = this.meshes.filter((mesh) => !(plane && mesh.cut && mesh.overlay));
     if (plane && topology && !this.surface) {
       meshes.push(...cutOf(topology, picture, plane, this.frameOf(), this.radius()));
     }
@@ -227,7 +247,10 @@ export class Viewport {
   draw(fast: boolean): void {
     const begin = performance.now();
     this.frameNewValve();
-    if (this.sceneDirty) this.buildScene();
+    if (this.sceneDirty) {
+      this.buildScene();
+      this.followGrowth();
+    }
     this.camera.update();
     this.renderer.draw(this.scene(), this.camera, fast);
     this.labels.update(this);
