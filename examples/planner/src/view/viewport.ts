@@ -204,6 +204,8 @@ export class Viewport {
         : '';
     if (!key || key === this.framed || (key === 'motion' && this.framed)) return;
     this.framed = key;
+    // another valve has not grown out of the picture of the one before
+    this.held = [];
     this.go('surgeon', true);
   }
 
