@@ -1,6 +1,6 @@
 // A dialog over the page: it has the focus, Escape closes it, and the focus goes back to where it was.
 import type { ComponentChildren } from 'preact';
-import { useEffect, useRef } from 'preact/hooks';
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import * as state from '../store/state';
 import { appTexts } from '../text/texts';
 import { Button } from './parts';
@@ -18,7 +18,8 @@ export function Modal(props: {
 }) {
   const dialog = useRef<HTMLDialogElement>(null);
   const gone = useRef(false);
-  useEffect(() => {
+  // before the next key: Escape would miss a dialog that opens after a paint
+  useLayoutEffect(() => {
     const element = dialog.current;
     element?.showModal();
     return () => {
