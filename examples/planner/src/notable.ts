@@ -1,5 +1,5 @@
-// Figures that are named one by one: chordae beyond their working limit, and the places of a leak.
-import type { Chord, OrificePart } from './protocol';
+// Parts of a valve's figures that are named one by one: chordae beyond their working limit, places of a leak, operations.
+import type { Chord, Figures, OrificePart } from './protocol';
 
 /** The kind of the stitches of a suture or a clip. */
 export const suture = 7;
@@ -41,6 +41,10 @@ export function percentOfLimit(share: number): number {
   const percent = Math.round(100 * share);
   return share > 1 ? Math.max(101, percent) : percent;
 }
+
+/** Titles of the operations of a plan, in the library's words. */
+export const titlesOf = ({ history }: Pick<Figures, 'history'>): string[] =>
+  history.filter((entry) => !entry.undone).map((entry) => entry.title);
 
 /** Per cent of the working limit from which a chord is far beyond it. No strength of chordae is known here: the limits are those of
  *  work (libmvs/measure/DEFINITIONS.md: “not rupture limits”). The limit of the pull is twice the working pull, so that a pull

@@ -8,7 +8,7 @@ import { after, before, describe, it } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { unzipSync } from 'fflate';
 import playwright from 'playwright-core';
-import { closed, figures, openBrowser, openPlanner, page_path } from './fixtures/browser.mjs';
+import { closed, figures, openBrowser, openPlanner, page_path, watch } from './fixtures/browser.mjs';
 import { apply, begin, cameraRests, openPanel } from './fixtures/person.mjs';
 import { repeated } from './fixtures/native.mjs';
 
@@ -44,11 +44,7 @@ describe('planner in Firefox', { skip }, () => {
   let page;
   const open = async (hash = '') => {
     const fresh = await browser.contexts()[0].newPage();
-    fresh.on('pageerror', (error) => errors.push(String(error)));
-    fresh.on('console', (message) => message.type() === 'error' && errors.push(message.text()));
-    fresh.on('request', (request) => {
-      if (!/^(file|blob|data):/.test(request.url())) requests.push(request.url());
-    });
+    watch(fresh, errors, requests);
     await fresh.goto(pathToFileURL(page_path).href + hash);
     await closed(fresh);
     return fresh;

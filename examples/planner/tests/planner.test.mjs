@@ -12,6 +12,7 @@ import {
   cameraRests,
   chooseAnyChord,
   chordNames,
+  fillIn,
   openPanel,
   shareOfTissue,
   undo,
@@ -257,9 +258,7 @@ describe('planner', () => {
 
   it('says_why_an_operation_is_impossible', async () => {
     await begin(page, 'annulus_scale');
-    await page.locator('#f-factor').fill('9000');
-    await page.keyboard.press('Tab');
-    await answered(page, 200);
+    await fillIn(page, 'factor', '9000');
     assert.match(await page.getByRole('alert').innerText(), /factor/);
     assert.ok(await page.getByRole('button', { name: 'Apply', exact: true }).isDisabled());
     await page.getByRole('button', { name: 'Discard' }).click();

@@ -5,7 +5,17 @@ import { describe, it } from 'node:test';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
 import { closed, figures, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
 import { repeated } from './fixtures/native.mjs';
-import { answered, apply, begin, open, openPanel, save, startAfresh, undo } from './fixtures/person.mjs';
+import {
+  answered,
+  apply,
+  begin,
+  fillIn,
+  open,
+  openPanel,
+  save,
+  startAfresh,
+  undo,
+} from './fixtures/person.mjs';
 
 const listed = (page) => page.getByTestId('earlier-valves').locator('.earlier-valve');
 const startHealthy = async (page) => {
@@ -103,9 +113,7 @@ describe('valves that were left', () => {
   it('takes_a_valve_that_was_made_ill_as_the_one_before_the_repair', async () => {
     await startHealthy(page);
     await begin(page, 'annulus_scale');
-    await page.locator('#f-factor').fill('125');
-    await page.keyboard.press('Tab');
-    await answered(page, 200);
+    await fillIn(page, 'factor', '125');
     await apply(page);
     const ill = await figures(page);
     assert.ok(ill.measures.orifice > 0);
@@ -117,14 +125,14 @@ describe('valves that were left', () => {
     // the page settles the valve again, to 1e-4 N
     assert.ok(Math.abs(start.measures.orifice - ill.measures.orifice) < 0.05 * ill.measures.orifice);
     await begin(page, 'ring');
-    await page.locator('#f-size').fill('34');
-    await page.keyboard.press('Tab');
-    await answered(page, 200);
+    await fillIn(page, 'size', '34');
     await apply(page);
     await openPanel(page, 'Plan');
     await page.getByRole('button', { name: 'Report' }).click();
     const report = page.locator('dialog');
-    const leak = await report.getByRole('row', { name: /^Leak/ }).first().locator('td').allInnerTexts();
+    const cells = report.getByRole('row', { name: /^Leak/ }).first().locator('td');
+    await cells.first().waitFor();
+    const leak = await cells.allInnerTexts();
     assert.equal(leak[0], `${start.measures.orifice.toFixed(1)} mm²`);
     assert.match(
       await report.innerText(),

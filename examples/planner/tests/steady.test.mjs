@@ -4,7 +4,16 @@
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
 import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
-import { answered, apply, begin, cameraRests, openPanel, startAfresh, undo } from './fixtures/person.mjs';
+import {
+  answered,
+  apply,
+  begin,
+  cameraRests,
+  fillIn,
+  openPanel,
+  startAfresh,
+  undo,
+} from './fixtures/person.mjs';
 
 const windows = [
   [1280, 800],
@@ -262,9 +271,7 @@ describe('planner words that cover nothing', () => {
     assert.equal(await cut(), '');
     // many lines: a narrow ring with overloaded chordae
     await begin(page, 'ring');
-    await page.locator('#f-size').fill('24');
-    await page.keyboard.press('Tab');
-    await answered(page, 200);
+    await fillIn(page, 'size', '24');
     await apply(page);
     await page.getByText('is below the goal').first().waitFor();
     assert.ok((await figures(page)).measures.chordsOver > 0);

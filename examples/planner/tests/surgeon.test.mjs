@@ -10,10 +10,12 @@ import {
   cameraRests,
   chordNames,
   chordPlace,
+  fillIn,
   openPanel,
   shareOfTissue,
   startAfresh,
   tabTo,
+  tieP2,
   undo,
 } from './fixtures/person.mjs';
 
@@ -197,9 +199,7 @@ describe('planner words', () => {
 
   it('says_what_its_ranges_are', async () => {
     await begin(page, 'ring');
-    await page.locator('#f-size').fill('24');
-    await page.keyboard.press('Tab');
-    await answered(page, 200);
+    await fillIn(page, 'size', '24');
     await apply(page);
     await openPanel(page, 'Valve');
     await openSections();
@@ -223,13 +223,7 @@ describe('planner words', () => {
 
   it('has_one_word_for_each_thing', async () => {
     // an artificial chord in the history, a kept plan, one that was deleted
-    await page.evaluate(() => {
-      const topology = window.planner.state.topologyOf(window.planner.state.main.value.picture);
-      const id = (list, name) => list.find((part) => part.name === name).id;
-      const site = { scallop: id(topology.scallops, 'P2'), along: 0.5, height: 0.95 };
-      window.planner.edit('neochord', { head: id(topology.heads, 'PM1'), site });
-    });
-    await answered(page, 200);
+    await tieP2(page);
     const seen = [];
     const read = async () =>
       seen.push(

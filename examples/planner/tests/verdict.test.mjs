@@ -7,7 +7,17 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { beforeEach, describe, it } from 'node:test';
 import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
-import { answered, apply, begin, open, openPanel, startAfresh, undo } from './fixtures/person.mjs';
+import {
+  answered,
+  apply,
+  begin,
+  fillIn,
+  open,
+  openPanel,
+  startAfresh,
+  tieP2,
+  undo,
+} from './fixtures/person.mjs';
 
 /** Waits until the opening of the valve of the plan is measured, which the page does by itself. */
 async function opened(page) {
@@ -50,16 +60,12 @@ describe('planner verdict', () => {
   const setLength = async (mm) => {
     await begin(page, 'chord_length');
     await page.locator('#f-chord').selectOption({ label: 'A2/4' });
-    await page.locator('#f-length').fill(String(mm));
-    await page.keyboard.press('Tab');
-    await answered(page, 200);
+    await fillIn(page, 'length', String(mm));
   };
 
   it('says_how_little_a_clip_lets_the_valve_open_wherever_it_says_sealed', async () => {
     await begin(page, 'clip');
-    await page.locator('#f-width').fill('16');
-    await page.keyboard.press('Tab');
-    await answered(page, 200);
+    await fillIn(page, 'width', '16');
     await apply(page);
     const area = await opened(page);
     await page.waitForTimeout(100);
@@ -207,12 +213,7 @@ describe('planner verdict', () => {
   });
 
   it('says_that_an_artificial_chord_is_compared_with_a_native_one', async () => {
-    await page.evaluate(() => {
-      const topology = window.planner.state.topologyOf(window.planner.state.main.value.picture);
-      const id = (list, name) => list.find((part) => part.name === name).id;
-      const site = { scallop: id(topology.scallops, 'P2'), along: 0.5, height: 0.95 };
-      window.planner.edit('neochord', { head: id(topology.heads, 'PM1'), site, length: 14 });
-    });
+    await tieP2(page, 14);
     await closed(page);
     await apply(page);
     const { chords } = await figures(page);

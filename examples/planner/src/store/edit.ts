@@ -1,6 +1,7 @@
 // The operation in the form and its preview. The shape of a preview is shown before its figures are known. A newer
 // value does not interrupt the shape of an older one unless that takes long: the picture then follows a slider.
 import { batch } from '@preact/signals';
+import { titlesOf } from '../notable';
 import { say, t } from '../text/texts';
 import type { FieldValue, Shown } from '../protocol';
 import { cancel, complete as addFigures, fail, isCancelled, request, sentenceOf, show } from './requests';
@@ -185,7 +186,7 @@ export async function apply(): Promise<void> {
   batch(() => {
     state.pending.value = false;
     state.busy.value = null;
-    show(shown, false, say(shown.figures.history.filter((entry) => !entry.undone).at(-1)?.title ?? ''));
+    show(shown, false, say(titlesOf(shown.figures).at(-1) ?? ''));
     state.changed.value = true;
   });
   try {

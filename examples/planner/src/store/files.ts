@@ -1,5 +1,6 @@
 // Opening: shipped valves, valve files, sessions, and surfaces that become a valve.
 import { batch } from '@preact/signals';
+import { titlesOf } from '../notable';
 import { shippedVertices } from '../shipped';
 import { leaveTexts, say, startTexts, t } from '../text/texts';
 import { millimetres } from '../units';
@@ -126,7 +127,7 @@ export async function beginHere(): Promise<void> {
   if (!figures) return;
   discard();
   const title = state.title.value || figures.valve;
-  const steps = figures.history.filter((entry) => !entry.undone).map((entry) => say(entry.title));
+  const steps = titlesOf(figures).map(say);
   const notes = [state.notes.value, startTexts.steps(title, steps)].filter(Boolean).join('\n');
   const left = await leave();
   const bytes = await run(t.saving, 'save_obj', null);

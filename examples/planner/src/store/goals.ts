@@ -1,4 +1,5 @@
 // The goals of a valve of the tour: what they ask for, which are reached, and which faults of a sealed valve they name.
+import { computed } from '@preact/signals';
 import { edgeHeights } from '../flail';
 import { percentOfLimit } from '../notable';
 import type { Figures, Shown } from '../protocol';
@@ -39,8 +40,9 @@ export function reached(shown: Shown | null): Record<Goal, boolean | null> {
 }
 
 /** Whether the valve of the plan reaches all goals of its valve of the tour. */
-export const reachesAll = (): boolean =>
-  !!state.tour.value && Object.values(reached(state.main.value)).every(Boolean);
+export const reachesAll = computed(
+  () => !!state.tour.value && Object.values(reached(state.main.value)).every(Boolean),
+);
 
 /** The picture that figures belong to, among the valves that the page has. */
 function shownWith({ hash }: Figures): Shown | null {

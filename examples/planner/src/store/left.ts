@@ -1,6 +1,7 @@
 // Valves that were left since the page was opened, with their plans, kept plans and notes, as sessions in memory: each can be opened
 // again.
 import { signal } from '@preact/signals';
+import { titlesOf } from '../notable';
 import { reachesAll } from './goals';
 import { request } from './requests';
 import * as state from './state';
@@ -37,12 +38,12 @@ export async function leave(): Promise<Left | null> {
   if (!main.value || !something) return null;
   const title = state.title.value;
   const { figures } = main.value;
-  const done = figures.history.filter((entry) => !entry.undone).map((entry) => entry.title);
+  const done = titlesOf(figures);
   const plans = [checkpoints.value, checkpointHashes.value];
   const left = {
     title,
     tour: tour.value,
-    finished: reachesAll(),
+    finished: reachesAll.value,
     changed: state.changed.value,
     steps: done.length,
     kept: checkpoints.value.length,

@@ -1,5 +1,6 @@
 // The plans that are kept under a name, as the report lists them.
 import type { Shown } from '../protocol';
+import { planTexts } from '../text/texts';
 import { request } from './requests';
 import * as state from './state';
 
@@ -8,6 +9,9 @@ export function keptName(hash: string | undefined): string {
   const k = state.checkpointHashes.value.indexOf(hash ?? '');
   return k < 0 ? '' : state.checkpoints.value[k];
 }
+
+/** The same; of a valve that is not kept, words for the present plan. */
+export const planName = (hash: string | undefined): string => keptName(hash) || planTexts.present;
 
 /** Reads the kept plans other than the present one. Their valves are kept closed: nothing is closed again. */
 export async function readPlans(): Promise<void> {

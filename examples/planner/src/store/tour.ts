@@ -28,7 +28,7 @@ export async function startValve(number: number): Promise<void> {
 function watchGoals(): void {
   effect(() => {
     const number = state.tour.value?.number;
-    if (!number || !reachesAll()) return;
+    if (!number || !reachesAll.value) return;
     const { finished } = state;
     if (!finished.value.includes(number)) finished.value = [...finished.value, number];
   });

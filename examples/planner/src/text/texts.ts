@@ -1009,7 +1009,6 @@ export const reportTexts = {
   /** `name`: under which the plan is kept. */
   closed: (when: string, name: string) =>
     `${when}. ${name ? `The plan “${name}”` : 'The present plan, which is not kept under a name'}, closed at 120 mmHg.`,
-  present: 'Present plan',
   otherPlans: 'This plan and the other kept plans',
   notMeasured: 'not measured',
   before: 'Before',

@@ -3,9 +3,9 @@ import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
 import { apply, discard, edit } from '../store/edit';
 import { openFile } from '../store/files';
 import { leftValves } from '../store/left';
-import { keptName } from '../store/plans';
+import { planName } from '../store/plans';
 import * as state from '../store/state';
-import { appTexts, barTexts, help, planTexts, t, tips, tipTexts } from '../text/texts';
+import { appTexts, barTexts, help, t, tips, tipTexts } from '../text/texts';
 import type { Preset } from '../view/camera';
 import { Viewport } from '../view/viewport';
 import { Dialogs } from './dialogs';
@@ -106,9 +106,6 @@ function Busy() {
   );
 }
 
-/** The name of the present plan beside one that it is compared with. */
-const presentName = (): string => keptName(state.main.value?.figures.hash) || planTexts.present;
-
 /** The valve before in picture and figures, to compare. */
 function Compare() {
   if (!state.other.value || state.motion.value || state.surface.value) return null;
@@ -130,7 +127,11 @@ function Compare() {
         pressed={!past}
         onClick={() => (state.past.value = false)}
       >
-        {state.preview.value ? appTexts.preview : compared ? presentName() : appTexts.now}
+        {state.preview.value
+          ? appTexts.preview
+          : compared
+            ? planName(state.main.value?.figures.hash)
+            : appTexts.now}
       </Button>
     </div>
   );

@@ -1,9 +1,12 @@
 // The figures of two valves that stand side by side, in the comparison of plans and in the report.
+import { titlesOf } from '../notable';
 import { figure, figureNames, say } from '../text/texts';
 import type { Cost, Figures, Measures } from '../protocol';
 
 /** Name, value, digits, unit. */
-const rows: [string, (m: Measures) => number, number, string][] = [
+type Compared = [string, (m: Measures) => number, number, string];
+
+export const comparedFigures: Compared[] = [
   [figureNames.orifice, (m) => m.orifice, 1, 'mm²'],
   [figureNames.coaptationMean, (m) => m.coaptationMean, 1, 'mm'],
   [figureNames.coaptationHeight, (m) => m.coaptationHeight, 1, 'mm'],
@@ -15,17 +18,17 @@ const rows: [string, (m: Measures) => number, number, string][] = [
   [figureNames.maxChordTension, (m) => 1000 * m.maxChordTension, 0, 'mN'],
 ];
 
+/** The value of one of them in a valve, with its unit. */
+export const valueIn = ([, get, digits, unit]: Compared, { measures }: Figures): string =>
+  `${figure(get(measures), digits)} ${unit}`.trim();
+
 /** Name and both values of each figure, with their units. */
 export function comparedRows(one: Figures, other: Figures): [string, string, string][] {
-  return rows.map(([name, get, digits, unit]) => {
-    const text = ({ measures }: Figures) => `${figure(get(measures), digits)} ${unit}`.trim();
-    return [name, text(one), text(other)];
-  });
+  return comparedFigures.map((row) => [row[0], valueIn(row, one), valueIn(row, other)]);
 }
 
 /** The names of the operations of a plan. */
-export const stepsOf = ({ history }: Figures): string[] =>
-  history.filter((entry) => !entry.undone).map((entry) => say(entry.title));
+export const stepsOf = (figures: Figures): string[] => titlesOf(figures).map(say);
 
 /** An open area in words. */
 export const areaText = (cost: Cost): string => `${figure(cost.openArea / 100, 2)} cm²`;

@@ -1,9 +1,9 @@
 // Rings, bands, clips, artificial chordae and sutures as a table: the twin of what the picture shows of them.
-import { clipOf, cutOf, suture } from '../notable';
+import { clipOf, cutOf, suture, titlesOf } from '../notable';
 import * as state from '../store/state';
 import { clipIn, deviceTexts, tipTexts } from '../text/texts';
 import type { Chord, Figures, Picture, Topology } from '../protocol';
-import { clipWidths } from '../view/clips';
+import { clipBodies } from '../view/clips';
 import { isClosed, ringCurves } from '../view/heart';
 import { Section } from './parts';
 
@@ -48,14 +48,14 @@ function devicesOf(topology: Topology, picture: Picture, figures: Figures): Devi
     name: named(isClosed(curve) ? names.ring : names.band, topology.rings[r].name),
     figures: ringFigures(curve, figures.frame),
   }));
-  const widths = clipWidths(topology, picture, figures.frame);
-  const titles = figures.history.filter((entry) => !entry.undone).map((entry) => entry.title);
+  const bodies = clipBodies(topology, picture, figures.frame);
+  const titles = titlesOf(figures);
   const clips = stitchesBy(figures, clipOf).map(([name, stitches]) => ({
     name: named(names.clip, name),
     figures: deviceTexts.clip({
       between: scallopsOf(stitches),
       set: clipIn(name, titles),
-      apart: widths.get(name) ?? 0,
+      apart: 2 * (bodies.get(name)?.half ?? 0),
       pull: Math.max(...stitches.map(({ tension }) => tension)),
     }),
   }));

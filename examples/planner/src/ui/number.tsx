@@ -1,4 +1,5 @@
 // A number of an operation, with a slider where it has a usual range.
+import { titlesOf } from '../notable';
 import { setField } from '../store/edit';
 import * as state from '../store/state';
 import { clipPlaceIn, fieldTip, figure, formTexts } from '../text/texts';
@@ -76,8 +77,8 @@ function textOf(value: number | undefined, scale: number, present: number | null
 /** How far the previewed clip is from the middle, in words of the plan; null until its preview is shown. */
 function previewedPlace(): string | null {
   if (state.outdated.value) return null;
-  const title = state.preview.value?.figures.history.filter((entry) => !entry.undone).at(-1)?.title;
-  return title === undefined ? null : clipPlaceIn(title);
+  const title = state.preview.value && titlesOf(state.preview.value.figures).at(-1);
+  return title ? clipPlaceIn(title) : null;
 }
 
 /** A sentence on a ring that is wider than the annulus by more than its width is known. */

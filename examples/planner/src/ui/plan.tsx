@@ -5,7 +5,7 @@ import { redo, undo } from '../store/history';
 import { canKeepFile, chooseKeptFile, keptFile, leaveKeptFile, saveObj, saveSession } from '../store/keep';
 import { allowAutosave, autosave, storageWorks } from '../store/recovery';
 import { openingOf } from '../store/limits';
-import { keptName } from '../store/plans';
+import { planName } from '../store/plans';
 import * as state from '../store/state';
 import { headline } from '../store/verdict';
 import { appTexts, barTexts, figureNames, planTexts, say, tips, valveTexts } from '../text/texts';
@@ -123,7 +123,7 @@ function SideBySide() {
         <tr>
           <th></th>
           <th>{state.compareWith.value}</th>
-          <th>{keptName(now.hash) || planTexts.present}</th>
+          <th>{planName(now.hash)}</th>
         </tr>
       </thead>
       <tbody>

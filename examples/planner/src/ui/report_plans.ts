@@ -1,29 +1,30 @@
 // The plans that are kept beside the one of a report, with their figures in a table, as HTML.
 import { openingOf } from '../store/limits';
-import { keptName } from '../store/plans';
+import { planName } from '../store/plans';
 import * as state from '../store/state';
 import { headline } from '../store/verdict';
-import { figure, figureNames, reportTexts, valveTexts } from '../text/texts';
-import type { Figures, Measures } from '../protocol';
-import { areaText } from './compared';
+import { figureNames, reportTexts, valveTexts } from '../text/texts';
+import type { Figures } from '../protocol';
+import { areaText, comparedFigures, valueIn } from './compared';
 
 export function escape(text: string): string {
   return text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
 }
 
-/** Name, value in mm or mm2, digits, unit: the figures by which plans are chosen. */
-const columns: [string, (m: Measures) => number, number, string][] = [
-  [figureNames.orifice, (m) => m.orifice, 1, 'mm²'],
-  [figureNames.coaptationMean, (m) => m.coaptationMean, 1, 'mm'],
-  [figureNames.annulusAp, (m) => m.annulusAp, 1, 'mm'],
-  [figureNames.annulusCc, (m) => m.annulusCc, 1, 'mm'],
-  [figureNames.chordsOver, (m) => m.chordsOver, 0, ''],
-];
+/** The figures by which plans are chosen. */
+const chosen = new Set([
+  figureNames.orifice,
+  figureNames.coaptationMean,
+  figureNames.annulusAp,
+  figureNames.annulusCc,
+  figureNames.chordsOver,
+]);
+const columns = comparedFigures.filter(([name]) => chosen.has(name));
 
 function row(name: string, figures: Figures): string {
   const cost = openingOf(figures.hash);
   const cells = [
-    ...columns.map(([, get, digits, unit]) => `${figure(get(figures.measures), digits)} ${unit}`.trim()),
+    ...columns.map((column) => valueIn(column, figures)),
     cost ? areaText(cost) : reportTexts.notMeasured,
   ];
   const all = cells.map((cell) => `<td>${escape(cell)}</td>`).join('');
@@ -35,8 +36,7 @@ export function otherPlans(now: Figures): string {
   const others = [...state.keptPlans.value].filter(([, { figures }]) => figures.hash !== now.hash);
   const present = state.main.value!;
   // the report may be that of a kept plan
-  if (present.figures.hash !== now.hash)
-    others.unshift([keptName(present.figures.hash) || reportTexts.present, present]);
+  if (present.figures.hash !== now.hash) others.unshift([planName(present.figures.hash), present]);
   if (!others.length) return '';
   const names = [
     figureNames.plan,
@@ -45,7 +45,7 @@ export function otherPlans(now: Figures): string {
     valveTexts.openArea,
   ];
   const heads = names.map((name) => `<th class="wrap">${escape(name)}</th>`).join('');
-  const own = keptName(now.hash) || reportTexts.present;
+  const own = planName(now.hash);
   const rows = [row(own, now), ...others.map(([name, { figures }]) => row(name, figures))].join('');
   return `<h2>${reportTexts.otherPlans}</h2><table class="plans" data-testid="report-plans"><tr>${heads}</tr>${rows}</table>`;
 }

@@ -4,7 +4,7 @@ import { fail, request } from '../store/requests';
 import * as state from '../store/state';
 import { formTexts, sectionTexts, tips, tipTexts } from '../text/texts';
 import type { Picture, Section, SectionRequest } from '../protocol';
-import { crossings, cutScallops, planeOf } from '../view/cut';
+import { crossings, cutScallops, cutsOf, placeOf, planeOf } from '../view/cut';
 import { isClosed, ringCurves, ringRadius } from '../view/heart';
 import { Button, SliderEnds } from './parts';
 
@@ -50,37 +50,28 @@ function through(): string[] {
   return topology ? cutScallops(topology, picture.positions, plane) : [];
 }
 
-/** Where the plane cuts the rings of the shown valve: AP and height, mm. */
-function ringDots(): number[][] {
+/** A place in the plane of a section: AP and height, mm. */
+const inPlane = (at: number[], frame: number[]): [number, number] =>
+  [1, 3].map((row) => at.reduce((sum, v, c) => sum + (v - frame[c]) * frame[3 * row + c], 0)) as [
+    number,
+    number,
+  ];
+
+/** Where the plane cuts the rings of the shown valve. */
+function ringDots(): [number, number][] {
   const { picture, figures } = state.shown.value!;
   const { frame } = figures;
   const plane = planeOf(frame, state.sectionAt.value);
-  const along = (at: number[], row: number) =>
-    at.reduce((sum, v, c) => sum + (v - frame[c]) * frame[3 * row + c], 0);
   return ringCurves(picture).flatMap((curve) =>
-    crossings(curve, isClosed(curve), plane).map(({ middle }) => [along(middle, 1), along(middle, 3)]),
+    crossings(curve, isClosed(curve), plane).map(({ middle }) => inPlane(middle, frame)),
   );
 }
 
 /** Where the plane cuts the valve that is being opened or moved by hand: rows as of the worker. */
-export function movingSection(picture: Picture, frame: number[], offset: number): Section {
+function movingSection(picture: Picture, frame: number[], offset: number): Section {
   const topology = state.topologyOf(picture);
-  const ends: number[] = [];
-  if (!topology) return new Float32Array(0);
-  const along = (node: number, row: number) =>
-    [0, 1, 2].reduce((sum, c) => sum + (picture.positions[3 * node + c] - frame[c]) * frame[3 * row + c], 0);
-  const { triangles } = topology;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const nodes = [...triangles.subarray(t, t + 3)];
-    const away = nodes.map((node) => along(node, 2) - offset);
-    for (let k = 0; k < 3; ++k) {
-      const next = (k + 1) % 3;
-      if (away[k] < 0 === away[next] < 0) continue;
-      const s = away[k] / (away[k] - away[next]);
-      for (const row of [1, 3]) ends.push((1 - s) * along(nodes[k], row) + s * along(nodes[next], row));
-    }
-  }
-  return Float32Array.from(ends);
+  const cuts = topology ? cutsOf(topology, picture.positions, planeOf(frame, offset)) : [];
+  return Float32Array.from(cuts.flat().flatMap((end) => inPlane(placeOf(picture.positions, end), frame)));
 }
 
 /** The curves beside that of a moving valve, in which the resting one is the closed one. */

@@ -13,7 +13,7 @@ import { Button, Section } from './parts';
 
 /** Whether the present plan reaches all goals of a valve, or another one did since the page was opened. */
 function signOf(number: number): 'now' | 'before' | 'none' {
-  if (state.tour.value?.number === number && reachesAll()) return 'now';
+  if (state.tour.value?.number === number && reachesAll.value) return 'now';
   return state.finished.value.includes(number) ? 'before' : 'none';
 }
 
@@ -73,11 +73,11 @@ function Goal() {
       <OwnRepair number={tour.number} />
       <Goals number={tour.number} />
       <Button
-        kind={reachesAll() ? 'plain' : 'main'}
+        kind={reachesAll.value ? 'plain' : 'main'}
         icon={<Wrench size={16} />}
         onClick={() => (state.panel.value = 'repair')}
       >
-        {reachesAll() ? tourTexts.repairOn : tourTexts.repair}
+        {reachesAll.value ? tourTexts.repairOn : tourTexts.repair}
       </Button>
       <Score />
     </>

@@ -1,11 +1,10 @@
 // The clip of the form in the picture: its place, which is that of its body where the preview shows one, else on the free edge of
-// its two scallops, at its position between their ends; and its turn. Positions grow along the CC axis and angles are anticlockwise as seen from the atrium, as in the
-// library.
+// its two scallops, at its position between their ends; and its turn. Positions grow along the CC axis and angles are
+// anticlockwise as seen from the atrium, as in the library.
 import * as state from '../store/state';
 import { edit } from '../store/edit';
-import { clipOf, suture } from '../notable';
 import type { Topology } from '../protocol';
-import { clipBodies } from './clips';
+import { clipBodies, clipNames } from './clips';
 
 export interface ClipPlace {
   at: number[];
@@ -42,13 +41,6 @@ function scallopOf(topology: Topology, id: unknown, fallback: string): number {
   return k >= 0 ? k : topology.scallops.findIndex((part) => part.name === fallback);
 }
 
-/** Names of the clips of a valve. */
-const namesOf = ({ chords, chordKind }: Topology): string[] => [
-  ...new Set(
-    chords.flatMap(({ name }, k) => (chordKind[k] === suture && clipOf(name) ? [clipOf(name)] : [])),
-  ),
-];
-
 const numberIn = (draft: state.Draft, name: string): number =>
   typeof draft.fields[name] === 'number' ? draft.fields[name] : 0;
 
@@ -57,8 +49,8 @@ function previewedMiddle(): number[] | null {
   const [now, then] = [state.preview.value, state.main.value];
   const [topology, old] = [now, then].map((shown) => shown && state.topologyOf(shown.picture));
   if (!now || !topology || !old || state.previewed.value?.kind !== 'clip') return null;
-  const before = new Set(namesOf(old));
-  const name = namesOf(topology).find((one) => !before.has(one));
+  const before = clipNames(old);
+  const name = [...clipNames(topology)].find((one) => !before.has(one));
   if (name === undefined) return null;
   return clipBodies(topology, now.picture, now.figures.frame).get(name)?.middle ?? null;
 }

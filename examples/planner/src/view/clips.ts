@@ -12,6 +12,10 @@ const armLength = 7;
 /** Radii of the arms in the middle and at their ends, mm. */
 const armRadii = [0.9, 0.65];
 
+/** Names of the clips of a valve. */
+export const clipNames = ({ chords, chordKind }: Topology): Set<string> =>
+  new Set(chords.flatMap(({ name }, k) => (chordKind[k] === suture && clipOf(name) ? [clipOf(name)] : [])));
+
 /** Middles of the stitches of each clip, by its name. */
 function stitchesOf(topology: Topology, picture: Picture): Map<string, number[][]> {
   const clips = new Map<string, number[][]>();
@@ -36,7 +40,7 @@ function ends(stitches: number[][], up: number[]): [number[], number[]] {
   return best;
 }
 
-/** Where a clip is: its middle, and half of its width, mm. */
+/** Where a clip is: its middle, and half of the distance of its outermost stitches as seen from the atrium, mm. */
 export interface ClipBody {
   middle: number[];
   half: number;
@@ -80,12 +84,4 @@ export function clipParts(
     }
   }
   return parts;
-}
-
-/** mm between the outermost stitches of each clip as seen from the atrium, by its name. */
-export function clipWidths(topology: Topology, picture: Picture, frame: number[]): Map<string, number> {
-  const up = frame.slice(9, 12);
-  return new Map(
-    [...stitchesOf(topology, picture)].map(([name, stitches]) => [name, apart(...ends(stitches, up))]),
-  );
 }

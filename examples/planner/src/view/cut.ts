@@ -1,7 +1,7 @@
 // The section plane in the picture: a frame round the valve, the leaflets as they are cut, with their thickness, and the cuts of
 // the annulus, of rings and of clips.
 import type { Picture, Topology } from '../protocol';
-import { cross, dot, unit, type Vector } from '../vector';
+import { between, cross, dot, unit, type Vector } from '../vector';
 import { tissue } from './colours';
 import { tubesOf, type Tube } from './heart';
 import { overlap } from './leaflets';
@@ -47,12 +47,38 @@ export interface Sides {
 /** Sides that touch overlap in the picture by this share of it each; in the cut they meet. */
 const ofOverlap = 0.5 * overlap;
 
-/** An end of a cut, on the way from node a to node b. */
-function endOf({ middle, upper, lower }: Sides, plane: CutPlane, a: number, b: number, s: number): End {
-  const [m, above, below] = [middle, upper, lower].map((x) => {
-    const [from, to] = [point(x, a), point(x, b)];
-    return [0, 1, 2].map((c) => from[c] + s * (to[c] - from[c])) as Vector;
-  });
+/** An end of the cut through a triangle: a share of the way from node a to node b. */
+interface CutEnd {
+  a: number;
+  b: number;
+  share: number;
+}
+
+/** Where an end of a cut is. */
+export const placeOf = (x: Float32Array, { a, b, share }: CutEnd): Vector =>
+  between(point(x, a), point(x, b), share);
+
+/** Both ends of the cut through each triangle that the plane crosses. */
+export function cutsOf(topology: Topology, x: Float32Array, plane: CutPlane): [CutEnd, CutEnd][] {
+  const away = new Float64Array(topology.nodes).fill(-plane.offset);
+  for (let i = 0; i < topology.nodes; ++i)
+    for (let c = 0; c < 3; ++c) away[i] += plane.normal[c] * x[3 * i + c];
+  const cuts: [CutEnd, CutEnd][] = [];
+  const { triangles } = topology;
+  for (let t = 0; t < triangles.length; t += 3) {
+    const ends: CutEnd[] = [];
+    for (let k = 0; k < 3; ++k) {
+      const [a, b] = [triangles[t + k], triangles[t + ((k + 1) % 3)]];
+      if (away[a] < 0 !== away[b] < 0) ends.push({ a, b, share: away[a] / (away[a] - away[b]) });
+    }
+    if (ends.length === 2) cuts.push([ends[0], ends[1]]);
+  }
+  return cuts;
+}
+
+/** The sides of the leaflets at an end of a cut. */
+function sidesAt({ middle, upper, lower }: Sides, plane: CutPlane, end: CutEnd): End {
+  const [m, above, below] = [middle, upper, lower].map((x) => placeOf(x, end));
   const beside = (side: Vector, less: number): Vector => {
     const away = side.map((v, c) => v - m[c]) as Vector;
     const length = Math.hypot(...away) || 1;
@@ -61,26 +87,6 @@ function endOf({ middle, upper, lower }: Sides, plane: CutPlane, a: number, b: n
     return m.map((v, c) => v + share * (away[c] - out * plane.normal[c])) as Vector;
   };
   return [beside(above, ofOverlap), beside(below, 0)];
-}
-
-/** Both ends of the cut through each triangle that the plane crosses. */
-function cutsOf(topology: Topology, sides: Sides, plane: CutPlane): [End, End][] {
-  const x = sides.middle;
-  const away = new Float32Array(topology.nodes);
-  for (let i = 0; i < topology.nodes; ++i)
-    for (let c = 0; c < 3; ++c) away[i] += plane.normal[c] * x[3 * i + c];
-  const cuts: [End, End][] = [];
-  const { triangles } = topology;
-  for (let t = 0; t < triangles.length; t += 3) {
-    const ends: End[] = [];
-    for (let k = 0; k < 3; ++k) {
-      const [a, b] = [triangles[t + k], triangles[t + ((k + 1) % 3)]];
-      const [da, db] = [away[a] - plane.offset, away[b] - plane.offset];
-      if (da < 0 !== db < 0) ends.push(endOf(sides, plane, a, b, da / (da - db)));
-    }
-    if (ends.length === 2) cuts.push([ends[0], ends[1]]);
-  }
-  return cuts;
 }
 
 /** Largest factor by which the cut of a tube along the plane is longer than one across. */
@@ -99,8 +105,7 @@ export function crossings(
     if (away[k] < 0 === away[next] < 0) continue;
     const [a, b] = [points[k], points[next]];
     const s = away[k] / (away[k] - away[next]);
-    const middle = a.map((v, c) => v + s * (b[c] - v));
-    found.push({ middle, along: unit(b.map((v, c) => v - a[c]) as Vector) });
+    found.push({ middle: between(a, b, s), along: unit(b.map((v, c) => v - a[c]) as Vector) });
   }
   return found;
 }
@@ -145,7 +150,7 @@ function solidCut(shapes: Shapes, solid: Shapes, plane: CutPlane, layer: number)
     const [da, db] = [a, b].map((at) => dot(at, plane.normal) - plane.offset);
     if (da < 0 === db < 0) continue;
     const s = da / (da - db);
-    corners.push(a.map((v, c) => v + s * (b[c] - v) + before * layer * plane.normal[c]) as Vector);
+    corners.push(between(a, b, s).map((v, c) => v + before * layer * plane.normal[c]) as Vector);
   }
   if (corners.length < 3) return;
   const right = anyAcross(plane.normal);
@@ -208,7 +213,8 @@ export function cutMeshes(
   const same = built?.picture === picture && built.upper === sides.upper && built.offset === plane.offset;
   if (same) return built!.meshes;
   const [faces, lines] = [new Shapes(), new Shapes()];
-  for (const [a, b] of cutsOf(topology, sides, plane)) {
+  for (const ends of cutsOf(topology, sides.middle, plane)) {
+    const [a, b] = ends.map((end) => sidesAt(sides, plane, end));
     faces.polygon([a[0], a[1], b[1], b[0]], tissue.cut);
     lines.tube(a[0], b[0], lineRadius, lining, 5);
   }

@@ -55,23 +55,31 @@ export interface Tube {
   points: number[][];
   closed: boolean;
   radius: number;
+  /** Of its polygon. */
+  sides: number;
   colour: Colour;
 }
 
 /** The annulus, rings and bands; `closed`: the valve at rest of a moving picture. */
 export function tubesOf(topology: Topology, picture: Picture, closed: Picture | null): Tube[] {
   const points = Array.from(topology.annulus, (node) => point(picture.positions, node));
-  const tubes: Tube[] = [{ points, closed: true, radius: annulusRadius, colour: tissue.annulus }];
+  const tubes: Tube[] = [{ points, closed: true, radius: annulusRadius, sides: 8, colour: tissue.annulus }];
   for (const curve of ringCurves(picture, carriedRings(topology, picture, closed)))
-    tubes.push({ points: curve, closed: isClosed(curve), radius: ringRadius, colour: tissue.ring });
+    tubes.push({
+      points: curve,
+      closed: isClosed(curve),
+      radius: ringRadius,
+      sides: 10,
+      colour: tissue.ring,
+    });
   return tubes;
 }
 
 /** In a section they end at its plane, so that they hide nothing of it; cut.ts draws where they are cut. */
 export function annulusAndRings(topology: Topology, picture: Picture, options: SceneOptions): Mesh {
   const shapes = new Shapes();
-  for (const { points, closed, radius, colour } of tubesOf(topology, picture, options.closed))
-    shapes.path(points, radius, colour, closed, radius === ringRadius ? 10 : 8);
+  for (const { points, closed, radius, sides, colour } of tubesOf(topology, picture, options.closed))
+    shapes.path(points, radius, colour, closed, sides);
   return shapes.mesh({ cut: true });
 }
 

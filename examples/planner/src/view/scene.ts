@@ -7,7 +7,7 @@ import { annulusAndRings, heads } from './heart';
 import { atrialSide, leafletMeshes, ventricularSide } from './leaflets';
 import { jets, orifice, throughTissue } from './leak';
 import { Shapes, type Mesh } from './mesh';
-import { seams } from './seams';
+import { bordersIn, seams } from './seams';
 
 export interface SceneOptions {
   map: MapName;
@@ -27,6 +27,8 @@ export interface SceneOptions {
   jets: OrificePart[];
   /** Turns of the clips in degrees, by their names. */
   clipTurns: Map<string, number>;
+  /** The picture is that of a valve at rest. */
+  atRest: boolean;
   /** The closed valve of a moving picture. */
   closed: Picture | null;
   /** Ends of chordae that the preview takes away, mm. */
@@ -44,7 +46,7 @@ export function sceneMeshes(topology: Topology, middle: Picture, options: SceneO
   const [, under] = leaflets;
   const meshes = [
     ...leaflets,
-    seams(topology, picture, lower, leaflets[0]),
+    seams(topology, picture, lower, leaflets[0], bordersIn(topology, middle.positions, options.atRest)),
     annulusAndRings(topology, picture, options),
     heads(topology, picture, options),
   ];

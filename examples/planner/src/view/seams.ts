@@ -37,13 +37,16 @@ function edgesOf({ chordKind, chordNodes, freeEdge }: Topology): Lines {
   return lines;
 }
 
-const keptBorders = new WeakMap<Topology, BorderLine[]>();
+const keptBorders = new WeakMap<Topology, { atRest: boolean; lines: BorderLine[] }>();
 
-/** Borders of scallops, found in the first pose that is drawn of a connectivity: tissue keeps its angles nearly in all others. */
-function bordersIn(topology: Topology, x: Float32Array): BorderLine[] {
-  let borders = keptBorders.get(topology);
-  if (!borders) keptBorders.set(topology, (borders = bordersOf(topology, x)));
-  return borders;
+/** Borders of scallops in the first pose at rest of a connectivity: tissue keeps its angles nearly in all others. Until there is one
+ *  they are those of the first moving picture, which depends on the speed of the machine. */
+export function bordersIn(topology: Topology, x: Float32Array, atRest: boolean): BorderLine[] {
+  const known = keptBorders.get(topology);
+  if (known && (known.atRest || !atRest)) return known.lines;
+  const lines = bordersOf(topology, x);
+  keptBorders.set(topology, { atRest, lines });
+  return lines;
 }
 
 /** mm: nodes of the free edge that are further apart are not neighbours but ends of two leaflets. */
@@ -51,15 +54,20 @@ const longest = 8;
 
 /** Thin lines on both sides of the sheet, of which `lower` is the ventricular one, and the rim between them along the free edge;
  *  sewn edges are as thick as the leaflet, in its colour: its thickness is what lies between their lines. */
-export function seams(topology: Topology, picture: Picture, lower: Float32Array, leaflet: Mesh): Mesh {
+export function seams(
+  topology: Topology,
+  picture: Picture,
+  lower: Float32Array,
+  leaflet: Mesh,
+  borders: BorderLine[],
+): Mesh {
   const shapes = new Shapes();
   const x = picture.positions;
   const { free, sewn } = linesOf(topology);
   const at = (side: Float32Array, { a, b, share }: OnSide) =>
     [0, 1, 2].map((c) => side[3 * a + c] + share * (side[3 * b + c] - side[3 * a + c]));
   for (const side of [x, lower])
-    for (const { from, to } of bordersIn(topology, x))
-      shapes.tube(at(side, from), at(side, to), 0.1, tissue.seam, 4);
+    for (const { from, to } of borders) shapes.tube(at(side, from), at(side, to), 0.1, tissue.seam, 4);
   const near = ([a, b]: [number, number]) =>
     Math.hypot(...[0, 1, 2].map((c) => x[3 * a + c] - x[3 * b + c])) < longest;
   for (const [a, b] of free.filter(near)) {

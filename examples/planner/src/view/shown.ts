@@ -1,10 +1,10 @@
 // The valve that the page shows, be it that of the plan, a preview, the valve before, or one in motion: its frame and
 // size, and its meshes with their labels and leak.
-import { chordValue, clipOf, leakPlaces, shareOfLimit, suture } from '../notable';
+import { chordValue, leakPlaces, shareOfLimit, titlesOf } from '../notable';
 import { clipIn } from '../text/texts';
 import type { Fields, Picture, Topology } from '../protocol';
 import * as state from '../store/state';
-import { clipParts } from './clips';
+import { clipNames, clipParts } from './clips';
 import { isChordMap } from './colours';
 import { cutMeshes } from './cut';
 import { ringRadius } from './heart';
@@ -69,7 +69,7 @@ function fieldsBefore(picture: Picture): Fields | null {
 }
 
 /** The shown valve where a plane cuts it. */
-export function cutOf(
+export function sectionMeshes(
   topology: Topology,
   picture: Picture,
   plane: CutPlane,
@@ -110,17 +110,17 @@ export function valveMeshes(frame: number[]): Mesh[] {
     chordsOn: state.chordsOn.value,
     jets: leakPlaces(figures?.orificeParts ?? []),
     clipTurns: clipTurns(topology),
+    atRest: !state.motion.value,
     closed: state.motion.value ? (state.resting.value?.picture ?? null) : null,
     removed: state.chordsOn.value && shown && shown === state.preview.value ? removedChords(topology) : [],
   });
 }
 
 /** Turns of the clips of the shown valve, as its plan says; a clip from before the plan is drawn across the edge. */
-function clipTurns({ chords, chordKind }: Topology): Map<string, number> {
-  const { history } = (state.shown.value ?? state.resting.value)?.figures ?? { history: [] };
-  const titles = history.filter((entry) => !entry.undone).map((entry) => entry.title);
-  const names = new Set(chords.flatMap(({ name }, k) => (chordKind[k] === suture ? [clipOf(name)] : [])));
-  return new Map([...names].map((name) => [name, clipIn(name, titles)?.angle ?? 0]));
+function clipTurns(topology: Topology): Map<string, number> {
+  const figures = (state.shown.value ?? state.resting.value)?.figures;
+  const titles = figures ? titlesOf(figures) : [];
+  return new Map([...clipNames(topology)].map((name) => [name, clipIn(name, titles)?.angle ?? 0]));
 }
 
 /** Ends of the chordae that the preview takes away, in the valve before. */

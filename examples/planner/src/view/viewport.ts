@@ -11,7 +11,7 @@ import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
-import { cutOf, rimOf, shownFrame, shownRadius, valveMeshes } from './shown';
+import { rimOf, sectionMeshes, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh } from './surface';
 import { WebGl } from './webgl';
@@ -229,7 +229,7 @@ export class Viewport {
     // a section shows what is behind its plane as it is: devices do not shine through the cut leaflets
     const meshes = this.meshes.filter((mesh) => !(plane && mesh.cut && mesh.overlay));
     if (plane && topology && !this.surface) {
-      meshes.push(...cutOf(topology, picture, plane, this.frameOf(), this.radius()));
+      meshes.push(...sectionMeshes(topology, picture, plane, this.frameOf(), this.radius()));
     }
     const marks = marksMesh(state.sectionOn.value && !this.surface ? this.handle() : null);
     if (marks) meshes.push(marks);
