@@ -19,8 +19,8 @@ struct JacobiEigen {
 };
 
 // Cyclic Jacobi rotations (Golub and Van Loan, Matrix Computations, 4th ed., 2013, section 8.5).
-// Their loops over single elements give the same bits with every vector width, and compile in a
-// tenth of the time of Eigen's solver.
+// Their loops over single elements give the same bits with every vector width. With Eigen's solver
+// session/device_view.cpp takes 13 s to compile, with them 5.
 template <typename Matrix>
 JacobiEigen<Matrix> jacobi_eigen(Matrix m) {
   constexpr int n = Matrix::RowsAtCompileTime;
@@ -34,9 +34,7 @@ JacobiEigen<Matrix> jacobi_eigen(Matrix m) {
       for (int q = p + 1; q < n; ++q) {
         const double off = m(p, q);
         constexpr double eps = std::numeric_limits<double>::epsilon();
-        if (std::abs(off) <= eps * std::sqrt(std::abs(m(p, p)) * std::abs(m(q, q))) &&
-            std::abs(off) <= eps * std::max(std::abs(m(p, p)), std::abs(m(q, q))))
-          continue;
+        if (std::abs(off) <= eps * std::sqrt(std::abs(m(p, p)) * std::abs(m(q, q)))) continue;
         rotated = true;
         // Tangent, cosine and sine of the smaller angle that makes the element zero.
         const double theta = (m(q, q) - m(p, p)) / (2 * off);

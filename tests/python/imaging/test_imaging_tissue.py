@@ -72,7 +72,7 @@ def test_laws_without_a_clean_closure_are_left_out():
     assert fitted_distance(closure(sheet, labels, converged=False)) is None
     assert fitted_distance(closure(sheet, labels, crossings=2)) is None
     assert fitted_distance(refused) is None
-    assert chosen_tissue({"prot": 2e-3})[0] == "prot"  # the default is none of those at rest
+    assert chosen_tissue({"prot": 2e-3})[0] == "prot"  # the default did not come to rest
     law, said = chosen_tissue({})
     assert law == CANDIDATES[0] == "bilinear" and said.source == mvs.FindingSource.ASSUMED and said.confidence < 0.3
 
