@@ -12,9 +12,13 @@ const hash = async (page) => (await figures(page)).hash;
 /** Goes to a part by Tab, where it has to be in sight. */
 async function goTo(page, wanted) {
   await tabTo(page, wanted);
-  // the page may scroll to it smoothly
-  await page.waitForTimeout(100);
-  const { name, covered } = await focused(page);
+  // the browser scrolls to it in the next frames, and notices make way after that
+  let found = await focused(page);
+  for (let k = 0; k < 10 && (k < 2 || found.covered); ++k) {
+    await page.waitForTimeout(50);
+    found = await focused(page);
+  }
+  const { name, covered } = found;
   assert.equal(covered, '', `${name} is covered`);
 }
 

@@ -37,6 +37,8 @@ describe('planner layout', () => {
       await page.setViewportSize({ width, height });
       await page.waitForTimeout(250);
       await work(`${width} x ${height}`);
+      // a page in one column would be as far down when it is one again
+      await page.evaluate(() => document.querySelector('.app').scrollTo(0, 0));
     }
     await page.setViewportSize({ width: 1280, height: 720 });
   };
