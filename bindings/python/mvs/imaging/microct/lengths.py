@@ -17,7 +17,7 @@ from ..console import Console
 from ..findings import finding
 from ..needs import need
 from .chords import ChordNetwork
-from .loaded import Loaded, settled
+from .loaded import Closure, Loaded, settled
 from .muscles import SAME_MUSCLE
 
 Points = NDArray[np.float64]
@@ -58,8 +58,7 @@ def ways_of(network: ChordNetwork) -> list[Way]:
 
 
 def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNetwork,
-                        loaded: Loaded, console: Console
-                        ) -> tuple[mvs.Snapshot, mvs.Snapshot, mvs.Stats, mvs.Finding]:
+                        loaded: Loaded, console: Console) -> tuple[Closure, list[mvs.Finding]]:
     """Rest lengths with which the simulated chordae are as long as those in the loaded image.
 
     Fixed-point iteration on the closed valve: the loaded length over the stretch that the law of the
@@ -94,9 +93,9 @@ def with_loaded_lengths(valve: mvs.Valve, closed: mvs.Snapshot, network: ChordNe
     assert stats is not None
     found = np.array([rest[list(way.segments)].sum() / open_rest[list(way.segments)].sum() - 1
                       for way, _ in pairs])
-    return opened, closed, stats, finding(
+    return (opened, closed, stats), [finding(
         "loaded_chordae", mvs.FindingSource.MEASURED, 0.6 if len(pairs) else 0.2,
-        _sentence_of(found, len(ways_of(network))), rest / open_rest - 1, "")
+        _sentence_of(found, len(ways_of(network))), rest / open_rest - 1, "")]
 
 
 def agreed_changes(change: Points) -> Points:

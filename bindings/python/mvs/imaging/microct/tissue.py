@@ -21,10 +21,10 @@ CANDIDATES = (mvs.LeafletLaw.BILINEAR, mvs.LeafletLaw.FUNG, mvs.LeafletLaw.MAY_N
 """Membranes of mitral tissue, each with the published constants of the library"""
 
 
-def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet,
-                         console: Console) -> tuple[mvs.Finding, Closure]:
+def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet, console: Console
+                         ) -> tuple[mvs.Finding, Closure, list[mvs.LeafletLaw]]:
     """Sets the law of all leaflets of a valve to that whose closure is nearest to the loaded image, and
-    closes the valve.
+    closes the valve. Returns the laws as well, nearest first.
 
     Laws whose closure does not come to rest are left out; without any the valve keeps its law.
     """
@@ -32,7 +32,7 @@ def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet,
     away: dict[mvs.LeafletLaw, float] = {}
     nearest: Optional[Closure] = None
     for law in CANDIDATES:
-        valve.leaflets = _with_law(given, law)
+        valve.leaflets = [dataclasses.replace(one, law=law, constants=()) for one in given]
         console.stage(f"closing the valve with the tissue {law.name.lower()}")
         try:
             closure = settled(valve, console)
@@ -46,17 +46,24 @@ def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet,
             away[law] = distance
     if nearest is None:
         valve.leaflets = given
-        return finding("tissue", mvs.FindingSource.ASSUMED, 0.2,
-                       "with no tissue did the leaflets come to rest under load; theirs was kept"), settled(valve, console)
+        return (finding("tissue", mvs.FindingSource.ASSUMED, 0.2,
+                        "with no tissue did the leaflets come to rest under load; theirs was kept"),
+                settled(valve, console), [])
     order = sorted(away, key=lambda law: away[law])
-    best = order[0]
-    valve.leaflets = _with_law(given, best)
+    valve.leaflets = with_law(given, order[0])
+    return tissue_finding(away), nearest, order
+
+
+def tissue_finding(away: dict[mvs.LeafletLaw, float]) -> mvs.Finding:
+    """The nearest of laws, from the RMS distance in m of the closure with each."""
+    order = sorted(away, key=lambda law: away[law])
     words = ", ".join(f"{law.name.lower()} {away[law] * 1e3:.2f} mm" for law in order)
     return finding(
         "tissue", mvs.FindingSource.MEASURED, 0.6,
-        f"{best.name.lower()}: closed with it the leaflets are nearest to those in the loaded image (RMS: "
-        f"{words}); give --leaflet if the tissue is known", [away[law] for law in order], "m"), nearest
+        f"{order[0].name.lower()}: closed with it the leaflets are nearest to those in the loaded image (RMS: "
+        f"{words}); give --leaflet if the tissue is known", [away[law] for law in order], "m")
 
 
-def _with_law(leaflets: list[mvs.Leaflet], law: mvs.LeafletLaw) -> list[mvs.Leaflet]:
-    return [dataclasses.replace(one, law=law, constants=()) for one in leaflets]
+def with_law(leaflets: list[mvs.Leaflet], law: mvs.LeafletLaw) -> list[mvs.Leaflet]:
+    """Leaflets with the published constants of a law, those that have it with their own."""
+    return [one if one.law == law else dataclasses.replace(one, law=law, constants=()) for one in leaflets]

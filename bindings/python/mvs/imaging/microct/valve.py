@@ -18,6 +18,7 @@ from ..open_valve import check_open_valve
 from ..pipeline import Pipeline, Run
 from ..valve import ImageValve, build, distance_from_image, scanned
 from .chords import ChordNetwork
+from .fitted import with_fitted_lengths
 from .lengths import with_loaded_lengths
 from .loaded import Loaded, loaded_of, settled, with_loaded_boundary
 from .muscles import muscle_groups
@@ -88,16 +89,21 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     found = [_chord_finding(network, moved)]
     if loaded is not None:
         found += with_loaded_boundary(valve, network, loaded)
+    laws: list[mvs.LeafletLaw] = []
     if loaded is None or tissue_known:
         console.stage("closing the valve with the chordae of the image")
-        opened, closed, stats = settled(valve, console)
+        closure = settled(valve, console)
     else:
-        tissue, (opened, closed, stats) = with_tissue_of_image(valve, loaded.surface, console)
+        tissue, closure, laws = with_tissue_of_image(valve, loaded.surface, console)
         found.append(tissue)
-    if loaded is not None and stats.converged:
+    if loaded is not None and closure[2].converged:
         console.stage("lengths of chordae under load")
-        opened, closed, stats, more = with_loaded_lengths(valve, closed, network, loaded, console)
-        found.append(more)
+        closure, measured = with_loaded_lengths(valve, closure[1], network, loaded, console)
+        closure, fitted = with_fitted_lengths(valve, closure, laws, loaded.surface, console)
+        measured += fitted
+        replaced = {one.name for one in measured}
+        found = [one for one in found if one.name not in replaced] + measured
+    opened, closed, stats = closure
     console.stage("leak over the errors of the lengths")
     found += _leaks(opened, console)
     assumed = ("chordae", "leak", "leak_interval", "edge_error", "edge_lost", "thickness_error", "papillary_tips")
