@@ -877,6 +877,15 @@ export const openingTexts = {
     word === 'narrow'
       ? 'Narrow: a mean flow of 200 ml/s loses more than 5 mmHg.'
       : `${word[0].toUpperCase()}${word.slice(1)}: in adults 1.5 cm² or less is severe, 1.0 cm² or less very severe (ACC/AHA 2014).`,
+  /** What is asked beside the figure; a press shows the answer. */
+  why: (word: string, less: boolean) =>
+    [word && `${word[0].toUpperCase()}${word.slice(1)}`, less ? 'Why so much less?' : 'Why?']
+      .filter(Boolean)
+      .join('. '),
+  whyTip: 'What narrows the valve here, and what to compare the figure with',
+  clip: 'The clip holds both leaflets together over its width and as deep as its arms grasp, with stitches that hardly give; beside it, too, the edges cannot part to their full distance. Blood passes on both sides of it: the figure is both openings together. A narrower clip, or one nearer to a commissure, leaves a little more.',
+  measured:
+    '“Without it” is the present valve before this operation, measured in the same way: its smallest opening at 5 mmHg. To compare: 4 to 6 cm² in healthy adults, 1.5 cm² or less in severe stenosis.',
   elsewhere:
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   /** `same`: the opening does not differ from that before by more than is known of it. */
