@@ -130,7 +130,7 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     // the width of the form, although the outermost stitches of the closed valve are further apart
     assert.match(
       rows.get('Clip'),
-      /^joins A2 and P2, 5 mm wide, \d\.\d mm towards A1, across the edge, strongest pull /,
+      /^joins A2 and P2, 5 mm wide, \d\.\d mm towards A1\/P1 \(anterolateral\), across the edge, strongest pull /,
     );
     assert.ok(rows.get('Clip').endsWith(pull(Math.max(...stitches.map(({ tension_N: n }) => n)))));
     assert.match(rows.get('Posterior band'), /^\d\d mm long$/);
@@ -192,7 +192,7 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     const steps = await page.getByTestId('history').locator('li').allInnerTexts();
     assert.match(
       steps.at(-1).replace(/\s+/g, ' '),
-      /^Join A2 and P2 by clip, 5 mm wide, \d\.\d mm towards A1, across the edge$/,
+      /^Join A2 and P2 by clip, 5 mm wide, \d\.\d mm towards A1\/P1 \(anterolateral\), across the edge$/,
     );
     const [download] = await Promise.all([
       page.waitForEvent('download'),
