@@ -217,10 +217,10 @@ function clipWords(title: string): ClipWords | null {
   return { width: +width, place, angle: +(angle ?? 0) };
 }
 
-/** How the clip with this name was set, from the titles of a plan; null where that was before the plan. */
-export function clipIn(name: string, titles: string[]): ClipWords | null {
-  const title = titles.find((text) => text.replace(clipEnd, '').endsWith(` by ${name}`));
-  return title === undefined ? null : clipWords(title);
+/** How the clip with this name was set; null where that was before the plan. Its place in mm stands in its title alone. */
+export function clipIn(name: string, clips: Figures['clips']): ClipWords | null {
+  const clip = clips.find((one) => one.name === name);
+  return clip ? { ...clip, place: clipPlaceIn(clip.title) ?? '' } : null;
 }
 
 /** How far a clip is from the middle, as the title of its operation says it; null of another title. */
