@@ -850,7 +850,7 @@ export const formTexts = {
   position: (value: number) =>
     value === 0
       ? 'in the middle of the scallop'
-      : `${number(100 * Math.abs(value), 0)} % of the way to the ${sides[value > 0 ? 0 : 1]} end of the scallop`,
+      : `${number(100 * Math.abs(value), 0)} % of the way to the ${sides[value > 0 ? 0 : 1]} end`,
   heightTip: 'From annulus to free edge',
   /** What the left and the right end of the sliders of a shift stand for. */
   axisEnds: [
