@@ -240,6 +240,28 @@ describe('planner as a customer judges it', () => {
     await closed(page);
   });
 
+  it('cuts_no_row_of_the_chordae_by_the_head_of_their_table', async () => {
+    await startAfresh(page);
+    await openPanel(page, 'Valve');
+    await page.locator('details', { hasText: /^Chordae \(/ }).evaluate((part) => (part.open = true));
+    const table = page.locator('.scroll');
+    await table.scrollIntoViewIfNeeded();
+    await table.hover();
+    // pixels that are no multiple of a row
+    for (const by of [95, 50, -70]) {
+      await page.mouse.wheel(0, by);
+      await page.waitForTimeout(700);
+      const cut = await table.evaluate((box) => {
+        const foot = box.querySelector('thead th').getBoundingClientRect().bottom;
+        return [...box.querySelectorAll('tbody tr')]
+          .map((row) => row.getBoundingClientRect())
+          .filter(({ top, bottom }) => top < foot - 1.5 && bottom > foot + 1.5).length;
+      });
+      assert.equal(cut, 0, `after ${by}`);
+    }
+    assert.ok((await table.evaluate((box) => box.scrollTop)) > 20, 'it does scroll');
+  });
+
   it('prints_the_saved_report_on_one_page_and_kept_plans_on_another', async () => {
     await begin(page, 'band');
     await apply(page);
