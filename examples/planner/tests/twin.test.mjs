@@ -154,6 +154,7 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     await page.keyboard.press('v');
     await tabTo(page, /^ *Chordae \(/);
     if (!(await page.getByTestId('chords').isVisible())) await page.keyboard.press('Enter');
+    await page.getByTestId('chords').waitFor();
     const buttons = await page.getByTestId('chords').getByRole('button').allInnerTexts();
     assert.equal(buttons.length, native.chords.filter(({ kind }) => kind !== 'suture').length);
     // the focus is on the list now; each row is the next step
@@ -163,7 +164,10 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
       assert.equal(focus, name);
     }
     await page.keyboard.press('Enter');
-    assert.match(await page.getByTestId('chosen').innerText(), new RegExp(`Chord ${buttons[3]}\\b`));
+    await page
+      .getByTestId('chosen')
+      .getByText(new RegExp(`Chord ${buttons[3]}\\b`))
+      .waitFor();
     await page.keyboard.press('Escape');
     // heads and scallops: in the lists of forms
     const listed = async (operation, field) => {

@@ -3,25 +3,26 @@
 import type { RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 
-/** What is kept in sight: the field with the focus, else the first one while the panel has not been scrolled. */
-function fieldInSight(form: Element, panel: Element): Element | null {
+/** The field with the focus in a form. */
+function fieldWithFocus(form: Element): Element | null {
   const { activeElement } = document;
-  const focused = form.contains(activeElement) ? activeElement!.closest('.field') : null;
-  return focused ?? (panel.scrollTop === 0 ? form.querySelector('.field') : null);
+  return form.contains(activeElement) ? activeElement!.closest('.field') : null;
 }
 
 /** For the foot of a form. */
 export function useRoomAboveFoot(): RefObject<HTMLDivElement> {
   const foot = useRef<HTMLDivElement>(null);
   useEffect(() => {
-    const [form, panel] = [foot.current?.closest('form'), foot.current?.closest('.panel')];
-    if (!foot.current || !form || !panel) return;
+    const form = foot.current?.closest('form');
+    if (!foot.current || !form) return;
+    let opens = true;
     const size = new ResizeObserver(() => {
       const { position } = getComputedStyle(foot.current!);
       if (position !== 'sticky') return;
       document.documentElement.style.setProperty('--foot', `${foot.current!.offsetHeight}px`);
-      // the next picture has the new padding
-      fieldInSight(form, panel)?.scrollIntoView({ block: 'nearest' });
+      const first = opens ? form.querySelector('.field') : null;
+      opens = false;
+      (fieldWithFocus(form) ?? first)?.scrollIntoView({ block: 'nearest' });
     });
     size.observe(foot.current);
     return () => {
