@@ -845,6 +845,7 @@ export const formTexts = {
   sides,
   /** The direction of a position, beside its number, which has no sign. */
   towards: sides.map((side) => `towards ${side}`),
+  side: 'Side of the middle',
   towardsTip: 'To which side of the middle; anterolateral is left in the surgeon’s view',
   /** A position between the ends of a scallop, from -1, posteromedial, to 1. */
   position: (value: number) =>

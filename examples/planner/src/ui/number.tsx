@@ -87,7 +87,7 @@ function Side({ sense, value }: { sense: Signal<number>; value: number }) {
   return (
     <span class="number towards">
       <select
-        aria-label={formTexts.towardsTip}
+        aria-label={formTexts.side}
         title={formTexts.towardsTip}
         value={String(sense.value)}
         onChange={({ currentTarget }) => {
