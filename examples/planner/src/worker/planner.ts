@@ -23,7 +23,7 @@ import type {
 } from '../protocol';
 import { refusals } from '../text/texts';
 import { breathe } from './breathe';
-import { Checkpoints } from './checkpoints';
+import { checkpointIn, Checkpoints } from './checkpoints';
 import { libraryFields } from './operations';
 import { ofRepair } from './history';
 import { openingOf } from './opening';
@@ -36,10 +36,6 @@ const slice = 0.03;
 /** N, largest out-of-balance force at rest: that of the library's recommendation for closures. The
  * page shows no margins of stability. */
 const settleOptions = { residual: 1e-4, flags: SettleFlags.no_margins };
-
-/** The name in "checkpoint NAME"; null for another valve. */
-const checkpointIn = (which: string): string | null =>
-  which.startsWith('checkpoint ') ? which.slice('checkpoint '.length) : null;
 
 export class Planner {
   readonly main: Simulator;
