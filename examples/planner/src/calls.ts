@@ -30,6 +30,7 @@ export interface CostRequest {
 export interface Calls {
   start: { argument: { library: string }; result: { version: string; operations: OperationInfo[] } };
   open_shipped: { argument: { name: string; vertices: number }; result: Shown };
+  begin_here: { argument: null; result: Shown };
   open_file: { argument: { name: string; bytes: Uint8Array }; result: Shown };
   preview: { argument: Operation; result: Shown };
   /** null: the page has all figures of the preview. */

@@ -135,6 +135,17 @@ export interface HistoryEntry {
   undone: boolean;
 }
 
+/** How a clip was set by the plan, the operations before the repair included. */
+export interface ClipSet {
+  name: string;
+  /** The title of its operation, in which its place is in words. */
+  title: string;
+  /** mm. */
+  width: number;
+  /** Degrees, against the clock as seen from the atrium. */
+  angle: number;
+}
+
 /**
  * How much of a snapshot is known: its shape, also its orifice and coaptation, or all. The shape is calculated first
  * and the regions last; numbers that are still to come are NaN, their lists are empty and their fields null.
@@ -155,6 +166,7 @@ export interface Figures {
   /** Rows: origin, AP (towards anterior), CC, into the atrium; the origin in mm. */
   frame: number[];
   history: HistoryEntry[];
+  clips: ClipSet[];
   fields: Fields | null;
 }
 

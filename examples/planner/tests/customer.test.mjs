@@ -1,11 +1,21 @@
 // Wishes of a surgeon who tried every panel: a typed number that is tried by itself, the field that a form is for, the
-// open areas of two plans, a clip that is seen from the atrium, a report that prints on one page.
+// open areas of two plans, a clip that is seen from the atrium, a report that prints on one page, keys and names that cover nothing,
+// a side in words instead of a sign.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
-import { answered, apply, begin, openPanel, startAfresh, undo } from './fixtures/person.mjs';
+import {
+  answered,
+  apply,
+  begin,
+  cameraRests,
+  fillIn,
+  openPanel,
+  startAfresh,
+  undo,
+} from './fixtures/person.mjs';
 
 describe('planner as a customer judges it', () => {
   let page;
@@ -109,6 +119,147 @@ describe('planner as a customer judges it', () => {
     await page.waitForTimeout(250);
     const bare = await blue();
     assert.ok(share > bare + 0.005, `blue with the clip ${share}, without it ${bare}`);
+  });
+
+  it('covers_no_annulus_and_no_muscle_by_the_keys_of_the_colours', async () => {
+    await startAfresh(page);
+    // a clip and slack chordae: more keys
+    await begin(page, 'clip');
+    await apply(page);
+    for (const [width, height] of [
+      [1280, 720],
+      [1024, 700],
+      [820, 1180],
+    ]) {
+      await page.setViewportSize({ width, height });
+      await page.waitForTimeout(250);
+      for (const key of ['1', '2', '3', '4']) {
+        await page.keyboard.press(key);
+        await cameraRests(page);
+        const covered = await page.evaluate(() => {
+          const { state, viewport } = window.planner;
+          const { positions } = state.picture.value;
+          const { annulus, headNodes } = state.topologyOf(state.picture.value);
+          const [host, keys] = [viewport.host, document.querySelector('.scale')].map((one) =>
+            one.getBoundingClientRect(),
+          );
+          const up = viewport.frameOf().slice(9, 12);
+          const at = (node, below) => [0, 1, 2].map((c) => positions[3 * node + c] - below * up[c]);
+          // muscles are drawn to 4.5 mm below their chordae, and rounded
+          const places = [...annulus]
+            .map((node) => at(node, 0))
+            .concat([...headNodes].map((node) => at(node, 6)));
+          return places.filter((place) => {
+            const [x, y] = viewport.camera.project(...place, viewport.width, viewport.height);
+            const [left, top] = [host.left + x, host.top + y];
+            return (left > keys.left && left < keys.right && top > keys.top) || y > viewport.height;
+          }).length;
+        });
+        assert.equal(covered, 0, `view ${key} at ${width} x ${height}`);
+      }
+    }
+    await page.setViewportSize({ width: 1280, height: 720 });
+    await undo(page);
+  });
+
+  it('writes_no_name_over_another_or_over_a_handle', async () => {
+    await startAfresh(page);
+    const collisions = async () => {
+      await page.waitForTimeout(300);
+      return page.evaluate(() => {
+        const boxes = [...document.querySelectorAll('.label')]
+          .filter((label) => !label.hidden)
+          .map((label) => [label.textContent, label.getBoundingClientRect()]);
+        const meet = (a, b) =>
+          a.left < b.right - 1 && b.left < a.right - 1 && a.top < b.bottom - 1 && b.top < a.bottom - 1;
+        return boxes.flatMap(([one, a], k) =>
+          boxes.slice(k + 1).flatMap(([other, b]) => (meet(a, b) ? [`${one} and ${other}`] : [])),
+        );
+      });
+    };
+    // a head that is chosen beside its muscle
+    await page.evaluate(() => {
+      const { state } = window.planner;
+      const { heads } = state.topologyOf(state.main.value.picture);
+      state.choice.value = { kind: 'head', id: heads.find(({ name }) => name === 'AL1').id };
+    });
+    for (const key of ['2', '3', '4', '1']) {
+      await page.keyboard.press(key);
+      await cameraRests(page);
+      assert.deepEqual(await collisions(), [], `view ${key}`);
+      const names = await page.locator('.label:visible').allInnerTexts();
+      if (key === '2') assert.ok(names.includes('AL1') && names.includes('PM'), names.join(', '));
+    }
+    await page.keyboard.press('Escape');
+    await begin(page, 'clip');
+    for (const position of [0, 40, 100]) {
+      await fillIn(page, 'position', position);
+      assert.deepEqual(await collisions(), [], `a clip at ${position} %`);
+      const balls = await page.evaluate(() => {
+        const { x, width } = document.querySelector('.label-handle').getBoundingClientRect();
+        return [...document.querySelectorAll('.label-scallop:not([hidden])')]
+          .map((label) => label.getBoundingClientRect())
+          .filter((box) => box.left < x && box.right > x + width).length;
+      });
+      assert.equal(balls, 0);
+    }
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+    await closed(page);
+  });
+
+  it('says_the_side_of_a_clip_in_words_that_go_with_its_number_and_its_slider', async () => {
+    await startAfresh(page);
+    await begin(page, 'clip');
+    const side = page.locator('.form .towards select').first();
+    const slider = page.locator('.form input[type=range]').first();
+    const words = async () => {
+      const field = page.locator('.field', { has: page.locator('#f-position') });
+      await field.getByText(/In the preview: \d/).waitFor();
+      return (await field.innerText()).replace(/\s+/g, ' ');
+    };
+    await fillIn(page, 'position', 40);
+    assert.match(
+      await words(),
+      /40 % of the way to the anterolateral end.*mm towards A1\/P1 \(anterolateral\)/,
+    );
+    // left in the surgeon's view
+    assert.equal(await slider.inputValue(), '-40');
+    await side.selectOption({ label: 'towards posteromedial' });
+    await answered(page, 300);
+    assert.match(
+      await words(),
+      /40 % of the way to the posteromedial end.*mm towards A3\/P3 \(posteromedial\)/,
+    );
+    assert.equal(await slider.inputValue(), '40');
+    assert.equal(await page.locator('#f-position').inputValue(), '40', 'the number has no sign');
+    await fillIn(page, 'position', 20);
+    assert.match(await words(), /20 % of the way to the posteromedial end/);
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+    await closed(page);
+  });
+
+  it('cuts_no_row_of_the_chordae_by_the_head_of_their_table', async () => {
+    await startAfresh(page);
+    await openPanel(page, 'Valve');
+    await page.locator('details', { hasText: /^Chordae \(/ }).evaluate((part) => (part.open = true));
+    const table = page.locator('.scroll');
+    await table.scrollIntoViewIfNeeded();
+    await table.hover();
+    // pixels that are no multiple of a row
+    for (const by of [95, 50, -70]) {
+      await page.mouse.wheel(0, by);
+      await page.waitForTimeout(700);
+      const cut = await table.evaluate((box) => {
+        const foot = box.querySelector('thead th').getBoundingClientRect().bottom;
+        return [...box.querySelectorAll('tbody tr')]
+          .map((row) => row.getBoundingClientRect())
+          .filter(({ top, bottom }) => top < foot - 1.5 && bottom > foot + 1.5).length;
+      });
+      assert.equal(cut, 0, `after ${by}`);
+    }
+    assert.ok((await table.evaluate((box) => box.scrollTop)) > 20, 'it does scroll');
   });
 
   it('prints_the_saved_report_on_one_page_and_kept_plans_on_another', async () => {

@@ -338,7 +338,7 @@ describe('planner features', () => {
     const canvas = await page.locator('canvas').first().boundingBox();
     for (const along of [0.4, 0.6])
       await page.mouse.click(canvas.x + along * canvas.width, canvas.y + 0.8 * canvas.height);
-    assert.match(await page.locator('.panel').innerText(), /2 set/);
+    await page.locator('.panel').getByText(/2 set/).waitFor();
     const clicked = await page.evaluate(() => window.planner.state.imported.value.points.tips);
     await page.getByRole('button', { name: 'Build the valve' }).click();
     await page.getByTestId('findings').waitFor();

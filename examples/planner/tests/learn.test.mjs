@@ -250,7 +250,7 @@ describe('planner goals', () => {
     assert.equal(await hash(), other);
     // the offer stays, and the plan that it replaces can be returned to as well
     await notice.getByRole('button', { name: 'Return to it' }).click();
-    await page.getByRole('button', { name: 'Go on without keeping it' }).click();
+    await page.getByRole('button', { name: 'Go on', exact: true }).click();
     await page.getByText('gives exactly the saved valve').waitFor();
     await closed(page);
     assert.equal(await hash(), changed);

@@ -1,8 +1,9 @@
-// How far a valve opens is kept for the valve that was measured, also where another operation was quicker.
+// How far a valve opens is kept for the valve that was measured, also where another operation was quicker; it is explained beside
+// its figure, which covers no field; a report has it of every kept plan.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { closed, sharePlanner } from './fixtures/browser.mjs';
-import { apply, begin, undo } from './fixtures/person.mjs';
+import { answered, apply, begin, openPanel, undo } from './fixtures/person.mjs';
 
 /** Holds questions for the opening of the applied valve back until `window.letGo` is called, as a slow worker would. */
 function holdQuestions() {
@@ -53,5 +54,73 @@ describe('planner opening', () => {
     await begin(page, 'clip');
     await until(page, (valve) => window.planner.state.openings.value.has(valve), before);
     assert.ok((await openingOf(before)) > 1.5 * clipped, 'two orifices of a clip are far smaller than one');
+  });
+
+  it('says_why_a_clip_leaves_little_of_it_above_the_buttons_and_below_the_fields', async () => {
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+    await closed(page);
+    await begin(page, 'clip');
+    const opening = page.getByTestId('opening');
+    await opening.getByText(/without it \d/).waitFor();
+    const boxes = async (selector) => [
+      await page.locator(selector).boundingBox(),
+      await page.locator('.form-foot').boundingBox(),
+    ];
+    const seen = async (selector, when) => {
+      const [field, foot] = await boxes(selector);
+      const { y } = await page.locator('.panel').boundingBox();
+      assert.ok(
+        field.y >= y && field.y + field.height <= foot.y,
+        `${selector} ${when}: ${field.y} to ${field.y + field.height}, foot at ${foot.y}, panel at ${y}`,
+      );
+    };
+    await seen('.form .field >> nth=0', 'as the form opens');
+    // the foot grows over the field that has the focus
+    await page.locator('#f-angle').click();
+    await opening.locator('summary').evaluate((one) => one.click());
+    await opening.getByText(/holds both leaflets together/).waitFor();
+    assert.match(await opening.innerText(), /both openings together[^]*“Without it” is the present valve/);
+    await page.waitForTimeout(200);
+    await seen('#f-angle', 'with the answer');
+    await opening.locator('summary').click();
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('Escape');
+    await closed(page);
+  });
+
+  it('is_in_the_report_for_every_kept_plan', async () => {
+    const keep = async () => {
+      await openPanel(page, 'Plan');
+      await page.getByRole('button', { name: 'Keep this plan' }).click();
+      await answered(page, 200);
+    };
+    for (const size of ['30', '28']) {
+      await begin(page, 'ring');
+      await page.locator('#f-size').fill(size);
+      await page.keyboard.press('Tab');
+      await answered(page, 200);
+      await apply(page);
+      await keep();
+      await undo(page);
+    }
+    // as after a session that was opened: nothing is measured yet
+    await page.evaluate(() => {
+      const { state } = window.planner;
+      state.openings.value = new Map();
+      state.cost.value = null;
+    });
+    await openPanel(page, 'Plan');
+    await page.getByRole('button', { name: 'Report' }).click();
+    const rows = page.getByTestId('report').getByTestId('report-plans').locator('tr:has(td)');
+    await page.getByTestId('measuring').waitFor();
+    await page.getByTestId('measuring').waitFor({ state: 'detached' });
+    const areas = (await rows.locator('td:last-child').allInnerTexts()).map((text) => text.trim());
+    assert.equal(areas.length, 3);
+    for (const area of areas) assert.match(area, /^\d\.\d\d\scm²$/);
+    // the smaller the ring, the less
+    const [, large, small] = areas.map(parseFloat);
+    assert.ok(small < large, areas.join(', '));
+    await page.keyboard.press('Escape');
   });
 });

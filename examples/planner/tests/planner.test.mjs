@@ -8,6 +8,7 @@ import { closed, figures, openBrowser, page_path, sharePlanner } from './fixture
 import {
   answered,
   apply,
+  becomes,
   begin,
   cameraRests,
   chooseAnyChord,
@@ -62,7 +63,7 @@ describe('planner', () => {
     const found = await figures(page);
     assert.equal(found.measures.orifice, 0);
     assert.ok(found.measures.atRest && found.measures.underLoad);
-    assert.match(await page.getByTestId('verdict').innerText(), /Sealed/);
+    await page.getByTestId('verdict').getByText('Sealed').waitFor();
   });
 
   it('draws_the_valve', async () => {
@@ -228,7 +229,10 @@ describe('planner', () => {
     assert.match(early.hint, /^Not applied: its result is still to come/);
     await answered(page, 500);
     assert.equal(await page.evaluate(() => window.planner.state.draft.value?.fields.factor), 0.91);
-    assert.match(await page.getByTestId('status').innerText(), /^Preview: Sealed/);
+    await page
+      .getByTestId('status')
+      .getByText(/^Preview: Sealed/)
+      .waitFor();
     // the next one applies what is seen
     await page.locator('#f-factor').focus();
     await page.keyboard.press('Enter');
@@ -259,8 +263,11 @@ describe('planner', () => {
   it('says_why_an_operation_is_impossible', async () => {
     await begin(page, 'annulus_scale');
     await fillIn(page, 'factor', '9000');
-    assert.match(await page.getByRole('alert').innerText(), /factor/);
-    assert.ok(await page.getByRole('button', { name: 'Apply', exact: true }).isDisabled());
+    await page
+      .getByRole('alert')
+      .getByText(/factor/)
+      .waitFor();
+    await becomes(() => page.getByRole('button', { name: 'Apply', exact: true }).isDisabled(), true);
     await page.getByRole('button', { name: 'Discard' }).click();
   });
 

@@ -70,6 +70,10 @@ describe('planner read and touched', () => {
     await apply(page);
     await page.waitForTimeout(200);
     assert.ok((await colours()) > 100);
+    await page
+      .getByTestId('scale')
+      .getByText(/Moved by the repair/)
+      .waitFor();
     assert.match(await page.getByTestId('scale').innerText(), /Moved by the repair[^]*mm/);
     await page.getByLabel('Colours').selectOption({ label: 'Tissue' });
     await undo(page);
@@ -77,6 +81,7 @@ describe('planner read and touched', () => {
 
   it('says_what_the_colours_of_contact_mean', async () => {
     await page.locator('.colours select').selectOption('coaptation');
+    await page.locator('.scale').getByText('touching').waitFor();
     const legend = await page.locator('.scale').innerText();
     for (const word of ['touching', 'apart', 'no leaflet faces it']) assert.ok(legend.includes(word), legend);
     await page.locator('.colours select').selectOption('tissue');

@@ -96,7 +96,7 @@ describe('planner renderers', () => {
         // in a colour map as well
         await page.getByLabel('Colours').selectOption({ label: 'Chord pull' });
         await page.waitForTimeout(400);
-        assert.match(await keys.innerText(), /artificial chord/);
+        await keys.getByText(/artificial chord/).waitFor();
       });
   });
 

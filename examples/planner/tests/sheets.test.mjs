@@ -152,7 +152,7 @@ for (const renderer of ['software', 'webgl']) {
         for (const words of [leaning.said, leaning.listed])
           assert.match(
             words,
-            /A2 and P2.*5\smm wide, (?!0\.0)[0-2]\.\d\smm towards A1, turned 40° against the clock/,
+            /A2 and P2.*5\smm wide, (?!0\.0)[0-2]\.\d\smm towards A1\/P1 \(anterolateral\), turned 40° against the clock/,
           );
       });
     });

@@ -103,6 +103,8 @@ describe('planner as a surgeon reads it', () => {
     await page.keyboard.press('o');
     await page.getByTestId('verdict').getByText('when closed').waitFor();
     await page.keyboard.press('w');
+    // as long as a wrong word would need to be drawn
+    await page.waitForTimeout(300);
     assert.doesNotMatch(await page.getByTestId('verdict').innerText(), /before/);
     await page.keyboard.press('o');
     await closed(page);
@@ -155,6 +157,7 @@ describe('planner words', () => {
       .locator('[data-testid=scallops] th, [data-testid=chords] thead th')
       .allInnerTexts();
     await page.getByRole('button', { name: 'What the figures mean' }).click();
+    await help().locator('dt span').first().waitFor();
     const terms = (await help().locator('dt span').allInnerTexts()).map((term) => term.split(',')[0]);
     const missing = [...labels, ...heads.filter((head) => /,|%/.test(head))]
       .map((label) => flat(label).replace(/^Pull on (AL|PM)\d$/, 'Pull on a papillary head'))

@@ -130,7 +130,7 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     // the width of the form, although the outermost stitches of the closed valve are further apart
     assert.match(
       rows.get('Clip'),
-      /^joins A2 and P2, 5 mm wide, \d\.\d mm towards A1, across the edge, strongest pull /,
+      /^joins A2 and P2, 5 mm wide, \d\.\d mm towards A1\/P1 \(anterolateral\), across the edge, strongest pull /,
     );
     assert.ok(rows.get('Clip').endsWith(pull(Math.max(...stitches.map(({ tension_N: n }) => n)))));
     assert.match(rows.get('Posterior band'), /^\d\d mm long$/);
@@ -154,6 +154,7 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     await page.keyboard.press('v');
     await tabTo(page, /^ *Chordae \(/);
     if (!(await page.getByTestId('chords').isVisible())) await page.keyboard.press('Enter');
+    await page.getByTestId('chords').waitFor();
     const buttons = await page.getByTestId('chords').getByRole('button').allInnerTexts();
     assert.equal(buttons.length, native.chords.filter(({ kind }) => kind !== 'suture').length);
     // the focus is on the list now; each row is the next step
@@ -163,7 +164,10 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
       assert.equal(focus, name);
     }
     await page.keyboard.press('Enter');
-    assert.match(await page.getByTestId('chosen').innerText(), new RegExp(`Chord ${buttons[3]}\\b`));
+    await page
+      .getByTestId('chosen')
+      .getByText(new RegExp(`Chord ${buttons[3]}\\b`))
+      .waitFor();
     await page.keyboard.press('Escape');
     // heads and scallops: in the lists of forms
     const listed = async (operation, field) => {
@@ -192,7 +196,7 @@ describe('planner twin', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMAND 
     const steps = await page.getByTestId('history').locator('li').allInnerTexts();
     assert.match(
       steps.at(-1).replace(/\s+/g, ' '),
-      /^Join A2 and P2 by clip, 5 mm wide, \d\.\d mm towards A1, across the edge$/,
+      /^Join A2 and P2 by clip, 5 mm wide, \d\.\d mm towards A1\/P1 \(anterolateral\), across the edge$/,
     );
     const [download] = await Promise.all([
       page.waitForEvent('download'),

@@ -9,7 +9,7 @@ import { mayReplace } from './ask';
 import { discard } from './edit';
 import { learnFounding } from './founding';
 import { forget, leave, remember, repairOf, type Left } from './left';
-import { run, show } from './requests';
+import { run, show, whole } from './requests';
 import * as state from './state';
 
 type Said = typeof state.notice.value;
@@ -84,7 +84,10 @@ function begun(
   offerReturn(left, said);
 }
 
-export async function openShipped(
+export const openShipped = (...shipped: Parameters<typeof leaveForShipped>): Promise<void> =>
+  whole(() => leaveForShipped(...shipped));
+
+async function leaveForShipped(
   name: string,
   title: string,
   tour: typeof state.tour.value = null,
@@ -122,7 +125,9 @@ export async function openShipped(
 }
 
 /** Begins another plan with the present valve, which is then the one before the repair; the plan that led to it is left. */
-export async function beginHere(): Promise<void> {
+export const beginHere = (): Promise<void> => whole(leaveForItself);
+
+async function leaveForItself(): Promise<void> {
   const figures = state.main.value?.figures;
   if (!figures) return;
   discard();
@@ -130,8 +135,7 @@ export async function beginHere(): Promise<void> {
   const steps = titlesOf(figures).map(say);
   const notes = [state.notes.value, startTexts.steps(title, steps)].filter(Boolean).join('\n');
   const left = await leave();
-  const bytes = await run(t.saving, 'save_obj', null);
-  const shown = bytes && (await run(t.closing, 'open_file', { name: title, bytes }));
+  const shown = await run(t.saving, 'begin_here', null);
   if (!shown) return;
   batch(() => {
     state.tour.value = null;
@@ -140,7 +144,9 @@ export async function beginHere(): Promise<void> {
   });
 }
 
-export async function openFile(file: File): Promise<void> {
+export const openFile = (file: File): Promise<void> => whole(() => leaveForFile(file));
+
+async function leaveForFile(file: File): Promise<void> {
   // a notice about another file is over
   state.notice.value = null;
   const left = await leave();
@@ -200,7 +206,9 @@ export async function chooseUnit(unit: FileUnit): Promise<void> {
 }
 
 /** Builds a valve from the surface and closes it. */
-export async function buildValve(): Promise<void> {
+export const buildValve = (): Promise<void> => whole(leaveForSurface);
+
+async function leaveForSurface(): Promise<void> {
   const from = state.imported.value;
   if (!from) return;
   const title = from.name.replace(/\.\w+$/, '');

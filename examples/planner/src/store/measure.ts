@@ -5,7 +5,7 @@ import type { CheckpointList } from '../protocol';
 import { mayReplace } from './ask';
 import { offerReturn } from './files';
 import { leave } from './left';
-import { change, run } from './requests';
+import { change, run, whole } from './requests';
 import { keepOpening } from './opening';
 import { keptName } from './plans';
 import * as state from './state';
@@ -57,11 +57,13 @@ export function nextName(): string {
 export async function restoreCheckpoint(name: string): Promise<void> {
   const kept = () => !!keptName(state.main.value?.figures.hash);
   if (!kept() && state.changed.value && state.canUndo.value && !(await mayReplace(name, 'name'))) return;
-  // a plan that is not kept can be returned to
-  const left = kept() ? null : await leave();
-  await change(t.undoing, 'restore', { name });
-  state.changed.value = true;
-  offerReturn(left, null);
+  await whole(async () => {
+    // a plan that is not kept can be returned to
+    const left = kept() ? null : await leave();
+    await change(t.undoing, 'restore', { name });
+    state.changed.value = true;
+    offerReturn(left, null);
+  });
 }
 
 export async function compareCheckpoint(name: string | null): Promise<void> {

@@ -1,6 +1,6 @@
 // How far the valve would open: measured by itself while an operation that narrows it is chosen, after the figures of
 // the closed valve.
-import { effect, untracked } from '@preact/signals';
+import { effect, signal, untracked } from '@preact/signals';
 import type { CostRequest } from '../calls';
 import type { Cost, Shown } from '../protocol';
 import { measuresItself, narrowing, openingOf, unmeasurable } from './limits';
@@ -11,12 +11,17 @@ import { isNarrowed } from './verdict';
 /** ms without a change of the form before the worker is taken for it; it cannot be interrupted. */
 const rest = 400;
 
+/** Openings that are remembered: more than the plans of a report. */
+const most = 100;
+
 /** Remembers the opening of the closed valve that was measured, among the last ones. */
 export function keepOpening(found: Cost): void {
-  state.openings.value = new Map([...[...state.openings.value].slice(-20), [found.hash, found]]);
+  state.openings.value = new Map([...[...state.openings.value].slice(-most), [found.hash, found]]);
 }
 
-async function measure(which: CostRequest['which']): Promise<void> {
+type Asked = CostRequest['which'];
+
+async function measure(which: Asked): Promise<void> {
   const { value: flow } = state.flow;
   keepOpening(await request('cost', { which, flow: flow ?? 0 }));
 }
@@ -82,11 +87,32 @@ function watchNarrowed(): void {
   });
 }
 
-/** Measures the valve with this hash and the first one of the plan, for the report; larger ones too. */
-export async function measurePlan(hash: string, which: CostRequest['which']): Promise<void> {
-  const { first } = state;
-  if (!openingOf(hash)) await measure(which);
-  if (!openingOf(first.value?.figures.hash)) await measure('first');
+/** Open areas that a report still waits for. */
+export const toMeasure = signal(0);
+
+/**
+ * Measures the open areas of a report one after the other, larger valves too: of the seen plan with this hash, of the first valve, of
+ * the present and of the kept plans. `shown`: after each; it says whether the report is still looked at.
+ */
+export async function measureReport(hash: string, which: Asked, shown: () => boolean): Promise<void> {
+  const { checkpoints, checkpointHashes, first, main } = state;
+  const plans: [string | undefined, Asked][] = [
+    ...checkpoints.value.map((name, k): [string, Asked] => [checkpointHashes.value[k], `checkpoint ${name}`]),
+    [main.value?.figures.hash, 'main'],
+    [first.value?.figures.hash, 'first'],
+    [hash, which],
+  ];
+  // one question for each valve; those of the report's own figures first
+  const left = new Map(plans.filter(([valve]) => valve && !openingOf(valve)).reverse());
+  for (const [valve, asked] of [...left]) {
+    toMeasure.value = left.size;
+    // one that cannot be opened does not hold the others up
+    await measure(asked).catch(fail);
+    left.delete(valve);
+    toMeasure.value = left.size;
+    if (!shown()) break;
+  }
+  toMeasure.value = 0;
 }
 
 export function watchOpening(): void {

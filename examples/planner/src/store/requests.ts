@@ -49,6 +49,16 @@ export async function run<Name extends CallName>(
   }
 }
 
+/** An action of several requests, which is under way until it is done. */
+export async function whole<T>(work: () => Promise<T>): Promise<T> {
+  ++state.underway.value;
+  try {
+    return await work();
+  } finally {
+    --state.underway.value;
+  }
+}
+
 export const sentenceOf = (error: unknown): string =>
   say(error instanceof Error ? error.message : String(error));
 

@@ -49,6 +49,10 @@ export const previewed = signal<Draft | null>(null);
 export const motion = signal<Motion | null>(null);
 /** The moving picture is that of a valve that is being opened, and not of the valve of the plan. */
 export const coming = signal(false);
+/** Actions of several requests that are under way, as the opening of a file: between two requests nothing is busy. */
+export const underway = signal(0);
+/** Pixels that the keys of the colours take at the foot of the picture. */
+export const keysHeight = signal(0);
 /** Picture and figures show the valve before instead of the present one. */
 export const past = signal(false);
 /** The first closed valve of the plan, for "before". */

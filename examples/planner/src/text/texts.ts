@@ -185,6 +185,9 @@ export function wordsOf(kind: string, help: string): Words {
   return operationWords[kind] ?? { title: kind.replace(/_/g, ' '), short: help };
 }
 
+/** Left and right in the surgeon's view. */
+const sides = ['anterolateral', 'posteromedial'] as const;
+
 /** How the library ends the title of a clip: its stitches, the chosen width in mm, how far it is from the middle of its scallop,
  *  and its turn in degrees. */
 const clipEnd =
@@ -197,18 +200,27 @@ export interface ClipWords {
   angle: number;
 }
 
+/** The side towards which a clip stands: "A1/P1 (anterolateral)" for "A1" in the title of a clip between A2 and P2. */
+function towardsWords(title: string, towards: string): string {
+  const [, anterior, posterior] = /^Join A(\d) and P(\d)/.exec(title) ?? [];
+  const [, next] = /^A(\d)$/.exec(towards) ?? [];
+  if (!next || !anterior || anterior !== posterior) return towards;
+  return `A${next}/P${next} (${sides[next < anterior ? 0 : 1]})`;
+}
+
 function clipWords(title: string): ClipWords | null {
   const found = clipEnd.exec(title);
   if (!found) return null;
   const [, width, away, towards, angle] = found;
-  const place = away === undefined ? 'in the middle' : `${number(+away)} mm towards ${towards}`;
+  const place =
+    away === undefined ? 'in the middle' : `${number(+away)} mm towards ${towardsWords(title, towards)}`;
   return { width: +width, place, angle: +(angle ?? 0) };
 }
 
-/** How the clip with this name was set, from the titles of a plan; null where that was before the plan. */
-export function clipIn(name: string, titles: string[]): ClipWords | null {
-  const title = titles.find((text) => text.replace(clipEnd, '').endsWith(` by ${name}`));
-  return title === undefined ? null : clipWords(title);
+/** How the clip with this name was set; null where that was before the plan. Its place in mm stands in its title alone. */
+export function clipIn(name: string, clips: Figures['clips']): ClipWords | null {
+  const clip = clips.find((one) => one.name === name);
+  return clip ? { ...clip, place: clipPlaceIn(clip.title) ?? '' } : null;
 }
 
 /** How far a clip is from the middle, as the title of its operation says it; null of another title. */
@@ -231,7 +243,7 @@ export function say(sentence: string): string {
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
-    .replace(clipEnd, (end) => `, ${clipSaid(clipWords(end)!)}`)
+    .replace(clipEnd, () => `, ${clipSaid(clipWords(sentence)!)}`)
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) x (?=\d)/g, '$1 × ')
     .replace(/(\d) (mm|mm²|%|N)(?![\w²])/g, '$1\u00a0$2')
@@ -601,12 +613,12 @@ export const leaveTexts = {
 
 /** The question before a plan that is kept nowhere gives way to another one. */
 export const askTexts = {
-  title: 'The present plan is not kept',
-  lost: (title: string, to: string) =>
-    `Your changed plan${title ? ` of “${title}”` : ''} is not kept. “${to || 'Another plan'}” takes its place.`,
+  title: 'The present plan gives way to another one',
+  lost: (title: string, to: string, keep: 'name' | 'file') =>
+    `“${to || 'Another plan'}” takes the place of your changed plan${title ? ` of “${title}”` : ''}, which ${keep === 'file' ? 'is in no file' : 'has no name'} yet. It stays among the earlier valves of the panel Plan, but only until this page is closed.`,
   keep: (name: string) => `Keep it as “${name}” first`,
   save: 'Save it to a file first',
-  replace: 'Go on without keeping it',
+  replace: 'Go on',
   stay: 'Stay with the present plan',
 };
 
@@ -830,13 +842,16 @@ export const formTexts = {
   along: (percent: number) => `Along the scallop: ${percent} % from its posteromedial end`,
   height: (percent: number) => `From annulus to free edge: ${percent} %`,
   alongTip: 'Along the scallop',
-  /** Left and right in the surgeon's view. */
-  sides: ['anterolateral', 'posteromedial'] as const,
+  sides,
+  /** The direction of a position, beside its number, which has no sign. */
+  towards: sides.map((side) => `towards ${side}`),
+  side: 'Side of the middle',
+  towardsTip: 'To which side of the middle; anterolateral is left in the surgeon’s view',
   /** A position between the ends of a scallop, from -1, posteromedial, to 1. */
   position: (value: number) =>
     value === 0
       ? 'in the middle of the scallop'
-      : `${number(100 * Math.abs(value), 0)} % of the way to the ${value > 0 ? 'anterolateral' : 'posteromedial'} end`,
+      : `${number(100 * Math.abs(value), 0)} % of the way to the ${sides[value > 0 ? 0 : 1]} end`,
   heightTip: 'From annulus to free edge',
   /** What the left and the right end of the sliders of a shift stand for. */
   axisEnds: [
@@ -877,6 +892,15 @@ export const openingTexts = {
     word === 'narrow'
       ? 'Narrow: a mean flow of 200 ml/s loses more than 5 mmHg.'
       : `${word[0].toUpperCase()}${word.slice(1)}: in adults 1.5 cm² or less is severe, 1.0 cm² or less very severe (ACC/AHA 2014).`,
+  /** What is asked beside the figure; a press shows the answer. */
+  why: (word: string, less: boolean) =>
+    [word && `${word[0].toUpperCase()}${word.slice(1)}`, less ? 'Why so much less?' : 'Why?']
+      .filter(Boolean)
+      .join('. '),
+  whyTip: 'What narrows the valve here, and what to compare the figure with',
+  clip: 'The clip holds both leaflets together over its width and as deep as its arms grasp, with stitches that hardly give; beside it, too, the edges cannot part to their full distance. Blood passes on both sides of it: the figure is both openings together. A narrower clip, or one nearer to a commissure, leaves a little more.',
+  measured:
+    '“Without it” is the present valve before this operation, measured in the same way: its smallest opening at 5 mmHg. To compare: 4 to 6 cm² in healthy adults, 1.5 cm² or less in severe stenosis.',
   elsewhere:
     'The annulus is not its narrowest place: that is between the tips of the leaflets, which the chordae hold. A much smaller ring would narrow it.',
   /** `same`: the opening does not differ from that before by more than is known of it. */
@@ -1011,6 +1035,9 @@ export const reportTexts = {
     `${when}. ${name ? `The plan “${name}”` : 'The present plan, which is not kept under a name'}, closed at 120 mmHg.`,
   otherPlans: 'This plan and the other kept plans',
   notMeasured: 'not measured',
+  coming: '…',
+  /** `left`: open areas that are still to be measured. */
+  measuring: (left: number) => `Open areas are being measured: ${left} to come.`,
   before: 'Before',
   after: 'After',
   section: 'Section through the middle',
@@ -1490,7 +1517,7 @@ export const tips: Record<string, string> = {
   [tourTexts.example.title]: 'One repair that reaches the goals, step by step',
   [leaveTexts.back]: 'Opens that plan again; the present one can be returned to as well',
   [askTexts.save]: 'Keeps the present plan, then opens the other one',
-  [askTexts.replace]: 'Opens the other plan; a line then offers the way back',
+  [askTexts.replace]: 'Opens the other plan; the present one is listed among the earlier valves',
   [askTexts.stay]: 'Leaves the present plan as it is',
   [importTexts.unit]: 'The length that the number one stands for in the file',
   [importTexts.kind]: 'Which side of the leaflets the surface is, from which their middle follows',

@@ -23,7 +23,7 @@ export function Ask() {
       close={t.cancel}
       closeTip={tips[askTexts.stay]}
     >
-      <p data-testid="ask">{askTexts.lost(state.title.value, value.to)}</p>
+      <p data-testid="ask">{askTexts.lost(state.title.value, value.to, value.keep)}</p>
       <div class="row">
         <Button kind="main" title={tips[askTexts.save]} onClick={() => void keep()}>
           {value.keep === 'file' ? askTexts.save : askTexts.keep(name)}

@@ -1,5 +1,5 @@
 // Rings, bands, clips, artificial chordae and sutures as a table: the twin of what the picture shows of them.
-import { clipOf, cutOf, suture, titlesOf } from '../notable';
+import { clipOf, cutOf, suture } from '../notable';
 import * as state from '../store/state';
 import { clipIn, deviceTexts, tipTexts } from '../text/texts';
 import type { Chord, Figures, Picture, Topology } from '../protocol';
@@ -49,12 +49,11 @@ function devicesOf(topology: Topology, picture: Picture, figures: Figures): Devi
     figures: ringFigures(curve, figures.frame),
   }));
   const bodies = clipBodies(topology, picture, figures.frame);
-  const titles = titlesOf(figures);
   const clips = stitchesBy(figures, clipOf).map(([name, stitches]) => ({
     name: named(names.clip, name),
     figures: deviceTexts.clip({
       between: scallopsOf(stitches),
-      set: clipIn(name, titles),
+      set: clipIn(name, figures.clips),
       apart: 2 * (bodies.get(name)?.half ?? 0),
       pull: Math.max(...stitches.map(({ tension }) => tension)),
     }),

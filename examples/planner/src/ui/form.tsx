@@ -5,6 +5,7 @@ import { apply, complete, discard, replacements } from '../store/edit';
 import * as state from '../store/state';
 import { appTexts, formTexts, t, tips, wordsOf } from '../text/texts';
 import type { FieldInfo } from '../protocol';
+import { useRoomAboveFoot } from './room';
 import { ChordFacts } from './chord';
 import { Field } from './fields';
 import { GoalLine } from './goals';
@@ -48,6 +49,7 @@ export function OperationForm() {
     valve.value?.figures.chords.find((item) => item.id === draft.fields.chord),
   );
   const ready = complete(draft.kind, draft.fields);
+  const foot = useRoomAboveFoot();
   return (
     <form
       class="panel-body form"
@@ -86,7 +88,7 @@ export function OperationForm() {
           {state.draftMessage.value}
         </p>
       )}
-      <div class="form-foot">
+      <div class="form-foot" ref={foot}>
         {state.tour.value && <GoalLine number={state.tour.value.number} />}
         <Opening kind={draft.kind} />
         <p class="hint trying">

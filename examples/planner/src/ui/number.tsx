@@ -1,4 +1,5 @@
 // A number of an operation, with a slider where it has a usual range.
+import { useSignal, type Signal } from '@preact/signals';
 import { titlesOf } from '../notable';
 import { setField } from '../store/edit';
 import * as state from '../store/state';
@@ -81,6 +82,27 @@ function previewedPlace(): string | null {
   return title ? clipPlaceIn(title) : null;
 }
 
+/** The side of the middle on which a position lies. */
+function Side({ sense, value }: { sense: Signal<number>; value: number }) {
+  return (
+    <span class="number towards">
+      <select
+        aria-label={formTexts.side}
+        title={formTexts.towardsTip}
+        value={String(sense.value)}
+        onChange={({ currentTarget }) => {
+          sense.value = +currentTarget.value;
+          if (value) setField('position', sense.value * Math.abs(value));
+        }}
+      >
+        {[1, -1].map((side, k) => (
+          <option value={String(side)}>{formTexts.towards[k]}</option>
+        ))}
+      </select>
+    </span>
+  );
+}
+
 /** A sentence on a ring that is wider than the annulus by more than its width is known. */
 function Oversized({ size }: { size: number }) {
   const annulus = state.main.value?.figures.measures.annulusCc ?? NaN;
@@ -114,11 +136,17 @@ export function NumberField(props: FieldProps) {
     setField(field.name, Number.isFinite(number) ? number / scale : undefined);
   };
   const shown = value ?? (range ? fallback : undefined);
-  const text = textOf(value, scale, rest);
+  const position = isPosition(kind, field.name);
+  const text = textOf(position && value ? Math.abs(value) : value, scale, rest);
   const low = rest ? +(0.4 * rest).toFixed(1) : range?.[0];
   const high = rest ? +(1.6 * rest).toFixed(1) : range?.[1];
-  const position = isPosition(kind, field.name);
   const slider = (of: number) => (position ? -of : of) * scale;
+  // of a position the box has the distance from the middle, and words beside it have the side
+  const sense = useSignal(1);
+  if (position && value) sense.value = Math.sign(value);
+  /** Takes what was typed into the box. */
+  const type = (typed: string) =>
+    set(position && sense.value < 0 ? `${-parseFloat(typed.replace(',', '.'))}` : typed);
   const beyond = value !== undefined && !!range && (value < low! || value > high!);
   return (
     <div class="field" title={tipOf(props)}>
@@ -162,21 +190,22 @@ export function NumberField(props: FieldProps) {
             typed = true;
             window.clearTimeout(typing);
             if (now === text || String(parseFloat(now)) !== now) return;
-            typing = window.setTimeout(() => box.isConnected && box.value === now && set(now), pause);
+            typing = window.setTimeout(() => box.isConnected && box.value === now && type(now), pause);
           }}
-          onChange={(event) => event.currentTarget.value !== text && set(event.currentTarget.value)}
+          onChange={(event) => event.currentTarget.value !== text && type(event.currentTarget.value)}
           onKeyDown={(event) => {
             // Enter takes a number that was typed; once more, with its preview in sight, it applies
             const { key, currentTarget: box } = event;
             if (key !== 'Enter' || (!typed && box.value === text)) return;
             event.preventDefault();
             typed = false;
-            if (box.value !== text) set(box.value);
+            if (box.value !== text) type(box.value);
           }}
           onBlur={() => (typed = false)}
         />
         <span class="unit">{unit}</span>
       </div>
+      {position && <Side sense={sense} value={value ?? 0} />}
       {kind === 'ring' && field.name === 'size' && (
         <small>{formTexts.sizeFrom(state.main.value?.figures.measures.annulusCc ?? NaN)}</small>
       )}

@@ -1,10 +1,13 @@
-// In the form of an operation that narrows the valve: how far it would open, beside the valve before and the goal.
+// In the form of an operation that narrows the valve: how far it would open, beside the valve before and the goal; at a press why.
 import { leastOpening, narrowing, openingOf, smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
 import { openingTexts, stenosis, verdictTexts } from '../text/texts';
 
 /** Operations that make the annulus smaller. */
 const ofAnnulus = new Set(['ring', 'band']);
+
+/** Share of the opening before below which the form says why so little is left, also where that is no stenosis. */
+const muchLess = 0.8;
 
 /** Share by which two openings differ no more than they are known. */
 const accuracy = 0.02;
@@ -23,21 +26,41 @@ export function Opening({ kind }: { kind: string }) {
   const narrower = preview.measures.annulusCc < (state.main.value?.figures.measures.annulusCc ?? 0);
   // the annulus became smaller and the opening did not
   const elsewhere = ofAnnulus.has(kind) && narrower && share >= 1 - accuracy;
+  const less = share < muchLess;
   const why = [
-    word && (small === null ? openingTexts.narrow(word) : verdictTexts.smallAnnulus(small)),
+    (word || less) && kind === 'clip' && openingTexts.clip,
     elsewhere && openingTexts.elsewhere,
+    word && (small === null ? openingTexts.narrow(word) : verdictTexts.smallAnnulus(small)),
+    less && openingTexts.measured,
   ].filter((text) => !!text);
   return (
-    <p
-      class={`opens${warn ? ' warn' : ''}`}
-      data-testid="opening"
-      title={[openingTexts.help, ...why].join(' ')}
-    >
+    <div class={`opens${warn ? ' warn' : ''}`} data-testid="opening" title={openingTexts.help}>
       {openingTexts.opens(now?.openArea)}
       <span class="was"> {openingTexts.beside(before?.openArea, least, same)}</span>
-      {why.map((text) => (
-        <small>{text}</small>
-      ))}
-    </p>
+      {why.length > 0 && <Why question={openingTexts.why(word, less)} answers={why as string[]} />}
+    </div>
   );
 }
+
+/** Closed it takes one line of the foot: the fields above it stay in sight. */
+function Why({ question, answers }: { question: string; answers: string[] }) {
+  const open = state.sections.value.get(section) ?? false;
+  return (
+    <details
+      class="why"
+      open={open}
+      onToggle={({ currentTarget }) => {
+        if (currentTarget.open !== open)
+          state.sections.value = new Map(state.sections.value).set(section, currentTarget.open);
+      }}
+    >
+      <summary title={openingTexts.whyTip}>{question}</summary>
+      {answers.map((text) => (
+        <p>{text}</p>
+      ))}
+    </details>
+  );
+}
+
+/** The name by which the page remembers whether it is open. */
+const section = 'why it opens so far';

@@ -8,7 +8,7 @@ import { headline, relieved } from '../store/verdict';
 import { figure, reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
 import type { Cost, Figures, SectionRequest, Shown } from '../protocol';
 import { openingOf } from '../store/limits';
-import { measurePlan } from '../store/opening';
+import { measureReport, toMeasure } from '../store/opening';
 import { keptName, readPlans } from '../store/plans';
 import { fail, request } from '../store/requests';
 import { view } from './app';
@@ -165,8 +165,17 @@ export function ReportDialog() {
     const write = () => (html.value = reportHtml(seen, pictures, plot));
     write();
     sectionPlot(seen).then((drawn) => ((plot = drawn), write()), fail);
-    measurePlan(seen.shown.figures.hash, seen.which).then(write, fail);
-    readPlans().then(write, fail);
+    let open = true;
+    const measured = () => (open && write(), open);
+    void readPlans()
+      .catch(fail)
+      .then(() => {
+        const all = measureReport(seen.shown.figures.hash, seen.which, measured);
+        measured();
+        return all;
+      })
+      .then(measured);
+    return () => void (open = false);
   }, []);
   const saved = useSignal('');
   const save = () => {
@@ -192,6 +201,11 @@ export function ReportDialog() {
             {reportTexts.print}
           </Button>
           {saved.value && <span class="hint">{saved.value}</span>}
+          {toMeasure.value > 0 && (
+            <span class="hint" role="status" data-testid="measuring">
+              {reportTexts.measuring(toMeasure.value)}
+            </span>
+          )}
         </div>
         <div class="report" data-testid="report" dangerouslySetInnerHTML={body} />
       </Modal>

@@ -1,5 +1,6 @@
 // The plans that are kept beside the one of a report, with their figures in a table, as HTML.
 import { openingOf } from '../store/limits';
+import { toMeasure } from '../store/opening';
 import { planName } from '../store/plans';
 import * as state from '../store/state';
 import { headline } from '../store/verdict';
@@ -25,7 +26,7 @@ function row(name: string, figures: Figures): string {
   const cost = openingOf(figures.hash);
   const cells = [
     ...columns.map((column) => valueIn(column, figures)),
-    cost ? areaText(cost) : reportTexts.notMeasured,
+    cost ? areaText(cost) : toMeasure.value ? reportTexts.coming : reportTexts.notMeasured,
   ];
   const all = cells.map((cell) => `<td>${escape(cell)}</td>`).join('');
   return `<tr><th>${escape(name)}</th><td class="wrap">${escape(headline(figures))}</td>${all}</tr>`;

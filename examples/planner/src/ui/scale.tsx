@@ -1,5 +1,6 @@
 // What the colours of the picture mean: keys of tissue and chordae; the scale of a colour map in its unit, with the limits
 // of the chordae.
+import { useLayoutEffect, useRef } from 'preact/hooks';
 import { limitsOf, suture } from '../notable';
 import * as state from '../store/state';
 import { barTexts, figure, kinds, mapWords, scaleTexts } from '../text/texts';
@@ -31,12 +32,28 @@ function Key({ of, text }: { of: string; text: string }) {
 export function Scale() {
   const surface = !!state.surface.value;
   const name: MapName = surface ? 'tissue' : state.map.value;
-  return name === 'tissue' ? <TissueKeys surface={surface} /> : <MapScale name={name} />;
+  const box = useRef<HTMLDivElement>(null);
+  const tissue = name === 'tissue';
+  useLayoutEffect(() => {
+    const size = new ResizeObserver(() => (state.keysHeight.value = box.current?.offsetHeight ?? 0));
+    size.observe(box.current!);
+    return () => size.disconnect();
+  }, []);
+  return (
+    <div
+      ref={box}
+      class={`scale${tissue ? ' tissue' : ''}`}
+      data-testid={tissue ? undefined : 'scale'}
+      aria-hidden={tissue ? 'true' : undefined}
+    >
+      {tissue ? <TissueKeys surface={surface} /> : <MapScale name={name} />}
+    </div>
+  );
 }
 
 function TissueKeys({ surface }: { surface: boolean }) {
   return (
-    <div class="scale tissue" aria-hidden="true">
+    <>
       <Key of="atrial" text={barTexts.atrial} />
       <Key of="ventricular" text={barTexts.ventricular} />
       {!surface && (state.figures.value?.measures.orifice ?? 0) > 0 && (
@@ -48,7 +65,7 @@ function TissueKeys({ surface }: { surface: boolean }) {
         <Key of="artificial" text={barTexts.artificial} />
       )}
       {!surface && state.chordsOn.value && hasStitches() && <Key of="stitch" text={barTexts.stitch} />}
-    </div>
+    </>
   );
 }
 
@@ -56,7 +73,7 @@ function MapScale({ name }: { name: Exclude<MapName, 'tissue'> }) {
   const map = maps[name];
   const words = mapWords[name];
   return (
-    <div class="scale" data-testid="scale">
+    <>
       <span>{scaleTexts.title(words.scale, map.unit)}</span>
       <Bar map={map} limits={isChordMap(name) ? marksOf(name) : []} />
       {words.low && (
@@ -70,7 +87,7 @@ function MapScale({ name }: { name: Exclude<MapName, 'tissue'> }) {
       {isChordMap(name) && hasSlack() && <Key of="slack" text={barTexts.slack} />}
       {isChordMap(name) && hasArtificial() && <Key of="artificial" text={barTexts.artificial} />}
       {words.none && <Key of="none" text={words.none} />}
-    </div>
+    </>
   );
 }
 

@@ -40,6 +40,36 @@ export function meets([ax, ay, bx, by]: Line, box: Box): boolean {
 export const overlap = (a: Box, b: Box): boolean =>
   a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
+/** The box of a label whose middle is at a place. */
+export const boxAt = ([x, y]: [number, number], { width, height }: Pick<Box, 'width' | 'height'>): Box => ({
+  x: x - width / 2,
+  y: y - height / 2,
+  width,
+  height,
+});
+
+/** The place of a label and others around it, the nearest first, up to `far` heights or half widths of its words away. */
+export function placesAround(
+  [x, y]: [number, number],
+  { width, height }: Pick<Box, 'width' | 'height'>,
+  far: number,
+): [number, number][] {
+  const places: [number, number][] = [[x, y]];
+  for (let away = 0.5; away <= far; away += 0.5)
+    for (const [right, down] of [
+      [0, -1],
+      [0, 1],
+      [-1, 0],
+      [1, 0],
+      [-1, -1],
+      [1, -1],
+      [-1, 1],
+      [1, 1],
+    ])
+      places.push([x + (right * away * width) / 2, y + down * away * height]);
+  return places;
+}
+
 export class Callout {
   /** The place that was taken last. */
   private last = 0;

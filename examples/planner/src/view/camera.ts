@@ -20,6 +20,8 @@ export class Camera {
   readonly view = new Matrix4();
   readonly projection = new Matrix4();
   readonly viewProjection = new Matrix4();
+  /** Turned, moved or drawn nearer by hand since the last preset. */
+  byHand = false;
   private goal: { orientation: Quaternion; target: Vector3; distance: number } | null = null;
 
   position(): Vector3 {
@@ -37,9 +39,14 @@ export class Camera {
     this.viewProjection.multiplyMatrices(this.projection, this.view);
   }
 
+  private letGo(): void {
+    this.goal = null;
+    this.byHand = true;
+  }
+
   /** Turns by angles in rad about the axes of the screen. */
   rotate(right: number, down: number): void {
-    this.goal = null;
+    this.letGo();
     const turn = new Quaternion()
       .setFromAxisAngle(new Vector3(0, 1, 0), -right)
       .multiply(new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -down));
@@ -47,7 +54,7 @@ export class Camera {
   }
 
   roll(angle: number): void {
-    this.goal = null;
+    this.letGo();
     this.orientation.multiply(new Quaternion().setFromAxisAngle(new Vector3(0, 0, 1), angle)).normalize();
   }
 
@@ -57,13 +64,13 @@ export class Camera {
   }
 
   pan(dx: number, dy: number, height: number): void {
-    this.goal = null;
+    this.letGo();
     const s = this.scale(height);
     this.target.add(new Vector3(-dx * s, dy * s, 0).applyQuaternion(this.orientation));
   }
 
   zoom(factor: number): void {
-    this.goal = null;
+    this.letGo();
     this.distance = Math.min(farthest, Math.max(15, this.distance * factor));
   }
 
@@ -87,6 +94,7 @@ export class Camera {
     const target = at ?? origin.clone().addScaledVector(up, -depth * radius);
     const room = preset === 'surgeon' ? 1.02 : 1.2;
     const narrow = Math.min(1, this.aspect);
+    this.byHand = false;
     this.goal = { orientation, target, distance: (room * radius) / Math.tan(this.fov / 2) / narrow };
   }
 
@@ -97,6 +105,35 @@ export class Camera {
       const [px, py] = this.project(x, y, z, width, height);
       return px >= 0 && py >= 0 && px <= width && py <= height - foot;
     });
+  }
+
+  /**
+   * Moves the goal of a preset so that points lie above what stands at the foot of the picture, by as little as it takes: they rise
+   * into the room below `top`, and where that is too little the camera goes back. `lowest`: the pixel above which a point at x lies.
+   */
+  clear(points: number[][], lowest: (x: number) => number, top: number, width: number, height: number): void {
+    const { goal } = this;
+    if (!goal || !points.length) return;
+    const { distance } = this;
+    const [orientation, target] = [this.orientation.clone(), this.target.clone()];
+    this.orientation.copy(goal.orientation);
+    this.target.copy(goal.target);
+    this.distance = goal.distance;
+    while (this.distance < farthest) {
+      this.update();
+      const places = points.map(([x, y, z]) => this.project(x, y, z, width, height));
+      const over = Math.max(...places.map(([x, y]) => y - lowest(x)));
+      if (over <= 0) break;
+      const room = Math.min(...places.map(([, y]) => y)) - top;
+      if (over > room) this.distance *= fitStep;
+      const up = new Vector3(0, 1, 0).applyQuaternion(this.orientation);
+      this.target.addScaledVector(up, -Math.max(0, Math.min(over, room) + 1) * this.scale(height));
+    }
+    this.goal = { orientation: goal.orientation, target: this.target.clone(), distance: this.distance };
+    this.orientation.copy(orientation);
+    this.target.copy(target);
+    this.distance = distance;
+    this.update();
   }
 
   /** Begins to go back until points are in the picture. */

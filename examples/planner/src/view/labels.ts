@@ -3,7 +3,7 @@ import * as state from '../store/state';
 import { percentOfLimit, shareOfLimit } from '../notable';
 import { markTexts } from '../text/texts';
 import { cutScallops } from './cut';
-import { Callout, overlap, type Box, type Line } from './callout';
+import { boxAt, Callout, overlap, placesAround, type Box, type Line } from './callout';
 import { clipPlace } from './clip';
 import { pickSurface } from './pick';
 import type { Topology } from '../protocol';
@@ -18,18 +18,30 @@ interface Label {
   chosen?: boolean;
 }
 
+/** A label on the screen: its element, the pixel that it names, and the size of its words. */
+interface Placed {
+  label: Label;
+  element: HTMLElement;
+  at: [number, number];
+  size: { width: number; height: number };
+}
+
 /** One label for all heads of a papillary muscle: AL1, AL2 and AL3 are AL; the chosen head has its own. */
 function headLabels(topology: Topology, x: Float32Array): Label[] {
   const choice = state.choice.value;
   const muscles = new Map<string, number[][]>();
+  let named = '';
   topology.headNodes.forEach((node, h) => {
     const { id, name: own } = topology.heads[h];
-    const name = choice?.kind === 'head' && choice.id === id ? own : own.replace(/\d+$/, '') || own;
+    const chosen = choice?.kind === 'head' && choice.id === id;
+    if (chosen) named = own;
+    const name = chosen ? own : own.replace(/\d+$/, '') || own;
     muscles.set(name, [...(muscles.get(name) ?? []), [0, 1, 2].map((c) => x[3 * node + c])]);
   });
   return [...muscles].map(([text, places]) => ({
     text,
     kind: 'head',
+    chosen: text === named,
     at: [0, 1, 2].map((c) => places.reduce((sum, place) => sum + place[c], 0) / places.length),
   }));
 }
@@ -81,14 +93,22 @@ function chordLabel(topology: Topology, x: Float32Array): Label[] {
 /** mm behind the leaflets at which the name of a papillary muscle is still shown. */
 const tolerance = 4;
 
-/** Pixels between the middle of a handle and its name. */
+/** Pixels between the middle of a handle and its name, and across the ball of a handle. */
 const besideHandle = 24;
+const ball = 26;
+
+/** How far a name may stand from its place to avoid other labels, in heights and half widths of its words. */
+const reach = { chosen: 4, other: 2 };
+
+/** The order in which names take their places. */
+const rank = ({ chosen, kind }: Label): number => (chosen ? 0 : kind === 'head' ? 1 : 2);
 
 export class Labels {
   private layer: HTMLElement;
   private elements: HTMLElement[] = [];
   private readonly leader: HTMLElement;
   private readonly callout = new Callout();
+  private readonly sizes = new Map<string, { width: number; height: number }>();
 
   constructor(host: HTMLElement) {
     this.layer = document.createElement('div');
@@ -108,7 +128,6 @@ export class Labels {
     const names = state.labelsOn.value
       ? [...headLabels(topology, x), ...scallopLabels(view, topology, x)]
       : [];
-    // names of handles first: those of tissue give way to them
     return [...handleLabels(view, topology, x), ...names, ...chordLabel(topology, x)];
   }
 
@@ -134,27 +153,54 @@ export class Labels {
     return element;
   }
 
+  /** The size of a label's words, which is measured once. */
+  private sizeOf(element: HTMLElement): { width: number; height: number } {
+    const key = `${element.className} ${element.textContent}`;
+    let size = this.sizes.get(key);
+    if (!size) {
+      element.hidden = false;
+      size = { width: element.offsetWidth, height: element.offsetHeight };
+      if (this.sizes.size > 200) this.sizes.clear();
+      this.sizes.set(key, size);
+    }
+    return size;
+  }
+
   update(view: Viewport): void {
     const labels = this.wanted(view);
-    const taken: Box[] = [];
     this.leader.hidden = true;
     while (this.elements.length > labels.length) this.elements.pop()!.remove();
-    labels.forEach((label, k) => {
+    const placed = labels.map((label, k): Placed => {
+      const [x, y, z] = label.at;
+      const [px, py] =
+        label.kind === 'scallop' ? label.at : view.camera.project(x, y, z, view.width, view.height);
       const element = this.elementOf(k, label);
-      const tissue = label.kind === 'scallop';
-      const [px, py] = tissue
-        ? label.at
-        : view.camera.project(label.at[0], label.at[1], label.at[2], view.width, view.height);
-      if (label.kind === 'chord') return this.callOut(view, element, [px, py], taken);
-      // a scallop gives way to labels in front of it
-      const covered =
-        tissue &&
-        taken.some(({ x, y, width, height }) => Math.hypot(x + width / 2 - px, y + height / 2 - py) < 32);
-      element.hidden = covered || (label.kind === 'head' && this.hidden(view, label, px, py));
-      if (label.kind === 'handle') return this.besideHandle(view, element, [px, py], taken);
-      if (!element.hidden) taken.push({ x: px - 12, y: py - 9, width: 24, height: 18 });
-      element.style.transform = `translate(${px.toFixed(1)}px, ${py.toFixed(1)}px) translate(-50%, -50%)`;
+      return { label, element, at: [px, py], size: this.sizeOf(element) };
     });
+    const of = (...kinds: Label['kind'][]) => placed.filter(({ label }) => kinds.includes(label.kind));
+    const taken: Box[] = of('handle').map(({ at }) => boxAt(at, { width: ball, height: ball }));
+    for (const { element, at } of of('handle')) this.besideHandle(view, element, at, taken);
+    const names = of('head', 'scallop').filter(
+      ({ label, at }) => label.kind === 'scallop' || !this.hidden(view, label, ...at),
+    );
+    for (const one of of('head')) one.element.hidden = !names.includes(one);
+    const wished = [...taken, ...names.map(({ at, size }) => boxAt(at, size))];
+    for (const one of of('chord')) taken.push(this.callOut(view, one.element, one.at, wished));
+    // what is chosen stays where it is; the others give way to it
+    names.sort((a, b) => rank(a.label) - rank(b.label));
+    for (const one of names) this.putName(one, taken);
+  }
+
+  /** A name stands at its place, beside it where another label is there, or nowhere. */
+  private putName({ label, element, at, size }: Placed, taken: Box[]): void {
+    const far = label.chosen ? reach.chosen : reach.other;
+    const place = placesAround(at, size, far).find(
+      (one) => !taken.some((other) => overlap(other, boxAt(one, size))),
+    );
+    element.hidden = !place && !label.chosen;
+    const [x, y] = place ?? at;
+    if (!element.hidden) taken.push(boxAt([x, y], size));
+    element.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px) translate(-50%, -50%)`;
   }
 
   /** The name of a handle stands on its right, or on its left where the picture ends or another name is there. */
@@ -178,7 +224,7 @@ export class Labels {
   }
 
   /** The label of a chord stands beside all chordae, at the end of a line. */
-  private callOut(view: Viewport, element: HTMLElement, at: [number, number], taken: Box[]): void {
+  private callOut(view: Viewport, element: HTMLElement, at: [number, number], taken: Box[]): Box {
     element.hidden = false;
     const size = { x: 0, y: 0, width: element.offsetWidth, height: element.offsetHeight };
     const picture = { x: 0, y: 0, width: view.width, height: view.height };
@@ -194,6 +240,7 @@ export class Labels {
     this.leader.hidden = false;
     this.leader.style.width = `${length.toFixed(1)}px`;
     this.leader.style.transform = `translate(${at[0].toFixed(1)}px, ${at[1].toFixed(1)}px) rotate(${Math.atan2(dy, dx).toFixed(4)}rad)`;
+    return boxAt([x, y], size);
   }
 }
 

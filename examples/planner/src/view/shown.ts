@@ -1,7 +1,6 @@
 // The valve that the page shows, be it that of the plan, a preview, the valve before, or one in motion: its frame and
 // size, and its meshes with their labels and leak.
-import { chordValue, leakPlaces, shareOfLimit, titlesOf } from '../notable';
-import { clipIn } from '../text/texts';
+import { chordValue, leakPlaces, shareOfLimit } from '../notable';
 import type { Fields, Picture, Topology } from '../protocol';
 import * as state from '../store/state';
 import { clipNames, clipParts } from './clips';
@@ -119,8 +118,8 @@ export function valveMeshes(frame: number[]): Mesh[] {
 /** Turns of the clips of the shown valve, as its plan says; a clip from before the plan is drawn across the edge. */
 function clipTurns(topology: Topology): Map<string, number> {
   const figures = (state.shown.value ?? state.resting.value)?.figures;
-  const titles = figures ? titlesOf(figures) : [];
-  return new Map([...clipNames(topology)].map((name) => [name, clipIn(name, titles)?.angle ?? 0]));
+  const turns = new Map(figures?.clips.map(({ name, angle }) => [name, angle]));
+  return new Map([...clipNames(topology)].map((name) => [name, turns.get(name) ?? 0]));
 }
 
 /** Ends of the chordae that the preview takes away, in the valve before. */

@@ -11,13 +11,11 @@ import { Labels } from './labels';
 import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
+import { lowestFree, outlineOf, topOf } from './room';
 import { rimOf, sectionMeshes, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh } from './surface';
 import { WebGl } from './webgl';
-
-/** Pixels of the keys of the colours at the foot of the picture. */
-const keysHeight = 40;
 
 /** ms without motion until the picture is drawn in full. */
 const still = 140;
@@ -53,6 +51,8 @@ export class Viewport {
   readonly times: number[] = [];
   /** A surface to show instead of a valve, during an import. */
   surface: Mesh | null = null;
+  /** The view that was gone to last. */
+  private preset: Preset = 'surgeon';
   /** The frame of its views, and its radius. */
   private found: { frame: number[]; radius: number } | null = null;
 
@@ -87,6 +87,10 @@ export class Viewport {
     effect(() => {
       const wanted = state.wantedView.value;
       if (wanted) untracked(() => this.go(wanted.preset));
+    });
+    // more lines of keys rise into the view
+    effect(() => {
+      if (state.keysHeight.value && !this.camera.byHand) untracked(() => this.keysGrew());
     });
     effect(() => {
       const field = state.picking.value;
@@ -164,9 +168,29 @@ export class Viewport {
 
   go(preset: Preset, atOnce = false): void {
     const frame = this.frameOf();
+    this.preset = preset;
     this.camera.go(preset, frame, this.radius());
+    this.clearKeys();
     if (atOnce) this.camera.finish();
     this.moved();
+  }
+
+  /** Keeps annulus and papillary muscles above the keys of the colours in the view that is gone to. */
+  private clearKeys(): void {
+    const picture = state.picture.value;
+    if (!picture || this.surface) return;
+    const { width, height } = this;
+    this.camera.clear(
+      outlineOf(picture, this.frameOf()),
+      lowestFree(this.host),
+      topOf(height),
+      width,
+      height,
+    );
+  }
+
+  private keysGrew(): void {
+    if (this.framed && state.main.peek() && !this.surface) this.go(this.preset);
   }
 
   frameOf(): number[] {
@@ -217,8 +241,9 @@ export class Viewport {
     const [before, key] = [this.held, `${main.value.figures.hash} ${preview.value?.figures.hash ?? ''}`];
     if (this.heldOf === key) return;
     const whole = before.length > 0 && this.camera.shows(before, this.width, this.height);
-    if (whole && !this.camera.shows(rim, this.width, this.height, keysHeight))
-      this.camera.fit(rim, this.width, this.height, keysHeight);
+    const foot = this.height - lowestFree(this.host)(0.5 * this.width);
+    if (whole && !this.camera.shows(rim, this.width, this.height, foot))
+      this.camera.fit(rim, this.width, this.height, foot);
     [this.held, this.heldOf] = [rim, key];
   }
 

@@ -11,6 +11,10 @@ interface Removed {
   place: number;
 }
 
+/** The name in "checkpoint NAME"; null for another valve. */
+export const checkpointIn = (which: string): string | null =>
+  which.startsWith('checkpoint ') ? which.slice('checkpoint '.length) : null;
+
 export class Checkpoints extends Map<string, Snapshot> {
   private removed: Removed | null = null;
 

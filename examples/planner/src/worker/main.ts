@@ -74,6 +74,7 @@ const handlers: Handlers = {
     post({ id, motion: planner.motion(0) });
     return closed;
   },
+  begin_here: () => (letGo(), planner.beginHere()),
   open_file: ({ bytes }, { signal, report }) => {
     letGo();
     return planner.openBytes(bytes, signal, report);

@@ -3,7 +3,6 @@ import { ChordKind, type Mvs, type Snapshot } from 'libmvs';
 import type {
   Chord,
   Figures,
-  HistoryEntry,
   Known,
   Measures,
   Motion,
@@ -15,6 +14,7 @@ import type {
 } from '../protocol';
 import { beyondLimit, shareOfLimit } from '../notable';
 import { mostSent, Recent } from '../recent';
+import { clipsOf, historyOf } from './history';
 import { ml, mm, mm2, scaled } from './units';
 
 /** Pa; natural chordae have less, expanded PTFE 400 MPa. */
@@ -218,17 +218,6 @@ function orificePartsOf(snapshot: Snapshot): OrificePart[] {
   }));
 }
 
-function historyOf(snapshot: Snapshot): HistoryEntry[] {
-  const { done, undone } = snapshot.history();
-  const entry = (undoneNow: boolean) => (item: (typeof done)[number]) => ({
-    title: item.title,
-    kind: String(item.kind),
-    group: item.in_group,
-    undone: undoneNow,
-  });
-  return [...done.map(entry(false)), ...undone.map(entry(true))];
-}
-
 /** Largest principal stretch minus one at each node: the mean of its triangles. */
 function nodeStretch(snapshot: Snapshot): Float32Array {
   const triangles = snapshot.array<Uint32Array>('triangle_nodes');
@@ -269,6 +258,7 @@ export function figuresOf(mvs: Mvs, snapshot: Snapshot, known: Known = 'all'): F
     heads,
     frame: frameOf(snapshot),
     history: historyOf(snapshot),
+    clips: clipsOf(mvs, snapshot),
     fields: all
       ? {
           coaptation: scaled(snapshot.array<Float64Array>('node_coaptation'), mm),

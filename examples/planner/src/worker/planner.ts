@@ -22,31 +22,20 @@ import type {
   Spread,
 } from '../protocol';
 import { refusals } from '../text/texts';
-import { Checkpoints } from './checkpoints';
+import { breathe } from './breathe';
+import { checkpointIn, Checkpoints } from './checkpoints';
 import { libraryFields } from './operations';
+import { ofRepair } from './history';
+import { openingOf } from './opening';
 import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
 import { sectionOf } from './section';
 import { spreadOf } from './spread';
-import { ml, mm, mm2, mmHg } from './units';
 
 /** Settles run in slices of this length, s, so that a cancel is heard. */
 const slice = 0.03;
 /** N, largest out-of-balance force at rest: that of the library's recommendation for closures. The
  * page shows no margins of stability. */
 const settleOptions = { residual: 1e-4, flags: SettleFlags.no_margins };
-
-/** Lets the worker receive messages. */
-function breathe(): Promise<void> {
-  return new Promise((resolve) => {
-    const { port1, port2 } = new MessageChannel();
-    port1.onmessage = () => (port1.close(), resolve());
-    port2.postMessage(0);
-  });
-}
-
-/** The name in "checkpoint NAME"; null for another valve. */
-const checkpointIn = (which: string): string | null =>
-  which.startsWith('checkpoint ') ? which.slice('checkpoint '.length) : null;
 
 export class Planner {
   readonly main: Simulator;
@@ -59,6 +48,10 @@ export class Planner {
   healthy: Snapshot | null = null;
   /** The closed valve before the first operation. */
   private first: Snapshot | null = null;
+  /** Operations that made the valve what it was before the repair; the page neither lists nor undoes them. */
+  before = 0;
+  /** Operations that had been undone before the repair, while they could be repeated: until the first of the repair. */
+  private forgotten = false;
 
   constructor(readonly mvs: Mvs) {
     this.main = mvs.simulator();
@@ -84,14 +77,29 @@ export class Planner {
     return this.shown();
   }
 
+  /**
+   * The present valve becomes the one before the repair, in its very state: the plan goes on from the starting valve, so that a session
+   * repeats it to the same bits. A valve that is saved as a file and closed again has others.
+   */
+  beginHere(): Shown {
+    const first = this.main.snapshot();
+    this.forget();
+    this.first = first;
+    this.before = first.history().done.length;
+    this.forgotten = true;
+    return this.shown();
+  }
+
   /** Takes over an opened session. */
   take(
     start: Uint8Array,
     snapshot: Snapshot,
     first: Snapshot,
     checkpoints: (readonly [string, Snapshot])[],
+    before: number,
   ): void {
     this.forget();
+    this.before = before;
     this.main.restore(snapshot);
     this.first = first;
     this.start = start.slice();
@@ -101,6 +109,8 @@ export class Planner {
   private forget(): void {
     this.checkpoints.forget();
     this.healthy = null;
+    this.before = 0;
+    this.forgotten = false;
     this.first?.dispose();
     this.first = null;
     this.discard();
@@ -125,9 +135,10 @@ export class Planner {
   }
 
   shownOf(snapshot: Snapshot, known: Known = 'all'): Shown {
+    const figures = figuresOf(this.mvs, snapshot, known);
     return {
       picture: pictureOf(snapshot, known !== 'shape'),
-      figures: figuresOf(this.mvs, snapshot, known),
+      figures: { ...figures, history: ofRepair(figures.history, this.before, this.forgotten) },
     };
   }
 
@@ -192,6 +203,7 @@ export class Planner {
     const accepted = this.preview;
     if (!accepted) throw new MvsError('MVS_E_STATE', 'preview', refusals.noPreview);
     this.preview = null;
+    this.forgotten = false;
     try {
       this.main.restore(accepted);
       return has === 'all' ? null : await this.inStages(accepted, stage, has);
@@ -236,20 +248,7 @@ export class Planner {
 
   /** The valve opened in diastole; the gradient of a flow in ml/s, if one is given. */
   cost({ which, flow }: CostRequest): Cost {
-    const costOf = (snapshot: Snapshot): Cost => {
-      const asked = flow > 0 ? { residual: 1e-4, flow: flow / ml } : { residual: 1e-4 };
-      const { cost, opened } = snapshot.cost(asked);
-      opened.dispose();
-      return {
-        hash: snapshot.hash,
-        openArea: cost.open_area * mm2,
-        anteriorLength: cost.anterior_length * mm,
-        posteriorLength: cost.posterior_length * mm,
-        lengthRatio: cost.length_ratio,
-        annulusForce: cost.annulus_force_sum,
-        gradient: cost.gradient / mmHg,
-      };
-    };
+    const costOf = (snapshot: Snapshot) => openingOf(snapshot, flow);
     if (which === 'preview' && this.preview) return costOf(this.preview);
     if (which === 'first' && this.first) return costOf(this.first);
     const name = checkpointIn(which);

@@ -20,6 +20,8 @@ interface Description {
   hash: string;
   saved: string;
   checkpoints: { name: string; plan: string }[];
+  /** How many operations of the plan made the valve what it was before the repair; none where it is left out. */
+  before?: number;
 }
 
 export function saveSession(planner: Planner, title: string, notes: string): Uint8Array {
@@ -39,6 +41,7 @@ export function saveSession(planner: Planner, title: string, notes: string): Uin
     hash,
     saved: new Date().toISOString(),
     checkpoints,
+    before: planner.before || undefined,
   };
   files['session.json'] = strToU8(JSON.stringify(description, null, 2));
   return zipSync(files, { level: 6 });
@@ -96,9 +99,11 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
     trial.load(valve, 'obj');
     trial.replayPlan(text('plan.json'));
     const repaired = trial.snapshot();
-    // undo gives the closed valve before the first operation back, without a settle
-    while (trial.read((snapshot) => snapshot.history().done.length)) trial.undo();
-    planner.take(valve, repaired, trial.snapshot(), checkpoints);
+    const done = () => trial.read((snapshot) => snapshot.history().done.length);
+    const before = Math.min(done(), Math.max(0, Math.floor(Number(description.before) || 0)));
+    // undo gives the closed valve before the repair back, without a settle
+    while (done() > before) trial.undo();
+    planner.take(valve, repaired, trial.snapshot(), checkpoints, before);
     repaired.dispose();
   } finally {
     trial.dispose();
