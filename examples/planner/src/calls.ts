@@ -14,6 +14,7 @@ import type {
   OperationInfo,
   Section,
   SectionRequest,
+  SessionContents,
   SessionOpened,
   Shown,
   Spread,
@@ -51,7 +52,7 @@ export interface Calls {
   restore: { argument: { name: string }; result: Shown };
   read_checkpoint: { argument: { name: string }; result: Shown };
   save_obj: { argument: null; result: Uint8Array };
-  save_session: { argument: { notes: string; title: string }; result: Uint8Array };
+  save_session: { argument: SessionContents; result: Uint8Array };
   open_session: { argument: { bytes: Uint8Array }; result: SessionOpened };
   founding_healthy: { argument: { vertices: number }; result: FoundingResult['healthy'] };
   founding_repair: {

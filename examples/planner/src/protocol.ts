@@ -242,6 +242,14 @@ export interface Cost {
   gradient: number;
 }
 
+/** What a session holds beside the plan. */
+export interface SessionContents {
+  title: string;
+  notes: string;
+  /** mm2, within which the leak of the starting valve is known; null where that was not built from an image. */
+  leakRange?: Range | null;
+}
+
 export interface SessionOpened {
   shown: Shown;
   /** The closed valve before the first operation. */
@@ -249,6 +257,7 @@ export interface SessionOpened {
   checkpoints: CheckpointList;
   notes: string;
   title: string;
+  leakRange: Range | null;
   sameResult: boolean;
 }
 

@@ -155,6 +155,12 @@ describe('surface', () => {
       await second.getByTestId('findings').waitFor();
       await closed(second);
       assert.match(await second.getByTestId('findings').innerText(), /commissures\s+given/i);
+      // one closure says little: the range of the findings stands beside its leak, also after a crash
+      const found = /leak interval\s+measured\s+([\d.]+ to [\d.]+)\smm²/i;
+      const [, range] = found.exec(await second.getByTestId('findings').innerText());
+      const said = `chordae are guessed: a leak of ${range} mm² is possible`;
+      await second.getByTestId('verdict').getByText(said).waitFor();
+      assert.match(await second.getByTestId('status').innerText(), new RegExp(said));
       const { hash } = await figures(second);
       await second.waitForTimeout(1500);
       const third = await reopenAfterCrash(second);
@@ -164,6 +170,7 @@ describe('surface', () => {
       await answered(third, 300);
       assert.equal((await figures(third)).hash, hash);
       assert.equal(await third.getByTestId('present').innerText(), 'patient');
+      await third.getByTestId('verdict').getByText(said).waitFor();
       // it is in no file: another valve does not take its place without a way back
       await third.getByRole('button', { name: 'Start from a healthy valve' }).click();
       await third.getByRole('button', { name: 'Return to it' }).click();

@@ -8,6 +8,7 @@ import type { FileUnit, Shown } from '../protocol';
 import { mayReplace } from './ask';
 import { discard } from './edit';
 import { learnFounding } from './founding';
+import { keepLeakRange, rangeIn } from './leak_range';
 import { forget, leave, remember, repairOf, type Left } from './left';
 import { run, show } from './requests';
 import * as state from './state';
@@ -208,6 +209,7 @@ export async function buildValve(): Promise<void> {
   const built = await run(t.building, 'build', { ...from.points, kind: from.kind, name: title });
   if (!built) return;
   state.tour.value = null;
+  keepLeakRange(built.shown.figures.hash, rangeIn(built.findings));
   begun(built.shown, title, left, true);
   state.imported.value = { ...from, findings: built.findings };
   state.panel.value = 'import';
@@ -224,6 +226,7 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
   }
   leaveSurface();
   batch(() => {
+    keepLeakRange(opened.first.figures.hash, opened.leakRange);
     show(opened.shown, true);
     state.tour.value = null;
     state.first.value = opened.first;

@@ -4,6 +4,7 @@ import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import type { Figures } from '../protocol';
 import { grade, headlineOf, stenosis, verdictTexts, where } from '../text/texts';
 import { missedGoals } from './goals';
+import { ofLeakRange } from './leak_range';
 import { faultyLoad, leastOpening, narrowing, openingOf, smallAnnulus, undersizedFrom } from './limits';
 
 export interface Verdict {
@@ -56,7 +57,13 @@ export function verdictOf(figures: Figures): Verdict {
   if (!measures.atRest || !measures.underLoad) return { ...none, word: verdictTexts.notAtRest };
   return {
     ...grade(measures.orifice),
-    but: [...ofOpening(figures), ...ofAnnulus(figures), ...missedGoals(figures), ...ofChordae(figures)],
+    but: [
+      ...ofLeakRange(figures),
+      ...ofOpening(figures),
+      ...ofAnnulus(figures),
+      ...missedGoals(figures),
+      ...ofChordae(figures),
+    ],
     unmeasured: isNarrowed(figures) && !openingOf(figures.hash),
   };
 }

@@ -527,6 +527,11 @@ export const verdictTexts = {
   ofClosed: 'when closed',
   chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
   but: ', but',
+  /** Beside the leak of a valve from an image. */
+  leakKnown: (low: number, high: number) =>
+    `chordae are guessed: a leak of ${number(low)} to ${number(high)} mm² is possible`,
+  leakBefore: (low: number, high: number) =>
+    `The leak before the repair is known as ${number(low)} to ${number(high)} mm² only: chordae were guessed`,
   butHelp: 'A sealed valve may still open too little, miss another goal, or hang on chordae that may tear.',
   /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
   openingIs: (area: number, word: string, adult: boolean, goal: number | null) =>

@@ -1,6 +1,7 @@
 // The verdict in large letters over all panels: sealed or leaking, where and how much; dots stand for what is still to
 // come.
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
+import { leakBefore } from '../store/leak_range';
 import { smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
 import { showChord } from '../store/tour';
@@ -49,6 +50,7 @@ export function Verdict() {
       {unmeasured && <div class="verdict-note">{verdictTexts.openingUnknown}</div>}
       <Beyond figures={figures} />
       <Relieved figures={figures} />
+      {!shape && leakBefore(figures) && <div class="verdict-note">{leakBefore(figures)}</div>}
     </div>
   );
 }

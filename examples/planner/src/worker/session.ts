@@ -3,7 +3,7 @@
 // is needed to repeat it: `mvs repair valve.obj --plan plan.json`.
 import { MvsError } from 'libmvs';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
-import type { SessionOpened } from '../protocol';
+import type { Range, SessionContents, SessionOpened } from '../protocol';
 import { refusals } from '../text/texts';
 import type { Planner } from './planner';
 
@@ -20,9 +20,17 @@ interface Description {
   hash: string;
   saved: string;
   checkpoints: { name: string; plan: string }[];
+  leak_range_mm2?: Range;
 }
 
-export function saveSession(planner: Planner, title: string, notes: string): Uint8Array {
+/** Two numbers of a file, in their order; null for anything else. */
+function rangeOf(value: unknown): Range | null {
+  if (!Array.isArray(value) || value.length !== 2) return null;
+  const [low, high] = value.map(Number);
+  return low <= high ? [low, high] : null;
+}
+
+export function saveSession(planner: Planner, { title, notes, leakRange }: SessionContents): Uint8Array {
   const files: Record<string, Uint8Array> = { 'valve.obj': planner.start };
   const checkpoints = [...planner.checkpoints].map(([name, snapshot], k) => {
     const plan = `checkpoints/${k + 1}.json`;
@@ -39,6 +47,7 @@ export function saveSession(planner: Planner, title: string, notes: string): Uin
     hash,
     saved: new Date().toISOString(),
     checkpoints,
+    ...(leakRange ? { leak_range_mm2: leakRange } : {}),
   };
   files['session.json'] = strToU8(JSON.stringify(description, null, 2));
   return zipSync(files, { level: 6 });
@@ -110,6 +119,7 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
     checkpoints: planner.checkpoints.list(),
     notes: String(description.notes ?? ''),
     title: String(description.title ?? ''),
+    leakRange: rangeOf(description.leak_range_mm2),
     sameResult: shown.figures.hash === description.hash,
   };
 }
