@@ -506,6 +506,7 @@ export const refusals = {
   nothingRemoved: 'no kept plan was deleted',
   noOperation: (kind: string) => `there is no operation ${kind}`,
   noField: (kind: string, name: string) => `${kind} has no field ${name}`,
+  noRoom: 'There is no room for the ball here: turn the valve and press from another side.',
   cancelled: 'cancelled',
   noTriangles: (file: string) => `${file} has no triangles: it is no surface`,
   noWorker: 'the worker did not start',
