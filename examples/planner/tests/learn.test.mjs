@@ -131,8 +131,16 @@ describe('planner goals', () => {
     const report = page.locator('dialog').getByTestId('report-verdict');
     assert.ok(said.endsWith(flat(await report.innerText())), await report.innerText());
     await page.keyboard.press('Escape');
-    // a ring of the usual size is no reservation
+    // one that leaves the leaflets in folds is no repair, whatever it leaks
     await undo(page);
+    await begin(page, 'ring');
+    await setNumber('#f-size', 20);
+    const folded = 'No real repair: the annulus is 50 % of its width before';
+    await says(() => page.getByTestId('status').innerText(), new RegExp(folded));
+    assert.match(flat(await card()), /^No real repair ?preview.*leaflets lie in folds/);
+    await says(async () => (await missed()).join(), /^No leak ?missed/);
+    await page.keyboard.press('Escape');
+    // a ring of the usual size is no reservation
     await begin(page, 'ring');
     await setNumber('#f-size', 30);
     await apply(page);

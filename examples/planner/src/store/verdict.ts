@@ -5,7 +5,15 @@ import type { Figures } from '../protocol';
 import { grade, headlineOf, stenosis, verdictTexts, where } from '../text/texts';
 import { missedGoals } from './goals';
 import { ofLeakRange } from './leak_range';
-import { faultyLoad, leastOpening, narrowing, openingOf, smallAnnulus, undersizedFrom } from './limits';
+import {
+  faultyLoad,
+  foldedShare,
+  leastOpening,
+  narrowing,
+  openingOf,
+  smallAnnulus,
+  undersizedFrom,
+} from './limits';
 
 export interface Verdict {
   /** 0 sealed to 4; null where the figures are not final. */
@@ -15,6 +23,8 @@ export interface Verdict {
   but: string[];
   /** An operation may have narrowed the valve, and how far it opens is not known. */
   unmeasured: boolean;
+  /** The annulus is so small that the leaflets lie in folds: the word is no grade of the leak. */
+  folded: boolean;
 }
 
 /** Whether an operation of the plan narrows the open valve. */
@@ -52,15 +62,20 @@ function ofChordae(figures: Figures): string[] {
 
 export function verdictOf(figures: Figures): Verdict {
   const { known, measures } = figures;
-  const none = { level: null, but: [], unmeasured: false };
+  const none = { level: null, but: [], unmeasured: false, folded: false };
   if (known === 'shape') return { ...none, word: verdictTexts.measuring };
   if (!measures.atRest || !measures.underLoad) return { ...none, word: verdictTexts.notAtRest };
+  const share = foldedShare(measures.annulusCc);
+  const { level, word } = grade(measures.orifice);
   return {
-    ...grade(measures.orifice),
+    level,
+    word: share === null ? word : verdictTexts.noRepair,
+    folded: share !== null,
     but: [
+      ...(share === null ? [] : [verdictTexts.folded(share)]),
       ...ofLeakRange(figures),
       ...ofOpening(figures),
-      ...ofAnnulus(figures),
+      ...(share === null ? ofAnnulus(figures) : []),
       ...missedGoals(figures),
       ...ofChordae(figures),
     ],
@@ -70,8 +85,9 @@ export function verdictOf(figures: Figures): Verdict {
 
 /** The verdict in one sentence, with the place of a leak. */
 export function headline(figures: Figures): string {
-  const { level, word, but, unmeasured } = verdictOf(figures);
+  const { level, word, but, unmeasured, folded } = verdictOf(figures);
   const all = unmeasured ? [verdictTexts.openingUnknown, ...but] : but;
+  if (folded) return `${word}: ${all.join('; ')}`;
   return headlineOf(word, level ? where(figures) : '', all);
 }
 

@@ -539,6 +539,10 @@ export const verdictTexts = {
     `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}${goal === null ? '' : `, goal ${number(goal / 100)}`}`,
   openingBelow: (area: number, goal: number) =>
     `opening ${number(area / 100, 2)} cm² is below the goal ${number(goal / 100, 2)}`,
+  /** In place of the grade where the plan has made the annulus far too small. */
+  noRepair: 'No real repair',
+  folded: (percent: number) =>
+    `the annulus is ${percent} % of its width before; leaflets lie in folds: do not trust the figures`,
   undersized: (cc: number, from: number) =>
     `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
   edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
@@ -817,6 +821,9 @@ export const formTexts = {
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
   leftEmpty: (fallback: string) => `as long as you type no number: ${fallback}`,
+  /** Where the largest ring is smaller than the annulus. */
+  largestRing: (size: number, annulus: number) =>
+    `The largest ring, ${number(size, 0)} mm, is ${number(annulus - size)} mm (${number((100 * (annulus - size)) / annulus, 0)} %) narrower than this annulus.`,
   ringSizes: (low: number, high: number) => `Rings are made in sizes of ${low} to ${high} mm. `,
   /** Of a number that its slider does not reach. */
   beyond: (value: number, low: number, high: number, unit: string) => {

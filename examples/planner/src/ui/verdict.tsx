@@ -20,7 +20,7 @@ export function Verdict() {
       </div>
     );
   const shape = figures.known === 'shape';
-  const { level, word, but, unmeasured } = verdictOf(figures);
+  const { level, word, but, unmeasured, folded } = verdictOf(figures);
   const small = smallAnnulus();
   const tag = tagOf();
   const grading = level === null ? 'none' : but.length && !level ? 'but' : level;
@@ -33,7 +33,7 @@ export function Verdict() {
       <div class="verdict-word">
         <strong>
           {word}
-          {but.length > 0 && !level && verdictTexts.but}
+          {but.length > 0 && !level && !folded && verdictTexts.but}
         </strong>
         {tag && <span class="tag">{tag}</span>}
       </div>
