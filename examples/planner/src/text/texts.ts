@@ -4,6 +4,15 @@ import type { Figures } from '../protocol';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
 
+/** Two numbers with as many digits as it takes to tell them apart, at least `digits` and at most three. */
+export function apart(one: number, other: number, digits = 1): [string, string] {
+  const texts: [string, string] = [number(one, digits), number(other, digits)];
+  return texts[0] !== texts[1] || one === other || digits >= 3 ? texts : apart(one, other, digits + 1);
+}
+
+/** An open area in cm2 of one in mm2. One digit: of wide areas the figure is right to about 0.1 cm2 (libmvs/measure/DEFINITIONS.md). */
+export const areaFigure = (area: number): string => number(area / 100);
+
 /** The pull of one chord; pulls of many together are in N. */
 export const millinewton = (newton: number): string => `${number(1000 * newton, 0)} mN`;
 
@@ -530,19 +539,21 @@ export const verdictTexts = {
   but: ', but',
   /** Beside the leak of a valve from an image. */
   leakKnown: (low: number, high: number) =>
-    `chordae are guessed: a leak of ${number(low)} to ${number(high)} mm² is possible`,
+    `chordae are guessed: a leak of ${number(low)} to ${number(high)} mm² is possible`,
   leakBefore: (low: number, high: number) =>
-    `The leak before the repair is known as ${number(low)} to ${number(high)} mm² only: chordae were guessed`,
+    `The leak before the repair is known as ${number(low)} to ${number(high)} mm² only: chordae were guessed`,
   butHelp: 'A sealed valve may still open too little, miss another goal, or hang on chordae that may tear.',
   /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
   openingIs: (area: number, word: string, adult: boolean, goal: number | null) =>
     `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}${goal === null ? '' : `, goal ${number(goal / 100)}`}`,
-  openingBelow: (area: number, goal: number) =>
-    `opening ${number(area / 100, 2)} cm² is below the goal ${number(goal / 100, 2)}`,
+  openingBelow: (area: number, goal: number) => {
+    const [is, wanted] = apart(area / 100, goal / 100);
+    return `opening ${is} cm² is below the goal ${wanted}`;
+  },
   /** In place of the grade where the plan has made the annulus far too small. */
   noRepair: 'No real repair',
   folded: (percent: number) =>
-    `the annulus is ${percent} % of its width before; leaflets lie in folds: do not trust the figures`,
+    `the annulus is ${percent} % of its width before; leaflets lie in folds: do not trust the figures`,
   undersized: (cc: number, from: number) =>
     `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
   edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
@@ -823,7 +834,7 @@ export const formTexts = {
   leftEmpty: (fallback: string) => `as long as you type no number: ${fallback}`,
   /** Where the largest ring is smaller than the annulus. */
   largestRing: (size: number, annulus: number) =>
-    `The largest ring, ${number(size, 0)} mm, is ${number(annulus - size)} mm (${number((100 * (annulus - size)) / annulus, 0)} %) narrower than this annulus.`,
+    `The largest ring, ${number(size, 0)} mm, is ${number(annulus - size)} mm (${number((100 * (annulus - size)) / annulus, 0)} %) narrower than this annulus.`,
   ringSizes: (low: number, high: number) => `Rings are made in sizes of ${low} to ${high} mm. `,
   /** Of a number that its slider does not reach. */
   beyond: (value: number, low: number, high: number, unit: string) => {
@@ -885,7 +896,7 @@ export const markTexts = {
 
 export const openingTexts = {
   opens: (area: number | undefined) =>
-    `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
+    `Opens to ${area === undefined ? '…' : areaFigure(area)} cm² in diastole`,
   narrow: (word: string) =>
     word === 'narrow'
       ? 'Narrow: a mean flow of 200 ml/s loses more than 5 mmHg.'
@@ -897,8 +908,8 @@ export const openingTexts = {
     [
       before === undefined
         ? ''
-        : `${same ? 'about the same as without it' : 'without it'} ${number(before / 100, 2)} cm²`,
-      least === null ? '' : `goal ${number(least / 100, 2)} cm² or more`,
+        : `${same ? 'about the same as without it' : 'without it'} ${areaFigure(before)} cm²`,
+      least === null ? '' : `goal ${areaFigure(least)} cm² or more`,
     ]
       .filter(Boolean)
       .join(', '),

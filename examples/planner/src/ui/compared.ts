@@ -1,6 +1,6 @@
 // The figures of two valves that stand side by side, in the comparison of plans and in the report.
 import { titlesOf } from '../notable';
-import { figure, figureNames, say } from '../text/texts';
+import { areaFigure, figure, figureNames, say } from '../text/texts';
 import type { Cost, Figures, Measures } from '../protocol';
 
 /** Name, value, digits, unit. */
@@ -31,4 +31,4 @@ export function comparedRows(one: Figures, other: Figures): [string, string, str
 export const stepsOf = (figures: Figures): string[] => titlesOf(figures).map(say);
 
 /** An open area in words. */
-export const areaText = (cost: Cost): string => `${figure(cost.openArea / 100, 2)} cm²`;
+export const areaText = (cost: Cost): string => `${areaFigure(cost.openArea)} cm²`;

@@ -6,7 +6,8 @@ import { openingTexts, stenosis, verdictTexts } from '../text/texts';
 /** Operations that make the annulus smaller. */
 const ofAnnulus = new Set(['ring', 'band']);
 
-/** Share by which two openings differ no more than they are known. */
+/** Share by which two openings differ no more than they are known: of a rigid funnel the figure is right to 1 %
+ *  (libmvs/measure/DEFINITIONS.md), and leaflets come to rest in slightly different folds. */
 const accuracy = 0.02;
 
 export function Opening({ kind }: { kind: string }) {

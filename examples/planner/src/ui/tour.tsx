@@ -6,7 +6,7 @@ import * as state from '../store/state';
 import { reachesAll } from '../store/goals';
 import { openingOf } from '../store/limits';
 import { showChord, startValve } from '../store/tour';
-import { figure, say, tipTexts, tourTexts } from '../text/texts';
+import { areaFigure, figure, say, tipTexts, tourTexts } from '../text/texts';
 import { OwnRepair } from './earlier';
 import { Goals } from './goals';
 import { Button, Section } from './parts';
@@ -122,7 +122,7 @@ function Score() {
           {row(tourTexts.rows.leak, (c) => figure(c.m.orifice, 1))}
           {row(tourTexts.rows.coaptation, (c) => figure(c.m.coaptationMean, 1))}
           {row(tourTexts.rows.load, (c) => String(percentOfLimit(c.m.chordLoad)))}
-          {row(tourTexts.rows.area, (c) => (c.area === undefined ? '?' : figure(c.area / 100, 2)))}
+          {row(tourTexts.rows.area, (c) => (c.area === undefined ? '?' : areaFigure(c.area)))}
           {row(tourTexts.rows.ap, (c) => figure(c.m.annulusAp, 1))}
         </tbody>
       </table>

@@ -233,7 +233,6 @@ function OpenArea({ figures }: { figures: Figures }) {
             label={valveTexts.openArea}
             value={cost.openArea / 100}
             unit="cm²"
-            digits={2}
             help={valveTexts.openAreaHelp}
           />
           {Number.isFinite(cost.gradient) && (
