@@ -3,7 +3,7 @@ import { computed } from '@preact/signals';
 import { edgeHeights } from '../flail';
 import { percentOfLimit } from '../notable';
 import type { Figures, Shown } from '../protocol';
-import { figure, verdictTexts } from '../text/texts';
+import { apart, verdictTexts } from '../text/texts';
 import { allowedLoad, foldedShare, leastCoaptation, leastOpening, openingOf } from './limits';
 import * as state from './state';
 
@@ -64,7 +64,7 @@ export function missedGoals(figures: Figures): string[] {
   return [
     ...(scallop && height !== null && height >= 0 ? [verdictTexts.edgeAbove(scallop, height)] : []),
     ...(least !== null && coaptationMean < least
-      ? [verdictTexts.coaptationBelow(figure(coaptationMean), figure(least))]
+      ? [verdictTexts.coaptationBelow(apart(coaptationMean, least))]
       : []),
   ];
 }

@@ -379,8 +379,8 @@ export const tourTexts = {
     sealed: 'No leak under 120 mmHg',
     edge: (scallop: string, height: number | null) =>
       `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
-    coaptation: (least: number | null) =>
-      `Coaptation length at least 90 % of that before the illness, in the mean${least === null ? '' : `: ${number(least)} mm`}. (Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.)`,
+    coaptation: (least: number | null, now: number) =>
+      `Coaptation length at least 90 % of that before the illness, in the mean${least === null ? '' : `: ${apart(now, least)[1]} mm`}. (Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.)`,
     chords: (percent: number | null) =>
       `No chord loaded above ${percent ?? '…'} % of its working limit. (Allowed are 10 % more than the limit or, where that is more, than the highest load before the illness.)`,
     open: 'Open area at least 90 % of that before the illness',
@@ -535,7 +535,9 @@ export const verdictTexts = {
   at: (place: string) => `at ${place}`,
   meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
   ofClosed: 'when closed',
-  chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
+  /** Chordae a little beyond their limit, which is no fault up to a load of `allowed` per cent, `goal` where that is the tour's. */
+  chordsOver: (count: number, percent: number, allowed: number, goal: boolean) =>
+    `${count === 1 ? `1 chord at ${percent} % of its` : `${count} chordae at up to ${percent} % of their`} working limit; ${goal ? `the goal allows ${allowed} %` : `up to ${allowed} % is no fault`}`,
   but: ', but',
   /** Beside the leak of a valve from an image. */
   leakKnown: (low: number, high: number) =>
@@ -557,7 +559,7 @@ export const verdictTexts = {
   undersized: (cc: number, from: number) =>
     `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
   edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
-  coaptationBelow: (length: string, goal: string) => `coaptation ${length} mm is below the goal ${goal}`,
+  coaptationBelow: ([length, goal]: [string, string]) => `coaptation ${length} mm is below the goal ${goal}`,
   smallAnnulus: (cc: number) =>
     `Limits of stenosis are those of adults. This annulus is smaller, ${number(cc, 0)} mm side to side: a child’s valve needs less, in proportion to the body, which is not known here.`,
   openingUnknown: 'its opening is not measured yet',

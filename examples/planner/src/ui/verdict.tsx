@@ -2,7 +2,7 @@
 // come.
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import { leakBefore } from '../store/leak_range';
-import { smallAnnulus } from '../store/limits';
+import { allowedLoad, faultyLoad, smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
 import { showChord } from '../store/tour';
 import { isOverloaded, relieved, verdictOf } from '../store/verdict';
@@ -78,7 +78,16 @@ function Beyond({ figures }: { figures: Figures }) {
       class={counted ? 'verdict-warn' : 'verdict-note'}
       title={beyond.some((chord) => chord.artificial) ? words.artificialHelp : words.limitHelp}
     >
-      {!counted && <div>{words.chordsOver(beyond.length)}</div>}
+      {!counted && (
+        <div>
+          {words.chordsOver(
+            beyond.length,
+            percentOfLimit(shareOfLimit(beyond[0])),
+            faultyLoad(),
+            allowedLoad() !== null,
+          )}
+        </div>
+      )}
       <div class="beyond-names">
         {beyond.slice(0, named).map((chord) => (
           <button
