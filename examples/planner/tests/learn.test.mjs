@@ -162,7 +162,9 @@ describe('planner goals', () => {
       await setNumber('#f-factor', percent);
       const { orifice, coaptationMean } = (await figures(page)).measures;
       if (orifice > 0) continue;
-      const words = new RegExp(`coaptation ${goal.toFixed(1) === coaptationMean.toFixed(1) ? '' : coaptationMean.toFixed(1)}[\\d.]* mm is below the goal`);
+      const words = new RegExp(
+        `coaptation ${goal.toFixed(1) === coaptationMean.toFixed(1) ? '' : coaptationMean.toFixed(1)}[\\d.]* mm is below the goal`,
+      );
       if (coaptationMean < goal) assert.match(flat(await card()), words);
       else assert.doesNotMatch(flat(await card()), /coaptation/);
     }

@@ -536,8 +536,8 @@ export const verdictTexts = {
   meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
   ofClosed: 'when closed',
   /** Chordae a little beyond their limit, which is no fault up to a load of `allowed` per cent, `goal` where that is the tour's. */
-  chordsOver: (count: number, percent: number, allowed: number, goal: boolean) =>
-    `${count === 1 ? `1 chord at ${percent} % of its` : `${count} chordae at up to ${percent} % of their`} working limit; ${goal ? `the goal allows ${allowed} %` : `up to ${allowed} % is no fault`}`,
+  chordsOver: (count: number, allowed: number, goal: boolean) =>
+    `${count} ${count === 1 ? 'chord' : 'chordae'} over limit; ${goal ? `goal allows ${allowed} %` : `up to ${allowed} % is no fault`}`,
   but: ', but',
   /** Beside the leak of a valve from an image. */
   leakKnown: (low: number, high: number) =>

@@ -78,16 +78,7 @@ function Beyond({ figures }: { figures: Figures }) {
       class={counted ? 'verdict-warn' : 'verdict-note'}
       title={beyond.some((chord) => chord.artificial) ? words.artificialHelp : words.limitHelp}
     >
-      {!counted && (
-        <div>
-          {words.chordsOver(
-            beyond.length,
-            percentOfLimit(shareOfLimit(beyond[0])),
-            faultyLoad(),
-            allowedLoad() !== null,
-          )}
-        </div>
-      )}
+      {!counted && <div>{words.chordsOver(beyond.length, faultyLoad(), allowedLoad() !== null)}</div>}
       <div class="beyond-names">
         {beyond.slice(0, named).map((chord) => (
           <button
