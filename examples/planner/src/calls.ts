@@ -21,10 +21,9 @@ import type {
   Surface,
 } from './protocol';
 
-/** How far a valve opens; the gradient of a flow in ml/s, where it is not 0. */
+/** How far a valve opens. */
 export interface CostRequest {
   which: 'main' | 'preview' | 'first' | `checkpoint ${string}`;
-  flow: number;
 }
 
 /** Requests of the page: name, argument, result. */

@@ -238,8 +238,8 @@ export interface Cost {
   posteriorLength: number;
   lengthRatio: number;
   annulusForce: number;
-  /** mmHg, of the flow that was given; NaN without one. */
-  gradient: number;
+  /** mmHg of a mean flow of 1 ml/s: the gradient grows with the square of the flow. */
+  resistance: number;
 }
 
 /** What a session holds beside the plan. */
@@ -248,6 +248,8 @@ export interface SessionContents {
   notes: string;
   /** mm2, within which the leak of the starting valve is known; null where that was not built from an image. */
   leakRange?: Range | null;
+  /** ml/s through the open valve, where it is known. */
+  flow?: number | null;
 }
 
 export interface SessionOpened {
@@ -258,6 +260,7 @@ export interface SessionOpened {
   notes: string;
   title: string;
   leakRange: Range | null;
+  flow: number | null;
   sameResult: boolean;
 }
 

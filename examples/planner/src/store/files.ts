@@ -233,6 +233,7 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
     state.receiveCheckpoints(opened.checkpoints);
     state.title.value = opened.title;
     state.notes.value = opened.notes;
+    state.flow.value = opened.flow ?? state.flow.value;
     state.changed.value = false;
     state.onlyHere.value = false;
     state.notice.value = opened.sameResult

@@ -17,8 +17,7 @@ export function keepOpening(found: Cost): void {
 }
 
 async function measure(which: CostRequest['which']): Promise<void> {
-  const { value: flow } = state.flow;
-  keepOpening(await request('cost', { which, flow: flow ?? 0 }));
+  keepOpening(await request('cost', { which }));
 }
 
 /** True while two plans that are compared are measured. */
@@ -63,7 +62,8 @@ function watchCompared(): void {
 /** The valve whose opening was asked for last: a failure is not repeated. */
 let asked = '';
 
-/** Measures the valve of the plan where an operation may have narrowed it: its verdict waits for that. */
+/** Measures the valve of the plan where an operation may have narrowed it, for which its verdict waits, or where the gradient of a flow
+ *  is asked for. */
 function watchNarrowed(): void {
   let timer = 0;
   effect(() => {
@@ -72,7 +72,8 @@ function watchNarrowed(): void {
     const figures = main.value?.figures;
     const idle = !draft.value && !busy.value && !motion.value && !handing.value && !surface.value;
     if (!idle || figures?.known !== 'all' || !figures.measures.atRest) return;
-    if (!isNarrowed(figures) || openingOf(figures.hash) || asked === figures.hash) return;
+    if (!(isNarrowed(figures) || state.flow.value) || openingOf(figures.hash) || asked === figures.hash)
+      return;
     if (!measuresItself(main.value!)) return;
     timer = window.setTimeout(() => {
       asked = figures.hash;

@@ -7,4 +7,5 @@ export const sessionContents = (): Calls['save_session']['argument'] => ({
   title: state.title.value,
   notes: state.notes.value,
   leakRange: leakRange(),
+  flow: state.flow.value,
 });

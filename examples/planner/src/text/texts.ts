@@ -899,6 +899,8 @@ export const markTexts = {
 export const openingTexts = {
   opens: (area: number | undefined) =>
     `Opens to ${area === undefined ? '…' : areaFigure(area)} cm² in diastole`,
+  gradient: (now: number, flow: number, before: number | null) =>
+    `Mean gradient at ${number(flow, 0)} ml/s ${number(now)} mmHg${before === null ? '' : `, without it ${number(before)}`}.`,
   narrow: (word: string) =>
     word === 'narrow'
       ? 'Narrow: a mean flow of 200 ml/s loses more than 5 mmHg.'

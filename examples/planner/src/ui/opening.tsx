@@ -1,4 +1,5 @@
 // In the form of an operation that narrows the valve: how far it would open, beside the valve before and the goal.
+import { gradientOf, isTooMuch } from '../store/gradient';
 import { leastOpening, narrowing, openingOf, smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
 import { openingTexts, stenosis, verdictTexts } from '../text/texts';
@@ -18,7 +19,8 @@ export function Opening({ kind }: { kind: string }) {
   const least = leastOpening();
   const word = now ? stenosis(now.openArea) : '';
   const small = smallAnnulus();
-  const warn = !!word || (now && least !== null && now.openArea < least);
+  const [gradient, flow] = [gradientOf(now), state.flow.value];
+  const warn = !!word || isTooMuch(gradient) || (now && least !== null && now.openArea < least);
   const share = now && before ? now.openArea / before.openArea : NaN;
   const same = Math.abs(share - 1) <= accuracy;
   const narrower = preview.measures.annulusCc < (state.main.value?.figures.measures.annulusCc ?? 0);
@@ -36,6 +38,9 @@ export function Opening({ kind }: { kind: string }) {
     >
       {openingTexts.opens(now?.openArea)}
       <span class="was"> {openingTexts.beside(before?.openArea, least, same)}</span>
+      {flow && gradient !== null && (
+        <small>{openingTexts.gradient(gradient, flow, gradientOf(before))}</small>
+      )}
       {why.map((text) => (
         <small>{text}</small>
       ))}

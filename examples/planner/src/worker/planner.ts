@@ -48,6 +48,9 @@ function breathe(): Promise<void> {
 const checkpointIn = (which: string): string | null =>
   which.startsWith('checkpoint ') ? which.slice('checkpoint '.length) : null;
 
+/** ml/s; any flow tells the gradient of all others. */
+const someFlow = 100;
+
 export class Planner {
   readonly main: Simulator;
   private readonly second: Simulator;
@@ -234,11 +237,10 @@ export class Planner {
     return this.second;
   }
 
-  /** The valve opened in diastole; the gradient of a flow in ml/s, if one is given. */
-  cost({ which, flow }: CostRequest): Cost {
+  /** The valve opened in diastole. */
+  cost({ which }: CostRequest): Cost {
     const costOf = (snapshot: Snapshot): Cost => {
-      const asked = flow > 0 ? { residual: 1e-4, flow: flow / ml } : { residual: 1e-4 };
-      const { cost, opened } = snapshot.cost(asked);
+      const { cost, opened } = snapshot.cost({ residual: 1e-4, flow: someFlow / ml });
       opened.dispose();
       return {
         hash: snapshot.hash,
@@ -247,7 +249,7 @@ export class Planner {
         posteriorLength: cost.posterior_length * mm,
         lengthRatio: cost.length_ratio,
         annulusForce: cost.annulus_force_sum,
-        gradient: cost.gradient / mmHg,
+        resistance: cost.gradient / mmHg / someFlow ** 2,
       };
     };
     if (which === 'preview' && this.preview) return costOf(this.preview);

@@ -21,6 +21,7 @@ interface Description {
   saved: string;
   checkpoints: { name: string; plan: string }[];
   leak_range_mm2?: Range;
+  flow_ml_s?: number;
 }
 
 /** Two numbers of a file, in their order; null for anything else. */
@@ -30,7 +31,10 @@ function rangeOf(value: unknown): Range | null {
   return low <= high ? [low, high] : null;
 }
 
-export function saveSession(planner: Planner, { title, notes, leakRange }: SessionContents): Uint8Array {
+export function saveSession(
+  planner: Planner,
+  { title, notes, leakRange, flow }: SessionContents,
+): Uint8Array {
   const files: Record<string, Uint8Array> = { 'valve.obj': planner.start };
   const checkpoints = [...planner.checkpoints].map(([name, snapshot], k) => {
     const plan = `checkpoints/${k + 1}.json`;
@@ -48,6 +52,7 @@ export function saveSession(planner: Planner, { title, notes, leakRange }: Sessi
     saved: new Date().toISOString(),
     checkpoints,
     ...(leakRange ? { leak_range_mm2: leakRange } : {}),
+    ...(flow ? { flow_ml_s: flow } : {}),
   };
   files['session.json'] = strToU8(JSON.stringify(description, null, 2));
   return zipSync(files, { level: 6 });
@@ -120,6 +125,7 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
     notes: String(description.notes ?? ''),
     title: String(description.title ?? ''),
     leakRange: rangeOf(description.leak_range_mm2),
+    flow: Number(description.flow_ml_s) > 0 ? Number(description.flow_ml_s) : null,
     sameResult: shown.figures.hash === description.hash,
   };
 }
