@@ -8,7 +8,16 @@ import { openingOf } from '../store/limits';
 import { planName } from '../store/plans';
 import * as state from '../store/state';
 import { headline } from '../store/verdict';
-import { appTexts, barTexts, figureNames, planTexts, reportTexts, say, tips, valveTexts } from '../text/texts';
+import {
+  appTexts,
+  barTexts,
+  figureNames,
+  planTexts,
+  reportTexts,
+  say,
+  tips,
+  valveTexts,
+} from '../text/texts';
 import { Checkpoints } from './checkpoints';
 import { BeginHere, EarlierValves } from './earlier';
 import { areaText, comparedRows, gradientText, stepsOf } from './compared';
