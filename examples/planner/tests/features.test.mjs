@@ -139,7 +139,7 @@ describe('planner features', () => {
     assert.match(rows[0].join(': '), /^Ring: 3\d\.\d mm wide/);
     assert.match(
       rows[1].join(': '),
-      /^Clip XTW: joins A2 and P2, 5 mm wide, in the middle, across the edge, strongest pull \d+ mN$/,
+      /^Clip XTW: joins A2 and P2, 5 mm wide, in the middle, across the edge, strongest pull \d+ mN; drawn with arms that reach 4\.5 mm/,
     );
     assert.deepEqual(rows[2], ['Suture', 'closes the cut in P1']);
     assert.equal(rows.length, 3);

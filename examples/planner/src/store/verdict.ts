@@ -86,9 +86,9 @@ export function verdictOf(figures: Figures): Verdict {
 /** The verdict in one sentence, with the place of a leak. */
 export function headline(figures: Figures): string {
   const { level, word, but, unmeasured, folded } = verdictOf(figures);
-  const all = unmeasured ? [verdictTexts.openingUnknown, ...but] : but;
-  if (folded) return `${word}: ${all.join('; ')}`;
-  return headlineOf(word, level ? where(figures) : '', all);
+  const unknown = unmeasured ? [verdictTexts.openingUnknown] : [];
+  if (folded) return `${word}: ${[...but, ...unknown].join('; ')}`;
+  return headlineOf(word, level ? where(figures) : '', [...unknown, ...but]);
 }
 
 /** Chordae far beyond their limit before that carry nothing any more, with their load before in per cent. */

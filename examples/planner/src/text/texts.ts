@@ -807,8 +807,8 @@ export const deviceTexts = {
     return given ? `${kind} ${given[1]}`.trimEnd() : `${kind} ${name}`;
   },
   /** `set`: as it was chosen; `apart`: its outermost stitches in the closed valve. */
-  clip: (clip: { between: string[]; set: ClipWords | null; apart: number; pull: number }) =>
-    `joins ${listOf(clip.between)}, ${clip.set === null ? `outermost stitches ${number(clip.apart, 0)} mm apart` : clipSaid(clip.set)}, strongest pull ${millinewton(clip.pull)}`,
+  clip: (clip: { between: string[]; set: ClipWords | null; apart: number; pull: number; arm: number }) =>
+    `joins ${listOf(clip.between)}, ${clip.set === null ? `outermost stitches ${number(clip.apart, 0)} mm apart` : clipSaid(clip.set)}, strongest pull ${millinewton(clip.pull)}; drawn with arms that reach ${number(clip.arm)} mm to either side, which the model does not know`,
   suture: (of: string[]) => `closes the cut in ${listOf(of)}`,
   neochord: (chord: { rest: number; tension: number; heads: string; scallops: string }) =>
     `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${millinewton(chord.tension)}` : 'slack'}`,
