@@ -461,8 +461,10 @@ export const scaleTexts = {
 
 export const importTexts = {
   set: (count: number) => `${count} set`,
-  guessed: 'will be guessed',
-  clear: 'Clear',
+  guessed: 'guessed',
+  undo: (kind: string) => `Undo point: ${kind.toLowerCase()}`,
+  clear: (kind: string) => `Clear: ${kind.toLowerCase()}`,
+  beside: 'That click was beside the surface: nothing was marked.',
   build: 'Build the valve',
   leave: 'Leave',
   none: 'Drop a surface file (STL, PLY, OBJ) on the picture, or choose Open.',
@@ -1526,7 +1528,6 @@ export const tips: Record<string, string> = {
   [importTexts.points.anterior]: 'Then click the leaflet that lies towards the aorta',
   [importTexts.points.annulus]: 'Then click along the rim where the leaflets are attached',
   [importTexts.points.tips]: 'Then click where the papillary muscles end',
-  [importTexts.clear]: 'Forgets these points; they are guessed again',
   [importTexts.build]: 'Makes a valve of the surface, adds chordae by normal anatomy and closes it',
   [importTexts.leave]: 'Leaves the surface; the valve before is shown again',
   [importTexts.again]: 'Back to the surface with its marked points',

@@ -32,7 +32,8 @@ export function Opening({ kind }: { kind: string }) {
   ].filter((text) => !!text);
   return (
     <p
-      class={`opens${warn ? ' warn' : ''}`}
+      class={`opens${warn ? ' warn' : ''}${state.outdated.value ? ' outdated' : ''}`}
+      aria-busy={state.outdated.value}
       data-testid="opening"
       title={[openingTexts.help, ...why].join(' ')}
     >

@@ -212,6 +212,15 @@ export class Viewport {
     // another valve has not grown out of the picture of the one before
     this.held = [];
     this.go('surgeon', true);
+    const { value: picture } = state.picture;
+    // a wide annulus of a patient would lie under the keys of the colours
+    if (key !== 'motion' && picture && !this.surface) {
+      const rim = rimOf(picture);
+      if (!this.camera.shows(rim, this.width, this.height, keysHeight)) {
+        this.camera.fit(rim, this.width, this.height, keysHeight);
+        this.camera.finish();
+      }
+    }
   }
 
   /** Goes back where a valve grows out of a picture that held the whole annulus of the one before. */
