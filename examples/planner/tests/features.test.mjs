@@ -295,7 +295,7 @@ describe('planner features', () => {
     await closed(page);
     assert.notEqual((await figures(page)).hash, hash);
     await page.getByRole('button', { name: 'Return to it' }).click();
-    await page.getByText('gives exactly the saved valve').waitFor();
+    await page.getByText('exactly the valve that was saved').waitFor();
     await closed(page);
     assert.equal((await figures(page)).hash, hash);
   });

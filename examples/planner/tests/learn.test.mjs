@@ -263,7 +263,7 @@ describe('planner goals', () => {
     // the offer stays, and the plan that it replaces can be returned to as well
     await notice.getByRole('button', { name: 'Return to it' }).click();
     await page.getByRole('button', { name: 'Go on without keeping it' }).click();
-    await page.getByText('gives exactly the saved valve').waitFor();
+    await page.getByText('exactly the valve that was saved').waitFor();
     await closed(page);
     assert.equal(await hash(), changed);
     await notice.getByRole('button', { name: 'Return to it' }).waitFor();

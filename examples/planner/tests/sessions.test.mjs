@@ -66,7 +66,7 @@ describe('valves that were left', () => {
       [1, hashes[0], ['ring 0', 'ring 1', 'ring 2']],
     ]) {
       await listed(page).nth(row).getByRole('button', { name: 'Open it again' }).click();
-      await page.getByText('gives exactly the saved valve').waitFor();
+      await page.getByText('exactly the valve that was saved').waitFor();
       await closed(page);
       assert.equal((await figures(page)).hash, hash);
       assert.deepEqual(await page.locator('.checkpoint > span').allInnerTexts(), plans);
@@ -99,13 +99,13 @@ describe('valves that were left', () => {
     // whatever is left, valve 4 offers its own repair first
     await openTour(page, 4);
     const notice = page.getByTestId('notice');
-    assert.match(await notice.innerText(), /“Healthy valve” was closed; .*Your repair of this valve/s);
+    assert.match(await notice.innerText(), /“Healthy valve” was put aside: .*Your repair of this valve/s);
     assert.equal(await page.getByTestId('own-repair').count(), 1);
     await startHealthy(page);
     assert.equal(await notice.filter({ hasText: 'repair of this valve' }).count(), 0);
     await openTour(page, 4);
     await notice.getByRole('button', { name: 'Return to it' }).click();
-    await page.getByText('gives exactly the saved valve').waitFor();
+    await page.getByText('exactly the valve that was saved').waitFor();
     await closed(page);
     assert.equal((await figures(page)).hash, repaired);
   });
@@ -142,7 +142,7 @@ describe('valves that were left', () => {
     // the plan that made it ill
     await listed(page).first().getByRole('button', { name: 'Open it again' }).click();
     await page.getByRole('button', { name: 'Go on without keeping it' }).click();
-    await page.getByText('gives exactly the saved valve').waitFor();
+    await page.getByText('exactly the valve that was saved').waitFor();
     await closed(page);
     assert.equal((await figures(page)).hash, ill.hash);
   });

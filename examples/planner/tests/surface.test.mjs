@@ -208,7 +208,7 @@ describe('surface', () => {
       // it is in no file: another valve does not take its place without a way back
       await third.getByRole('button', { name: 'Start from a healthy valve' }).click();
       await third.getByRole('button', { name: 'Return to it' }).click();
-      await third.getByText('gives exactly the saved valve').waitFor();
+      await third.getByText('exactly the valve that was saved').waitFor();
       assert.equal((await figures(third)).hash, hash);
     });
   });

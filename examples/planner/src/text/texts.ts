@@ -264,7 +264,7 @@ export const t = {
   reading: 'Reading the file…',
   cancel: 'Cancel',
   sessionFile: 'Repair session',
-  sessionOpened: 'Session opened. The plan was repeated and gives exactly the saved valve.',
+  sessionOpened: 'Session opened: exactly the valve that was saved, with its plan.',
   sessionDiffers:
     'Session opened, but the repeated plan differs from the saved valve: it was saved by another version, or the file was changed.',
   unknownFile: (name: string) =>
@@ -588,7 +588,7 @@ export const verdictTexts = {
 };
 
 const keptPlans = (count: number): string => `${count} kept ${count === 1 ? 'plan' : 'plans'}`;
-const withKept = (count: number): string => (count ? ` with its ${keptPlans(count)}` : '');
+const withKept = (count: number): string => (count ? `, with its ${keptPlans(count)}` : '');
 
 /** The present valve as the one before the repair. */
 export const startTexts = {
@@ -603,11 +603,11 @@ export const startTexts = {
 
 export const leaveTexts = {
   finished: (title: string, kept: number) =>
-    `The plan “${title}” was closed${withKept(kept)}; it reaches all goals.`,
+    `The plan “${title}” was put aside${withKept(kept)}; it reaches all goals.`,
   left: (title: string, kept: number) =>
-    `The changed plan “${title || 'without a name'}” was closed${withKept(kept)}.`,
+    `The changed plan “${title || 'without a name'}” was put aside${withKept(kept)}: Plan > Earlier valves.`,
   listed: (title: string, kept: number) =>
-    `“${title || 'without a name'}” was closed${withKept(kept)}; the panel Plan lists it.`,
+    `“${title || 'without a name'}” was put aside${withKept(kept)}: Plan > Earlier valves.`,
   dropped: (titles: string[]) =>
     `There is no room for so many earlier valves: ${listOf(titles.map((title) => `“${title}”`))} left the list.`,
   heading: (count: number) => `Earlier valves (${count})`,
@@ -744,8 +744,11 @@ export const valveTexts = {
     'Chordae are straight lines between their ends, and leaflets do not push them aside: in the picture of an open valve a chord may pass through a leaflet. Its pull and its length are those of the straight line.',
   howCertain: 'How certain? Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
-    `${converged} of ${members} closures came to rest, ${shapes === 1 ? `all in the same folds${apart < 0.05 ? '' : `, at most ${number(apart)} mm apart`}` : `in ${shapes} shapes of the folds, which differ by at most ${number(apart)} mm`}.`,
-  spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
+    `${converged} of ${members} closures came to rest, ${shapes === 1 ? `with the same result whichever way it closes${apart < 0.05 ? '' : `, at most ${number(apart)} mm apart`}` : `in ${shapes} shapes of the folds, which differ by at most ${number(apart)} mm`}. This says nothing of errors of the image or of the chordae.`,
+  spreadLeak: (low: number, high: number) =>
+    number(low) === number(high)
+      ? ` Leak ${number(low)} mm² each time.`
+      : ` Leak ${number(low)} to ${number(high)} mm².`,
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
   openAreaHelp: 'Smallest opening at 5 mmHg. In adults 1.5 cm² or less is a severe stenosis (ACC/AHA 2014).',
@@ -835,7 +838,7 @@ export const formTexts = {
     `Annulus front to back ${number(was.ap)} → ${number(now.ap)} mm, side to side ${number(was.cc)} → ${number(now.cc)} mm.`,
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
-  leftEmpty: (fallback: string) => `as long as you type no number: ${fallback}`,
+  leftEmpty: (fallback: string) => `Left empty: ${fallback}.`,
   /** Where the largest ring is smaller than the annulus. */
   largestRing: (size: number, annulus: number) =>
     `The largest ring, ${number(size, 0)} mm, is ${number(annulus - size)} mm (${number((100 * (annulus - size)) / annulus, 0)} %) narrower than this annulus.`,
@@ -985,6 +988,7 @@ export const repairTexts = {
 
 export const planTexts = {
   nothing: 'Nothing has been done yet. Operations appear here one by one.',
+  allUndone: 'All steps are undone. Redo brings them back one by one.',
   checkpoints: 'Kept plans',
   checkpointName: 'Name of the plan',
   planOf: (k: number) => `Plan ${k}`,

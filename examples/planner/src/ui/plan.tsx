@@ -52,7 +52,9 @@ export function PlanPanel() {
           <li class={entry.undone ? 'undone' : ''}>{say(entry.title)}</li>
         ))}
       </ol>
-      {stepsOf(figures).length === 0 && <p class="hint">{planTexts.nothing}</p>}
+      {stepsOf(figures).length === 0 && (
+        <p class="hint">{figures.history.length ? planTexts.allUndone : planTexts.nothing}</p>
+      )}
       <p data-testid="plan-verdict">
         {planTexts.result} <strong>{headline(figures)}</strong>
       </p>

@@ -1,6 +1,6 @@
 // The tour: three leaking valves of the founding study and one with a flail leaflet, a goal, and a score beside the healthy
 // valve and the repair of the founding surgeon, or an example.
-import { Check, Eye, History, Wrench } from 'lucide-preact';
+import { Check, Eye, Wrench } from 'lucide-preact';
 import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
 import { reachesAll } from '../store/goals';
@@ -17,7 +17,7 @@ function signOf(number: number): 'now' | 'before' | 'none' {
   return state.finished.value.includes(number) ? 'before' : 'none';
 }
 
-const signs = { now: <Check size={16} />, before: <History class="soft" size={12} />, none: undefined };
+const signs = { now: <Check size={16} />, before: <Check class="soft" size={16} />, none: undefined };
 
 export function TourPanel() {
   const tour = state.tour.value;
