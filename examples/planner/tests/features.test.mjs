@@ -241,7 +241,10 @@ describe('planner features', () => {
     await page.keyboard.press('Tab');
     // at once: nothing else has to be pressed
     await answered(page, 200);
-    const { openArea, resistance } = await page.evaluate(() => window.planner.state.cost.value);
+    const { openArea, resistance } = await page.evaluate(() => {
+      const { main, openings } = window.planner.state;
+      return openings.value.get(main.value.figures.hash);
+    });
     const gradient = resistance * 200 ** 2;
     // Bernoulli with the library's density and discharge coefficient (mvs/cost.h)
     const bernoulli = (0.5 * 1060 * (200e-6 / (0.85 * openArea * 1e-6)) ** 2) / 133.322;
