@@ -14,16 +14,16 @@ import type {
   OperationInfo,
   Section,
   SectionRequest,
+  SessionContents,
   SessionOpened,
   Shown,
   Spread,
   Surface,
 } from './protocol';
 
-/** How far a valve opens; the gradient of a flow in ml/s, where it is not 0. */
+/** How far a valve opens. */
 export interface CostRequest {
   which: 'main' | 'preview' | 'first' | `checkpoint ${string}`;
-  flow: number;
 }
 
 /** Requests of the page: name, argument, result. */
@@ -52,7 +52,7 @@ export interface Calls {
   restore: { argument: { name: string }; result: Shown };
   read_checkpoint: { argument: { name: string }; result: Shown };
   save_obj: { argument: null; result: Uint8Array };
-  save_session: { argument: { notes: string; title: string }; result: Uint8Array };
+  save_session: { argument: SessionContents; result: Uint8Array };
   open_session: { argument: { bytes: Uint8Array }; result: SessionOpened };
   founding_healthy: { argument: { vertices: number }; result: FoundingResult['healthy'] };
   founding_repair: {

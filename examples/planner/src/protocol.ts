@@ -250,8 +250,18 @@ export interface Cost {
   posteriorLength: number;
   lengthRatio: number;
   annulusForce: number;
-  /** mmHg, of the flow that was given; NaN without one. */
-  gradient: number;
+  /** mmHg of a mean flow of 1 ml/s: the gradient grows with the square of the flow. */
+  resistance: number;
+}
+
+/** What a session holds beside the plan. */
+export interface SessionContents {
+  title: string;
+  notes: string;
+  /** mm2, within which the leak of the starting valve is known; null where that was not built from an image. */
+  leakRange?: Range | null;
+  /** ml/s through the open valve, where it is known. */
+  flow?: number | null;
 }
 
 export interface SessionOpened {
@@ -261,6 +271,8 @@ export interface SessionOpened {
   checkpoints: CheckpointList;
   notes: string;
   title: string;
+  leakRange: Range | null;
+  flow: number | null;
   sameResult: boolean;
 }
 

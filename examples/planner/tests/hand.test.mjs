@@ -1,7 +1,7 @@
 // Tissue that is grasped and pushed with the pointer while the valve lives.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { answered, startAfresh } from './fixtures/person.mjs';
+import { answered, edgePlace, startAfresh } from './fixtures/person.mjs';
 import { figures, sharePlanner } from './fixtures/browser.mjs';
 
 /** mm by which the nodes have moved from the closed valve, the farthest of them; 0 while nothing lives. */
@@ -71,4 +71,25 @@ describe('planner in the hand', () => {
       await page.keyboard.press(key);
       assert.equal(await tool.getAttribute('aria-pressed'), 'false');
     });
+
+  it('pushes_the_line_of_closure_where_the_ball_has_no_room_beside_the_leaflets', async () => {
+    await page.keyboard.press('b');
+    for (const along of [0.35, 0.5, 0.65]) {
+      const { x, y } = await edgePlace(page, 'A2', along);
+      for (const down of [-14, -7, 0, 7]) {
+        await page.mouse.move(x, y + down);
+        await page.mouse.down();
+        let most = 0;
+        for (let k = 0; k < 200 && most < 0.3; ++k) {
+          await page.waitForTimeout(50);
+          most = Math.max(most, await moved(page));
+          assert.equal(await page.evaluate(() => window.planner.state.notice.value?.text), undefined);
+        }
+        await page.mouse.up();
+        assert.ok(most >= 0.3 && most < 20, `${most} mm`);
+        await answered(page, 200);
+      }
+    }
+    await page.keyboard.press('b');
+  });
 });

@@ -67,6 +67,8 @@ describe('planner to learn with', () => {
     const opens = async () => {
       const line = page.getByTestId('opening');
       await line.getByText(/Opens to \d/).waitFor();
+      // the figure is known to about a tenth of a cm²
+      assert.match(await line.innerText(), /Opens to \d\.\d\scm²/);
       const [, area, goal] = /Opens to ([\d.]+)\scm².*goal ([\d.]+)/.exec(await line.innerText());
       return { area: +area, goal: +goal };
     };
@@ -112,18 +114,18 @@ describe('planner goals', () => {
   it('says_an_unmet_goal_and_a_small_ring_wherever_it_says_sealed', async () => {
     await openTour(1);
     await begin(page, 'ring');
-    await setNumber('#f-size', 24);
+    await setNumber('#f-size', 26);
     // below the form, before it is applied
     const line = page.getByTestId('goal-line');
     const missed = () => line.locator('.missed').allInnerTexts();
     await says(async () => (await missed()).join(), /^Opens ?missed$/);
     await says(() => line.locator('.done').allInnerTexts().then(String), /No leak.*Coaptation.*Chordae/);
     await apply(page);
-    const words = /^Sealed, but opening 2\.\d\d cm² is below the goal 3\.9\d/;
+    const words = /^Sealed, but opening [23]\.\d cm² is below the goal (3\.9|4\.0)/;
     const all = await says(card, words);
-    const small = 'annulus 24 mm, was 40: much undersized';
+    const small = 'annulus 26 mm, was 40: much undersized';
     assert.ok(all.includes(small), all);
-    await says(() => page.getByTestId('status').innerText(), /: Sealed, but opening 2\.\d\d cm² is below/);
+    await says(() => page.getByTestId('status').innerText(), /: Sealed, but opening [23]\.\d cm² is below/);
     await openPanel(page, 'Plan');
     const said = await says(() => page.getByTestId('plan-verdict').innerText(), /Sealed, but opening/);
     assert.ok(said.includes(small), said);
@@ -131,8 +133,16 @@ describe('planner goals', () => {
     const report = page.locator('dialog').getByTestId('report-verdict');
     assert.ok(said.endsWith(flat(await report.innerText())), await report.innerText());
     await page.keyboard.press('Escape');
-    // a ring of the usual size is no reservation
+    // one that leaves the leaflets in folds is no repair, whatever it leaks
     await undo(page);
+    await begin(page, 'ring');
+    await setNumber('#f-size', 20);
+    const folded = 'No real repair: the annulus is (49|50)\\s% of its width before';
+    await says(() => page.getByTestId('status').innerText(), new RegExp(folded));
+    assert.match(flat(await card()), /^No real repair ?preview.*leaflets lie in folds/);
+    await says(async () => (await missed()).join(), /^No leak ?missed/);
+    await page.keyboard.press('Escape');
+    // a ring of the usual size is no reservation
     await begin(page, 'ring');
     await setNumber('#f-size', 30);
     await apply(page);
@@ -152,7 +162,9 @@ describe('planner goals', () => {
       await setNumber('#f-factor', percent);
       const { orifice, coaptationMean } = (await figures(page)).measures;
       if (orifice > 0) continue;
-      const words = new RegExp(`coaptation ${coaptationMean.toFixed(1)} mm is below the goal`);
+      const words = new RegExp(
+        `coaptation ${goal.toFixed(1) === coaptationMean.toFixed(1) ? '' : coaptationMean.toFixed(1)}[\\d.]* mm is below the goal`,
+      );
       if (coaptationMean < goal) assert.match(flat(await card()), words);
       else assert.doesNotMatch(flat(await card()), /coaptation/);
     }
@@ -251,7 +263,7 @@ describe('planner goals', () => {
     // the offer stays, and the plan that it replaces can be returned to as well
     await notice.getByRole('button', { name: 'Return to it' }).click();
     await page.getByRole('button', { name: 'Go on', exact: true }).click();
-    await page.getByText('gives exactly the saved valve').waitFor();
+    await page.getByText('exactly the valve that was saved').waitFor();
     await closed(page);
     assert.equal(await hash(), changed);
     await notice.getByRole('button', { name: 'Return to it' }).waitFor();

@@ -315,7 +315,7 @@ describe('planner to look at', () => {
       await page.setViewportSize({ width, height });
       await page.waitForTimeout(200);
       await page.evaluate(() => {
-        const text = 'The plan “Valve 3: dilated, and a short chord” was closed; it reaches all goals.';
+        const text = 'The plan “Valve 3: dilated, and a short chord” was put aside; it reaches all goals.';
         window.planner.state.notice.value = {
           kind: 'info',
           text,

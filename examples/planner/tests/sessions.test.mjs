@@ -70,7 +70,7 @@ describe('valves that were left', () => {
       [1, hashes[0], ['ring 0', 'ring 1', 'ring 2']],
     ]) {
       await listed(page).nth(row).getByRole('button', { name: 'Open it again' }).click();
-      await page.getByText('gives exactly the saved valve').waitFor();
+      await page.getByText('exactly the valve that was saved').waitFor();
       await closed(page);
       assert.equal((await figures(page)).hash, hash);
       await becomes(() => page.locator('.checkpoint > span').allInnerTexts(), plans);
@@ -109,7 +109,7 @@ describe('valves that were left', () => {
     await becomes(() => notice.filter({ hasText: 'repair of this valve' }).count(), 0);
     await openTour(page, 4);
     await notice.getByRole('button', { name: 'Return to it' }).click();
-    await page.getByText('gives exactly the saved valve').waitFor();
+    await page.getByText('exactly the valve that was saved').waitFor();
     await closed(page);
     assert.equal((await figures(page)).hash, repaired);
   });
@@ -148,7 +148,7 @@ describe('valves that were left', () => {
     const path = await save(page);
     await startHealthy(page);
     await open(page, temporaryFile('repair.mvsplan', readFileSync(path)));
-    await page.getByText('gives exactly the saved valve').waitFor();
+    await page.getByText('exactly the valve that was saved').waitFor();
     await closed(page);
     const again = await figures(page);
     assert.deepEqual([again.hash, again.history.map(({ kind }) => kind)], [ringed, ['ring']]);
@@ -160,7 +160,7 @@ describe('valves that were left', () => {
     const illness = listed(page).filter({ hasNotText: ', changed' }).first();
     await illness.getByRole('button', { name: 'Open it again' }).click();
     await page.getByRole('button', { name: 'Go on', exact: true }).click();
-    await page.getByText('gives exactly the saved valve').waitFor();
+    await page.getByText('exactly the valve that was saved').waitFor();
     await closed(page);
     assert.equal((await figures(page)).hash, ill.hash);
   });

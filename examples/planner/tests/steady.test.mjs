@@ -133,7 +133,7 @@ describe('planner layout', () => {
     await begin(page, 'band');
     await page.getByRole('button', { name: 'Before', exact: true }).waitFor();
     await inWindows(async (size) => {
-      const text = 'The plan “Valve 3: dilated, and a short chord” was closed; it reaches all goals.';
+      const text = 'The plan “Valve 3: dilated, and a short chord” was put aside; it reaches all goals.';
       await page.evaluate((words) => {
         const action = { text: 'Return to it', run() {} };
         window.planner.state.notice.value = { kind: 'info', text: words, action };

@@ -142,7 +142,7 @@ describe('tour', () => {
           await page.getByRole('button', { name: 'Return to it' }).waitFor();
           assert.match(
             await page.getByTestId('notice').innerText(),
-            /The plan “Valve 1: .*” was closed; it reaches all goals/,
+            /The plan “Valve 1: .*” was put aside; it reaches all goals/,
           );
           assert.equal(await page.getByTestId('present').innerText(), 'Valve 2 of the tour');
           assert.equal(await button.locator('svg.soft').count(), 1, 'reached before');
@@ -154,7 +154,7 @@ describe('tour', () => {
           await page.getByTestId('reached-before').waitFor();
           assert.equal(await button.locator('svg:not(.soft)').count(), 0);
           await page.getByRole('button', { name: 'Return to it' }).click();
-          await page.getByText('gives exactly the saved valve').waitFor();
+          await page.getByText('exactly the valve that was saved').waitFor();
           assert.equal((await figures(page)).measures.orifice, 0);
           await button.locator('svg:not(.soft)').waitFor();
           assert.equal(await page.getByTestId('own-repair').count(), 0, 'it is open');

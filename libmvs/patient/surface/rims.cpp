@@ -123,8 +123,9 @@ void check_open(const std::vector<RimLoop> &rims, Findings &findings) {
   Finding finding;
   finding.name = "orifice";
   finding.confidence = std::min(1.0, width / (scale * doubtful_width));
-  finding.sentence = format("%.0f mm2 between the free edges, seen from the atrium%s", area * 1e6,
-                            width < scale * doubtful_width ? ": are these the open leaflets?" : "");
+  finding.sentence =
+      format("%.0f mm2 between the free edges as scanned, seen from the atrium%s", area * 1e6,
+             width < scale * doubtful_width ? ": are these the open leaflets?" : "");
   finding.value = {area};
   finding.unit = "m2";
   findings.push_back(finding);

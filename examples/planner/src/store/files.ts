@@ -8,6 +8,7 @@ import type { FileUnit, Shown } from '../protocol';
 import { mayReplace } from './ask';
 import { discard } from './edit';
 import { learnFounding } from './founding';
+import { keepLeakRange, rangeIn } from './leak_range';
 import { forget, leave, remember, repairOf, type Left } from './left';
 import { run, show, whole } from './requests';
 import * as state from './state';
@@ -216,6 +217,7 @@ async function leaveForSurface(): Promise<void> {
   const built = await run(t.building, 'build', { ...from.points, kind: from.kind, name: title });
   if (!built) return;
   state.tour.value = null;
+  keepLeakRange(built.shown.figures.hash, rangeIn(built.findings));
   begun(built.shown, title, left, true);
   state.imported.value = { ...from, findings: built.findings };
   state.panel.value = 'import';
@@ -232,12 +234,14 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
   }
   leaveSurface();
   batch(() => {
+    keepLeakRange(opened.first.figures.hash, opened.leakRange);
     show(opened.shown, true);
     state.tour.value = null;
     state.first.value = opened.first;
     state.receiveCheckpoints(opened.checkpoints);
     state.title.value = opened.title;
     state.notes.value = opened.notes;
+    state.flow.value = opened.flow ?? state.flow.value;
     state.changed.value = false;
     state.onlyHere.value = false;
     state.notice.value = opened.sameResult

@@ -3,8 +3,8 @@ import { computed } from '@preact/signals';
 import { edgeHeights } from '../flail';
 import { percentOfLimit } from '../notable';
 import type { Figures, Shown } from '../protocol';
-import { figure, verdictTexts } from '../text/texts';
-import { allowedLoad, leastCoaptation, leastOpening, openingOf } from './limits';
+import { apart, verdictTexts } from '../text/texts';
+import { allowedLoad, foldedShare, leastCoaptation, leastOpening, openingOf } from './limits';
 import * as state from './state';
 
 export type Goal = 'sealed' | 'chords' | 'open' | 'edge' | 'coaptation';
@@ -30,7 +30,10 @@ export function reached(shown: Shown | null): Record<Goal, boolean | null> {
   const [least, allowed, length] = [leastOpening(), allowedLoad(), leastCoaptation()];
   const partly = known !== 'all';
   return {
-    sealed: known === 'shape' ? null : measures.atRest && measures.orifice === 0,
+    sealed:
+      known === 'shape'
+        ? null
+        : measures.atRest && measures.orifice === 0 && foldedShare(measures.annulusCc) === null,
     chords: partly || allowed === null ? null : percentOfLimit(measures.chordLoad) <= allowed,
     // a valve without a flail scallop has nothing to reach
     edge: height === null || height < 0,
@@ -61,7 +64,7 @@ export function missedGoals(figures: Figures): string[] {
   return [
     ...(scallop && height !== null && height >= 0 ? [verdictTexts.edgeAbove(scallop, height)] : []),
     ...(least !== null && coaptationMean < least
-      ? [verdictTexts.coaptationBelow(figure(coaptationMean), figure(least))]
+      ? [verdictTexts.coaptationBelow(apart(coaptationMean, least))]
       : []),
   ];
 }

@@ -2,6 +2,7 @@
 import { effect, signal, untracked } from '@preact/signals';
 import { autosave, followSurface, keepCopy, leaveCopy, rest, sessionNow } from './recovery';
 import { fail, run } from './requests';
+import { sessionContents } from './session';
 import * as state from './state';
 import { t } from '../text/texts';
 
@@ -42,7 +43,7 @@ export async function saveObj(): Promise<void> {
 }
 
 export async function saveSession(): Promise<void> {
-  const bytes = await run(t.saving, 'save_session', { title: state.title.value, notes: state.notes.value });
+  const bytes = await run(t.saving, 'save_session', sessionContents());
   if (!bytes) return;
   download(bytes, `${fileName()}.mvsplan`, 'application/zip');
   state.changed.value = false;

@@ -4,6 +4,7 @@ import { signal } from '@preact/signals';
 import { titlesOf } from '../notable';
 import { reachesAll } from './goals';
 import { request } from './requests';
+import { sessionContents } from './session';
 import * as state from './state';
 import { verdictOf } from './verdict';
 
@@ -51,7 +52,7 @@ export async function leave(): Promise<Left | null> {
     content: JSON.stringify([title, figures.hash, done, plans, notes.value, tour.value?.number]),
   };
   try {
-    return { ...left, bytes: await request('save_session', { title, notes: notes.value }) };
+    return { ...left, bytes: await request('save_session', sessionContents()) };
   } catch {
     return null;
   }

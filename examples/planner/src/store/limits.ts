@@ -53,6 +53,17 @@ export function undersizedFrom(cc: number): number | null {
   return Math.round((100 * cc) / normal) < leastWidth ? first : null;
 }
 
+/** Per cent of the width before the plan below which a smaller annulus is no repair: its leaflets lie in folds, inside and outside of it. */
+const leastRepair = 60;
+
+/** The width of the annulus in per cent of that before the plan, where the plan has made it so small; else null. */
+export function foldedShare(cc: number): number | null {
+  const first = state.first.value?.figures.measures.annulusCc;
+  if (first === undefined) return null;
+  const percent = Math.round((100 * cc) / first);
+  return percent < leastRepair ? percent : null;
+}
+
 /** The least open area that the tour asks for, mm2; null where it is not known. */
 export function leastOpening(): number | null {
   const healthy = state.tour.value?.founding?.healthy;

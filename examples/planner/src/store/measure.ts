@@ -77,10 +77,7 @@ export async function compareCheckpoint(name: string | null): Promise<void> {
 
 export async function measureCost(): Promise<void> {
   if (!state.main.value) return;
-  const value = await run(t.measuring, 'cost', {
-    which: state.preview.value ? 'preview' : 'main',
-    flow: state.flow.value ?? 0,
-  });
+  const value = await run(t.measuring, 'cost', { which: state.preview.value ? 'preview' : 'main' });
   if (!value) return;
   state.cost.value = value;
   keepOpening(value);

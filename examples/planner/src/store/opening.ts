@@ -22,8 +22,7 @@ export function keepOpening(found: Cost): void {
 type Asked = CostRequest['which'];
 
 async function measure(which: Asked): Promise<void> {
-  const { value: flow } = state.flow;
-  keepOpening(await request('cost', { which, flow: flow ?? 0 }));
+  keepOpening(await request('cost', { which }));
 }
 
 /** True while two plans that are compared are measured. */
@@ -68,7 +67,8 @@ function watchCompared(): void {
 /** The valve whose opening was asked for last: a failure is not repeated. */
 let asked = '';
 
-/** Measures the valve of the plan where an operation may have narrowed it: its verdict waits for that. */
+/** Measures the valve of the plan where an operation may have narrowed it, for which its verdict waits, or where the gradient of a flow
+ *  is asked for. */
 function watchNarrowed(): void {
   let timer = 0;
   effect(() => {
@@ -77,7 +77,8 @@ function watchNarrowed(): void {
     const figures = main.value?.figures;
     const idle = !draft.value && !busy.value && !motion.value && !handing.value && !surface.value;
     if (!idle || figures?.known !== 'all' || !figures.measures.atRest) return;
-    if (!isNarrowed(figures) || openingOf(figures.hash) || asked === figures.hash) return;
+    if (!(isNarrowed(figures) || state.flow.value) || openingOf(figures.hash) || asked === figures.hash)
+      return;
     if (!measuresItself(main.value!)) return;
     timer = window.setTimeout(() => {
       asked = figures.hash;

@@ -15,6 +15,7 @@ import {
 import { beginImport, openSession } from './files';
 import { leave } from './left';
 import { fail, request } from './requests';
+import { sessionContents } from './session';
 import * as state from './state';
 
 const allowedKey = 'mvs-planner-1-autosave';
@@ -44,8 +45,7 @@ export async function findCopies(): Promise<void> {
 }
 
 /** The present session; asked for at once, so that it is not that of a plan which is opened afterwards. */
-export const sessionNow = (): Promise<Uint8Array> =>
-  request('save_session', { title: state.title.value, notes: state.notes.value });
+export const sessionNow = (): Promise<Uint8Array> => request('save_session', sessionContents());
 
 export async function allowAutosave(allowed: boolean): Promise<void> {
   try {

@@ -3,6 +3,7 @@ import { effect, untracked } from '@preact/signals';
 import { t, verdictTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import * as state from './state';
+import { leakBefore } from './leak_range';
 import { measuresItself, unmeasurable } from './limits';
 import { headline, relieved, verdictOf } from './verdict';
 
@@ -14,7 +15,8 @@ let held: Figures | null = null;
 
 const lineOf = (what: string, before: Figures | null, now: Figures): string => {
   const slack = relieved(before, now);
-  return t.statusLine(what, headline(now), now, slack.length ? verdictTexts.relieved(slack) : '');
+  const more = [slack.length ? verdictTexts.relieved(slack) : '', leakBefore(now)].filter(Boolean);
+  return t.statusLine(what, headline(now), now, more.join('. '));
 };
 
 function speak(now: Figures): void {

@@ -4,7 +4,16 @@ import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import type { Figures } from '../protocol';
 import { grade, headlineOf, stenosis, verdictTexts, where } from '../text/texts';
 import { missedGoals } from './goals';
-import { faultyLoad, leastOpening, narrowing, openingOf, smallAnnulus, undersizedFrom } from './limits';
+import { ofLeakRange } from './leak_range';
+import {
+  faultyLoad,
+  foldedShare,
+  leastOpening,
+  narrowing,
+  openingOf,
+  smallAnnulus,
+  undersizedFrom,
+} from './limits';
 
 export interface Verdict {
   /** 0 sealed to 4; null where the figures are not final. */
@@ -14,6 +23,8 @@ export interface Verdict {
   but: string[];
   /** An operation may have narrowed the valve, and how far it opens is not known. */
   unmeasured: boolean;
+  /** The annulus is so small that the leaflets lie in folds: the word is no grade of the leak. */
+  folded: boolean;
 }
 
 /** Whether an operation of the plan narrows the open valve. */
@@ -51,21 +62,33 @@ function ofChordae(figures: Figures): string[] {
 
 export function verdictOf(figures: Figures): Verdict {
   const { known, measures } = figures;
-  const none = { level: null, but: [], unmeasured: false };
+  const none = { level: null, but: [], unmeasured: false, folded: false };
   if (known === 'shape') return { ...none, word: verdictTexts.measuring };
   if (!measures.atRest || !measures.underLoad) return { ...none, word: verdictTexts.notAtRest };
+  const share = foldedShare(measures.annulusCc);
+  const { level, word } = grade(measures.orifice);
   return {
-    ...grade(measures.orifice),
-    but: [...ofOpening(figures), ...ofAnnulus(figures), ...missedGoals(figures), ...ofChordae(figures)],
+    level,
+    word: share === null ? word : verdictTexts.noRepair,
+    folded: share !== null,
+    but: [
+      ...(share === null ? [] : [verdictTexts.folded(share)]),
+      ...ofLeakRange(figures),
+      ...ofOpening(figures),
+      ...(share === null ? ofAnnulus(figures) : []),
+      ...missedGoals(figures),
+      ...ofChordae(figures),
+    ],
     unmeasured: isNarrowed(figures) && !openingOf(figures.hash),
   };
 }
 
 /** The verdict in one sentence, with the place of a leak. */
 export function headline(figures: Figures): string {
-  const { level, word, but, unmeasured } = verdictOf(figures);
-  const all = unmeasured ? [verdictTexts.openingUnknown, ...but] : but;
-  return headlineOf(word, level ? where(figures) : '', all);
+  const { level, word, but, unmeasured, folded } = verdictOf(figures);
+  const unknown = unmeasured ? [verdictTexts.openingUnknown] : [];
+  if (folded) return `${word}: ${[...but, ...unknown].join('; ')}`;
+  return headlineOf(word, level ? where(figures) : '', [...unknown, ...but]);
 }
 
 /** Chordae far beyond their limit before that carry nothing any more, with their load before in per cent. */

@@ -4,6 +4,15 @@ import type { Figures } from '../protocol';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
 
+/** Two numbers with as many digits as it takes to tell them apart, at least `digits` and at most three. */
+export function apart(one: number, other: number, digits = 1): [string, string] {
+  const texts: [string, string] = [number(one, digits), number(other, digits)];
+  return texts[0] !== texts[1] || one === other || digits >= 3 ? texts : apart(one, other, digits + 1);
+}
+
+/** An open area in cm2 of one in mm2. One digit: of wide areas the figure is right to about 0.1 cm2 (libmvs/measure/DEFINITIONS.md). */
+export const areaFigure = (area: number): string => number(area / 100);
+
 /** The pull of one chord; pulls of many together are in N. */
 export const millinewton = (newton: number): string => `${number(1000 * newton, 0)} mN`;
 
@@ -267,7 +276,7 @@ export const t = {
   reading: 'Reading the file…',
   cancel: 'Cancel',
   sessionFile: 'Repair session',
-  sessionOpened: 'Session opened. The plan was repeated and gives exactly the saved valve.',
+  sessionOpened: 'Session opened: exactly the valve that was saved, with its plan.',
   sessionDiffers:
     'Session opened, but the repeated plan differs from the saved valve: it was saved by another version, or the file was changed.',
   unknownFile: (name: string) =>
@@ -382,8 +391,8 @@ export const tourTexts = {
     sealed: 'No leak under 120 mmHg',
     edge: (scallop: string, height: number | null) =>
       `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
-    coaptation: (least: number | null) =>
-      `Coaptation length at least 90 % of that before the illness, in the mean${least === null ? '' : `: ${number(least)} mm`}. (Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.)`,
+    coaptation: (least: number | null, now: number) =>
+      `Coaptation length at least 90 % of that before the illness, in the mean${least === null ? '' : `: ${apart(now, least)[1]} mm`}. (Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.)`,
     chords: (percent: number | null) =>
       `No chord loaded above ${percent ?? '…'} % of its working limit. (Allowed are 10 % more than the limit or, where that is more, than the highest load before the illness.)`,
     open: 'Open area at least 90 % of that before the illness',
@@ -464,8 +473,10 @@ export const scaleTexts = {
 
 export const importTexts = {
   set: (count: number) => `${count} set`,
-  guessed: 'will be guessed',
-  clear: 'Clear',
+  guessed: 'guessed',
+  undo: (kind: string) => `Undo point: ${kind.toLowerCase()}`,
+  clear: (kind: string) => `Clear: ${kind.toLowerCase()}`,
+  beside: 'That click was beside the surface: nothing was marked.',
   build: 'Build the valve',
   leave: 'Leave',
   none: 'Drop a surface file (STL, PLY, OBJ) on the picture, or choose Open.',
@@ -518,6 +529,7 @@ export const refusals = {
   nothingRemoved: 'no kept plan was deleted',
   noOperation: (kind: string) => `there is no operation ${kind}`,
   noField: (kind: string, name: string) => `${kind} has no field ${name}`,
+  noRoom: 'There is no room for the ball here: turn the valve and press from another side.',
   cancelled: 'cancelled',
   noTriangles: (file: string) => `${file} has no triangles: it is no surface`,
   noWorker: 'the worker did not start',
@@ -537,18 +549,31 @@ export const verdictTexts = {
   at: (place: string) => `at ${place}`,
   meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
   ofClosed: 'when closed',
-  chordsOver: (count: number) => `${count} ${count === 1 ? 'chord' : 'chordae'} beyond the working limit`,
+  /** Chordae a little beyond their limit, which is no fault up to a load of `allowed` per cent, `goal` where that is the tour's. */
+  chordsOver: (count: number, allowed: number, goal: boolean) =>
+    `${count} ${count === 1 ? 'chord' : 'chordae'} over limit; ${goal ? `goal allows ${allowed} %` : `up to ${allowed} % is no fault`}`,
   but: ', but',
+  /** Beside the leak of a valve from an image. */
+  leakKnown: (low: number, high: number) =>
+    `chordae are guessed: a leak of ${number(low)} to ${number(high)} mm² is possible`,
+  leakBefore: (low: number, high: number) =>
+    `The leak before the repair is known as ${number(low)} to ${number(high)} mm² only: chordae were guessed`,
   butHelp: 'A sealed valve may still open too little, miss another goal, or hang on chordae that may tear.',
   /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
   openingIs: (area: number, word: string, adult: boolean, goal: number | null) =>
     `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}${goal === null ? '' : `, goal ${number(goal / 100)}`}`,
-  openingBelow: (area: number, goal: number) =>
-    `opening ${number(area / 100, 2)} cm² is below the goal ${number(goal / 100, 2)}`,
+  openingBelow: (area: number, goal: number) => {
+    const [is, wanted] = apart(area / 100, goal / 100);
+    return `opening ${is} cm² is below the goal ${wanted}`;
+  },
+  /** In place of the grade where the plan has made the annulus far too small. */
+  noRepair: 'No real repair',
+  folded: (percent: number) =>
+    `the annulus is ${percent} % of its width before; leaflets lie in folds: do not trust the figures`,
   undersized: (cc: number, from: number) =>
     `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
   edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
-  coaptationBelow: (length: string, goal: string) => `coaptation ${length} mm is below the goal ${goal}`,
+  coaptationBelow: ([length, goal]: [string, string]) => `coaptation ${length} mm is below the goal ${goal}`,
   smallAnnulus: (cc: number) =>
     `Limits of stenosis are those of adults. This annulus is smaller, ${number(cc, 0)} mm side to side: a child’s valve needs less, in proportion to the body, which is not known here.`,
   openingUnknown: 'its opening is not measured yet',
@@ -575,7 +600,7 @@ export const verdictTexts = {
 };
 
 const keptPlans = (count: number): string => `${count} kept ${count === 1 ? 'plan' : 'plans'}`;
-const withKept = (count: number): string => (count ? ` with its ${keptPlans(count)}` : '');
+const withKept = (count: number): string => (count ? `, with its ${keptPlans(count)}` : '');
 
 /** The present valve as the one before the repair. */
 export const startTexts = {
@@ -590,11 +615,11 @@ export const startTexts = {
 
 export const leaveTexts = {
   finished: (title: string, kept: number) =>
-    `The plan “${title}” was closed${withKept(kept)}; it reaches all goals.`,
+    `The plan “${title}” was put aside${withKept(kept)}; it reaches all goals.`,
   left: (title: string, kept: number) =>
-    `The changed plan “${title || 'without a name'}” was closed${withKept(kept)}.`,
+    `The changed plan “${title || 'without a name'}” was put aside${withKept(kept)}: Plan > Earlier valves.`,
   listed: (title: string, kept: number) =>
-    `“${title || 'without a name'}” was closed${withKept(kept)}; the panel Plan lists it.`,
+    `“${title || 'without a name'}” was put aside${withKept(kept)}: Plan > Earlier valves.`,
   dropped: (titles: string[]) =>
     `There is no room for so many earlier valves: ${listOf(titles.map((title) => `“${title}”`))} left the list.`,
   heading: (count: number) => `Earlier valves (${count})`,
@@ -731,8 +756,11 @@ export const valveTexts = {
     'Chordae are straight lines between their ends, and leaflets do not push them aside: in the picture of an open valve a chord may pass through a leaflet. Its pull and its length are those of the straight line.',
   howCertain: 'How certain? Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
-    `${converged} of ${members} closures came to rest, ${shapes === 1 ? `all in the same folds${apart < 0.05 ? '' : `, at most ${number(apart)} mm apart`}` : `in ${shapes} shapes of the folds, which differ by at most ${number(apart)} mm`}.`,
-  spreadLeak: (low: number, high: number) => ` Leak ${number(low)} to ${number(high)} mm².`,
+    `${converged} of ${members} closures came to rest, ${shapes === 1 ? `with the same result whichever way it closes${apart < 0.05 ? '' : `, at most ${number(apart)} mm apart`}` : `in ${shapes} shapes of the folds, which differ by at most ${number(apart)} mm`}. This says nothing of errors of the image or of the chordae.`,
+  spreadLeak: (low: number, high: number) =>
+    number(low) === number(high)
+      ? ` Leak ${number(low)} mm² each time.`
+      : ` Leak ${number(low)} to ${number(high)} mm².`,
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
   openAreaHelp: 'Smallest opening at 5 mmHg. In adults 1.5 cm² or less is a severe stenosis (ACC/AHA 2014).',
@@ -796,8 +824,8 @@ export const deviceTexts = {
     return given ? `${kind} ${given[1]}`.trimEnd() : `${kind} ${name}`;
   },
   /** `set`: as it was chosen; `apart`: its outermost stitches in the closed valve. */
-  clip: (clip: { between: string[]; set: ClipWords | null; apart: number; pull: number }) =>
-    `joins ${listOf(clip.between)}, ${clip.set === null ? `outermost stitches ${number(clip.apart, 0)} mm apart` : clipSaid(clip.set)}, strongest pull ${millinewton(clip.pull)}`,
+  clip: (clip: { between: string[]; set: ClipWords | null; apart: number; pull: number; arm: number }) =>
+    `joins ${listOf(clip.between)}, ${clip.set === null ? `outermost stitches ${number(clip.apart, 0)} mm apart` : clipSaid(clip.set)}, strongest pull ${millinewton(clip.pull)}; drawn with arms that reach ${number(clip.arm)} mm to either side, which the model does not know`,
   suture: (of: string[]) => `closes the cut in ${listOf(of)}`,
   neochord: (chord: { rest: number; tension: number; heads: string; scallops: string }) =>
     `${chord.heads} to ${chord.scallops}, ${number(chord.rest)} mm without pull, ${chord.tension > 0 ? `pull ${millinewton(chord.tension)}` : 'slack'}`,
@@ -822,7 +850,10 @@ export const formTexts = {
     `Annulus front to back ${number(was.ap)} → ${number(now.ap)} mm, side to side ${number(was.cc)} → ${number(now.cc)} mm.`,
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
-  leftEmpty: (fallback: string) => `as long as you type no number: ${fallback}`,
+  leftEmpty: (fallback: string) => `Left empty: ${fallback}.`,
+  /** Where the largest ring is smaller than the annulus. */
+  largestRing: (size: number, annulus: number) =>
+    `The largest ring, ${number(size, 0)} mm, is ${number(annulus - size)} mm (${number((100 * (annulus - size)) / annulus, 0)} %) narrower than this annulus.`,
   ringSizes: (low: number, high: number) => `Rings are made in sizes of ${low} to ${high} mm. `,
   /** Of a number that its slider does not reach. */
   beyond: (value: number, low: number, high: number, unit: string) => {
@@ -887,7 +918,9 @@ export const markTexts = {
 
 export const openingTexts = {
   opens: (area: number | undefined) =>
-    `Opens to ${area === undefined ? '…' : number(area / 100, 2)} cm² in diastole`,
+    `Opens to ${area === undefined ? '…' : areaFigure(area)} cm² in diastole`,
+  gradient: (now: number, flow: number, before: number | null) =>
+    `Mean gradient at ${number(flow, 0)} ml/s ${number(now)} mmHg${before === null ? '' : `, without it ${number(before)}`}.`,
   narrow: (word: string) =>
     word === 'narrow'
       ? 'Narrow: a mean flow of 200 ml/s loses more than 5 mmHg.'
@@ -908,8 +941,8 @@ export const openingTexts = {
     [
       before === undefined
         ? ''
-        : `${same ? 'about the same as without it' : 'without it'} ${number(before / 100, 2)} cm²`,
-      least === null ? '' : `goal ${number(least / 100, 2)} cm² or more`,
+        : `${same ? 'about the same as without it' : 'without it'} ${areaFigure(before)} cm²`,
+      least === null ? '' : `goal ${areaFigure(least)} cm² or more`,
     ]
       .filter(Boolean)
       .join(', '),
@@ -979,6 +1012,7 @@ export const repairTexts = {
 
 export const planTexts = {
   nothing: 'Nothing has been done yet. Operations appear here one by one.',
+  allUndone: 'All steps are undone. Redo brings them back one by one.',
   checkpoints: 'Kept plans',
   checkpointName: 'Name of the plan',
   planOf: (k: number) => `Plan ${k}`,
@@ -1525,7 +1559,6 @@ export const tips: Record<string, string> = {
   [importTexts.points.anterior]: 'Then click the leaflet that lies towards the aorta',
   [importTexts.points.annulus]: 'Then click along the rim where the leaflets are attached',
   [importTexts.points.tips]: 'Then click where the papillary muscles end',
-  [importTexts.clear]: 'Forgets these points; they are guessed again',
   [importTexts.build]: 'Makes a valve of the surface, adds chordae by normal anatomy and closes it',
   [importTexts.leave]: 'Leaves the surface; the valve before is shown again',
   [importTexts.again]: 'Back to the surface with its marked points',

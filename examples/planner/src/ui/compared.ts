@@ -1,6 +1,7 @@
 // The figures of two valves that stand side by side, in the comparison of plans and in the report.
 import { titlesOf } from '../notable';
-import { figure, figureNames, say } from '../text/texts';
+import { gradientOf } from '../store/gradient';
+import { areaFigure, figure, figureNames, say } from '../text/texts';
 import type { Cost, Figures, Measures } from '../protocol';
 
 /** Name, value, digits, unit. */
@@ -30,5 +31,11 @@ export function comparedRows(one: Figures, other: Figures): [string, string, str
 /** The names of the operations of a plan. */
 export const stepsOf = (figures: Figures): string[] => titlesOf(figures).map(say);
 
+/** The gradient of the given flow in words; empty where it is not known. */
+export function gradientText(cost: Cost | null): string {
+  const gradient = gradientOf(cost);
+  return gradient === null ? '' : `${figure(gradient)} mmHg`;
+}
+
 /** An open area in words. */
-export const areaText = (cost: Cost): string => `${figure(cost.openArea / 100, 2)} cm²`;
+export const areaText = (cost: Cost): string => `${areaFigure(cost.openArea)} cm²`;

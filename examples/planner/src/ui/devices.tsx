@@ -3,7 +3,7 @@ import { clipOf, cutOf, suture } from '../notable';
 import * as state from '../store/state';
 import { clipIn, deviceTexts, tipTexts } from '../text/texts';
 import type { Chord, Figures, Picture, Topology } from '../protocol';
-import { clipBodies } from '../view/clips';
+import { armReach, clipBodies } from '../view/clips';
 import { isClosed, ringCurves } from '../view/heart';
 import { Section } from './parts';
 
@@ -56,6 +56,7 @@ function devicesOf(topology: Topology, picture: Picture, figures: Figures): Devi
       set: clipIn(name, figures.clips),
       apart: 2 * (bodies.get(name)?.half ?? 0),
       pull: Math.max(...stitches.map(({ tension }) => tension)),
+      arm: armReach,
     }),
   }));
   const neochordae = figures.chords

@@ -27,7 +27,11 @@ function checks(number: number, shown: Shown | null): Check[] {
     ...(scallop
       ? [{ text: goals.edge(scallop, flailHeight(shown)), short: shortGoals.edge(scallop), done: edge }]
       : []),
-    { text: goals.coaptation(leastCoaptation()), short: shortGoals.coaptation, done: coaptation },
+    {
+      text: goals.coaptation(leastCoaptation(), shown?.figures.measures.coaptationMean ?? NaN),
+      short: shortGoals.coaptation,
+      done: coaptation,
+    },
     { text: goals.chords(allowedLoad()), short: shortGoals.chords, done: chords },
     { text: goals.open, short: shortGoals.open, done: open, later: tourTexts.whenSealed },
   ];

@@ -1,5 +1,5 @@
 // Bringing in a patient's surface: unit, points that the surgeon knows, building, and the findings.
-import { Hammer } from 'lucide-preact';
+import { Hammer, Undo2, X } from 'lucide-preact';
 import { buildValve, chooseUnit } from '../store/files';
 import * as state from '../store/state';
 import type { FileUnit, SurfaceKind } from '../protocol';
@@ -14,8 +14,12 @@ export function ImportPanel() {
   if (!imported) return <p class="hint">{importTexts.none}</p>;
   if (imported.findings.length) return <Findings />;
   const { surface } = imported;
-  const clear = (kind: (typeof kinds)[number]) =>
-    (state.imported.value = { ...imported, points: { ...imported.points, [kind]: [] } });
+  /** Leaves all points of a kind up to one, as `slice` counts. */
+  const keep = (kind: (typeof kinds)[number], end: number) =>
+    (state.imported.value = {
+      ...imported,
+      points: { ...imported.points, [kind]: imported.points[kind].slice(0, end) },
+    });
   return (
     <div class="panel-body">
       <h2>{imported.name}</h2>
@@ -68,11 +72,21 @@ export function ImportPanel() {
               ? importTexts.set(imported.points[kind].length)
               : importTexts.guessed}
           </span>
-          {imported.points[kind].length > 0 && (
-            <Button kind="quiet" onClick={() => clear(kind)}>
-              {importTexts.clear}
-            </Button>
-          )}
+          {/* always there, so that nothing moves under the pointer */}
+          <Button
+            kind="quiet"
+            icon={<Undo2 size={16} />}
+            label={importTexts.undo(importTexts.points[kind])}
+            disabled={!imported.points[kind].length}
+            onClick={() => keep(kind, -1)}
+          />
+          <Button
+            kind="quiet"
+            icon={<X size={16} />}
+            label={importTexts.clear(importTexts.points[kind])}
+            disabled={!imported.points[kind].length}
+            onClick={() => keep(kind, 0)}
+          />
         </div>
       ))}
       <p class="hint">{importTexts.tips}</p>

@@ -114,6 +114,13 @@ function Oversized({ size }: { size: number }) {
   );
 }
 
+/** What the size of a ring is compared with: the annulus, and by how much the `largest` ring is smaller than that. */
+function sizeWords(largest: number): string {
+  const annulus = state.main.value?.figures.measures.annulusCc ?? NaN;
+  const words = formTexts.sizeFrom(annulus);
+  return annulus > largest ? `${words} ${formTexts.largestRing(largest, annulus)}` : words;
+}
+
 /** Sizes of rings go by 2 mm, about 5 %: the nearest size above the annulus is none too large. */
 const oversized = 1.05;
 
@@ -206,9 +213,7 @@ export function NumberField(props: FieldProps) {
         <span class="unit">{unit}</span>
       </div>
       {position && <Side sense={sense} value={value ?? 0} />}
-      {kind === 'ring' && field.name === 'size' && (
-        <small>{formTexts.sizeFrom(state.main.value?.figures.measures.annulusCc ?? NaN)}</small>
-      )}
+      {kind === 'ring' && field.name === 'size' && <small>{sizeWords(high!)}</small>}
       {beyond && (
         <small class="warn" role="status" data-testid="beyond">
           {kind === 'ring' && formTexts.ringSizes(low!, high!)}

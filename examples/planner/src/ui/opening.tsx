@@ -1,4 +1,5 @@
 // In the form of an operation that narrows the valve: how far it would open, beside the valve before and the goal; at a press why.
+import { gradientOf, isTooMuch } from '../store/gradient';
 import { leastOpening, narrowing, openingOf, smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
 import { openingTexts, stenosis, verdictTexts } from '../text/texts';
@@ -9,7 +10,8 @@ const ofAnnulus = new Set(['ring', 'band']);
 /** Share of the opening before below which the form says why so little is left, also where that is no stenosis. */
 const muchLess = 0.8;
 
-/** Share by which two openings differ no more than they are known. */
+/** Share by which two openings differ no more than they are known: of a rigid funnel the figure is right to 1 %
+ *  (libmvs/measure/DEFINITIONS.md), and leaflets come to rest in slightly different folds. */
 const accuracy = 0.02;
 
 export function Opening({ kind }: { kind: string }) {
@@ -20,7 +22,8 @@ export function Opening({ kind }: { kind: string }) {
   const least = leastOpening();
   const word = now ? stenosis(now.openArea) : '';
   const small = smallAnnulus();
-  const warn = !!word || (now && least !== null && now.openArea < least);
+  const [gradient, flow] = [gradientOf(now), state.flow.value];
+  const warn = !!word || isTooMuch(gradient) || (now && least !== null && now.openArea < least);
   const share = now && before ? now.openArea / before.openArea : NaN;
   const same = Math.abs(share - 1) <= accuracy;
   const narrower = preview.measures.annulusCc < (state.main.value?.figures.measures.annulusCc ?? 0);
@@ -34,9 +37,17 @@ export function Opening({ kind }: { kind: string }) {
     less && openingTexts.measured,
   ].filter((text) => !!text);
   return (
-    <div class={`opens${warn ? ' warn' : ''}`} data-testid="opening" title={openingTexts.help}>
+    <div
+      class={`opens${warn ? ' warn' : ''}${state.outdated.value ? ' outdated' : ''}`}
+      aria-busy={state.outdated.value}
+      data-testid="opening"
+      title={openingTexts.help}
+    >
       {openingTexts.opens(now?.openArea)}
       <span class="was"> {openingTexts.beside(before?.openArea, least, same)}</span>
+      {flow && gradient !== null && (
+        <small>{openingTexts.gradient(gradient, flow, gradientOf(before))}</small>
+      )}
       {why.length > 0 && <Why question={openingTexts.why(word, less)} answers={why as string[]} />}
     </div>
   );

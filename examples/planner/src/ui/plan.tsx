@@ -8,10 +8,19 @@ import { openingOf } from '../store/limits';
 import { planName } from '../store/plans';
 import * as state from '../store/state';
 import { headline } from '../store/verdict';
-import { appTexts, barTexts, figureNames, planTexts, say, tips, valveTexts } from '../text/texts';
+import {
+  appTexts,
+  barTexts,
+  figureNames,
+  planTexts,
+  reportTexts,
+  say,
+  tips,
+  valveTexts,
+} from '../text/texts';
 import { Checkpoints } from './checkpoints';
 import { BeginHere, EarlierValves } from './earlier';
-import { areaText, comparedRows, stepsOf } from './compared';
+import { areaText, comparedRows, gradientText, stepsOf } from './compared';
 import { Button, Section } from './parts';
 
 export function PlanPanel() {
@@ -43,7 +52,9 @@ export function PlanPanel() {
           <li class={entry.undone ? 'undone' : ''}>{say(entry.title)}</li>
         ))}
       </ol>
-      {stepsOf(figures).length === 0 && <p class="hint">{planTexts.nothing}</p>}
+      {stepsOf(figures).length === 0 && (
+        <p class="hint">{figures.history.length ? planTexts.allUndone : planTexts.nothing}</p>
+      )}
       <p data-testid="plan-verdict">
         {planTexts.result} <strong>{headline(figures)}</strong>
       </p>
@@ -149,6 +160,14 @@ function SideBySide() {
             <td>{openArea(hash)}</td>
           ))}
         </tr>
+        {state.flow.value && (
+          <tr>
+            <th scope="row">{reportTexts.gradient(state.flow.value)}</th>
+            {[other, now].map(({ hash }) => (
+              <td>{gradientText(openingOf(hash)) || '…'}</td>
+            ))}
+          </tr>
+        )}
         <tr class="wrap">
           <th scope="row">{planTexts.steps}</th>
           {[other, now].map((figures) => (

@@ -5,14 +5,14 @@ import { Download, Printer } from 'lucide-preact';
 import { download } from '../store/keep';
 import * as state from '../store/state';
 import { headline, relieved } from '../store/verdict';
-import { figure, reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
+import { reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
 import type { Cost, Figures, SectionRequest, Shown } from '../protocol';
 import { openingOf } from '../store/limits';
 import { measureReport, toMeasure } from '../store/opening';
 import { keptName, readPlans } from '../store/plans';
 import { fail, request } from '../store/requests';
 import { view } from './app';
-import { areaText, comparedRows, stepsOf } from './compared';
+import { areaText, gradientText, comparedRows, stepsOf } from './compared';
 import { Modal } from './modal';
 import { Button } from './parts';
 import { escape, otherPlans } from './report_plans';
@@ -91,12 +91,10 @@ function openingRows(then: Figures, now: Figures): string {
   const [before, after] = [openingOf(then.hash), openingOf(now.hash)];
   if (!after) return '';
   const area = (cost: Cost | null) => (cost ? areaText(cost) : '');
-  const gradient = (cost: Cost | null) =>
-    cost && Number.isFinite(cost.gradient) ? `${figure(cost.gradient)} mmHg` : '';
   return (
     tableRow(valveTexts.openArea, area(before), area(after)) +
-    (Number.isFinite(after.gradient)
-      ? tableRow(reportTexts.gradient(state.flow.value ?? 0), gradient(before), gradient(after))
+    (state.flow.value
+      ? tableRow(reportTexts.gradient(state.flow.value), gradientText(before), gradientText(after))
       : '')
   );
 }

@@ -4,7 +4,7 @@ import { signal } from '@preact/signals';
 
 /** The control whose tooltip is shown. */
 const shown = signal<HTMLElement | null>(null);
-/** Whether the last action was one of the keyboard: a press needs no tooltip. */
+/** Whether the last action was a key that moves from control to control: a press, and a key of the page, needs no tooltip. */
 let byKeys = false;
 
 /** The words of a control: its own, those of its field, or its description. */
@@ -19,8 +19,7 @@ function onFocus(event: FocusEvent): void {
 }
 
 function onKey(event: KeyboardEvent): void {
-  // a key of the window may move the focus as well
-  byKeys = true;
+  byKeys = event.key === 'Tab' || event.key.startsWith('Arrow');
   if (event.key !== 'Tab') shown.value = null;
 }
 

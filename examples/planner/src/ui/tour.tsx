@@ -1,12 +1,12 @@
 // The tour: three leaking valves of the founding study and one with a flail leaflet, a goal, and a score beside the healthy
 // valve and the repair of the founding surgeon, or an example.
-import { Check, Eye, History, Wrench } from 'lucide-preact';
+import { Check, Eye, Wrench } from 'lucide-preact';
 import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
 import { reachesAll } from '../store/goals';
 import { openingOf } from '../store/limits';
 import { showChord, startValve } from '../store/tour';
-import { figure, say, tipTexts, tourTexts } from '../text/texts';
+import { areaFigure, figure, say, tipTexts, tourTexts } from '../text/texts';
 import { OwnRepair } from './earlier';
 import { Goals } from './goals';
 import { Button, Section } from './parts';
@@ -17,7 +17,7 @@ function signOf(number: number): 'now' | 'before' | 'none' {
   return state.finished.value.includes(number) ? 'before' : 'none';
 }
 
-const signs = { now: <Check size={16} />, before: <History class="soft" size={12} />, none: undefined };
+const signs = { now: <Check size={16} />, before: <Check class="soft" size={16} />, none: undefined };
 
 export function TourPanel() {
   const tour = state.tour.value;
@@ -122,7 +122,7 @@ function Score() {
           {row(tourTexts.rows.leak, (c) => figure(c.m.orifice, 1))}
           {row(tourTexts.rows.coaptation, (c) => figure(c.m.coaptationMean, 1))}
           {row(tourTexts.rows.load, (c) => String(percentOfLimit(c.m.chordLoad)))}
-          {row(tourTexts.rows.area, (c) => (c.area === undefined ? '?' : figure(c.area / 100, 2)))}
+          {row(tourTexts.rows.area, (c) => (c.area === undefined ? '?' : areaFigure(c.area)))}
           {row(tourTexts.rows.ap, (c) => figure(c.m.annulusAp, 1))}
         </tbody>
       </table>

@@ -1,6 +1,8 @@
 // The panel "Valve": the clinical figures first, the physics behind a click.
 import { Activity, Layers } from 'lucide-preact';
 import { measureCost, measureSpread } from '../store/measure';
+import { gradientOf, isTooMuch } from '../store/gradient';
+import { openingOf } from '../store/limits';
 import * as state from '../store/state';
 import { appTexts, tips, valveTexts } from '../text/texts';
 import type { Figures, Measures } from '../protocol';
@@ -202,7 +204,8 @@ function headName(h: number): string {
 }
 
 function OpenArea({ figures }: { figures: Figures }) {
-  const cost = state.cost.value?.hash === figures.hash ? state.cost.value : null;
+  const cost = openingOf(figures.hash);
+  const gradient = gradientOf(cost);
   return (
     <Section title={valveTexts.opens}>
       <div class="field">
@@ -220,7 +223,8 @@ function OpenArea({ figures }: { figures: Figures }) {
             onChange={(event) => {
               const given = parseFloat(event.currentTarget.value);
               state.flow.value = given > 0 ? given : null;
-              state.cost.value = null;
+              state.changed.value = true;
+              if (state.flow.value && !cost) void measureCost();
             }}
           />
           <span class="unit">{valveTexts.flowUnit}</span>
@@ -233,16 +237,15 @@ function OpenArea({ figures }: { figures: Figures }) {
             label={valveTexts.openArea}
             value={cost.openArea / 100}
             unit="cm²"
-            digits={2}
             help={valveTexts.openAreaHelp}
           />
-          {Number.isFinite(cost.gradient) && (
+          {gradient !== null && (
             <Figure
               label={valveTexts.gradient}
-              value={cost.gradient}
+              value={gradient}
               unit="mmHg"
               help={valveTexts.gradientHelp}
-              warn={cost.gradient > 5}
+              warn={isTooMuch(gradient)}
             />
           )}
           <Figure label={valveTexts.annulusPull} value={cost.annulusForce} unit="N" />

@@ -1,7 +1,8 @@
 // The verdict in large letters over all panels: sealed or leaking, where and how much; dots stand for what is still to
 // come.
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
-import { smallAnnulus } from '../store/limits';
+import { leakBefore } from '../store/leak_range';
+import { allowedLoad, faultyLoad, smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
 import { showChord } from '../store/tour';
 import { isOverloaded, relieved, verdictOf } from '../store/verdict';
@@ -19,7 +20,7 @@ export function Verdict() {
       </div>
     );
   const shape = figures.known === 'shape';
-  const { level, word, but, unmeasured } = verdictOf(figures);
+  const { level, word, but, unmeasured, folded } = verdictOf(figures);
   const small = smallAnnulus();
   const tag = tagOf();
   const grading = level === null ? 'none' : but.length && !level ? 'but' : level;
@@ -32,7 +33,7 @@ export function Verdict() {
       <div class="verdict-word">
         <strong>
           {word}
-          {but.length > 0 && !level && verdictTexts.but}
+          {but.length > 0 && !level && !folded && verdictTexts.but}
         </strong>
         {tag && <span class="tag">{tag}</span>}
       </div>
@@ -49,6 +50,7 @@ export function Verdict() {
       {unmeasured && <div class="verdict-note">{verdictTexts.openingUnknown}</div>}
       <Beyond figures={figures} />
       <Relieved figures={figures} />
+      {!shape && leakBefore(figures) && <div class="verdict-note">{leakBefore(figures)}</div>}
     </div>
   );
 }
@@ -76,7 +78,7 @@ function Beyond({ figures }: { figures: Figures }) {
       class={counted ? 'verdict-warn' : 'verdict-note'}
       title={beyond.some((chord) => chord.artificial) ? words.artificialHelp : words.limitHelp}
     >
-      {!counted && <div>{words.chordsOver(beyond.length)}</div>}
+      {!counted && <div>{words.chordsOver(beyond.length, faultyLoad(), allowedLoad() !== null)}</div>}
       <div class="beyond-names">
         {beyond.slice(0, named).map((chord) => (
           <button

@@ -73,6 +73,27 @@ export function chordae(topology: Topology, picture: Picture, options: SceneOpti
   return shapes.mesh({ cut: true });
 }
 
+/** Opacity of a chord beyond its limit where other parts hide it. */
+const behind = 0.7;
+
+/** Chordae beyond their limit once more, through the chordae and heads that hide them from below; null where there are none. */
+export function beyondAll(
+  topology: Topology,
+  picture: Picture,
+  { load, chosenChord }: SceneOptions,
+  under: Under,
+): Mesh | null {
+  const shapes = new Shapes();
+  load?.forEach((share, k) => {
+    if (share <= 1 || k === chosenChord || topology.chordKind[k] === suture) return;
+    const radius = drawnRadius(topology, k);
+    const [a, b] = chordEnds(topology, picture, k, radius, under);
+    shapes.tube(a, b, radius, tissue.over, isMany(topology) ? 4 : 7);
+  });
+  if (shapes.isEmpty()) return null;
+  return { ...shapes.mesh({ cut: true, overlay: true, opacity: behind }), fromBelow: true };
+}
+
 /** The chosen chord once more, through whatever hides it. */
 export function throughAll(topology: Topology, picture: Picture, k: number, under: Under): Mesh {
   const shapes = new Shapes();

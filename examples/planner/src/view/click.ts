@@ -2,6 +2,7 @@
 // point of an imported surface.
 import * as state from '../store/state';
 import type { FieldInfo, Topology } from '../protocol';
+import { importTexts } from '../text/texts';
 import { setField } from '../store/edit';
 import { fillField } from './answer';
 import type { Place } from './drags';
@@ -19,12 +20,31 @@ function markImport(view: Viewport, imported: state.Imported, p: Place): void {
   const { camera, width, height } = view;
   camera.update();
   const { positions, index } = view.surface!;
-  const hit = pickSurface(camera, { triangles: index }, positions, p.x, p.y, width, height, null);
+  const placeAt = (x: number, y: number) =>
+    pickSurface(camera, { triangles: index }, positions, x, y, width, height, null)?.at ?? null;
   const kind = state.importing.value;
-  const at = hit?.at ?? (kind === 'tips' ? tipAt(view, p) : null);
-  if (!at) return;
+  const at = placeAt(p.x, p.y) ?? (kind === 'tips' ? tipAt(view, p) : nearby(p, placeAt));
+  if (!at) {
+    state.status.value = importTexts.beside;
+    state.notice.value = { kind: 'info', text: importTexts.beside };
+    return;
+  }
+  if (state.notice.value?.text === importTexts.beside) state.notice.value = null;
   const points = [...imported.points[kind], at].slice(-most[kind]);
   state.imported.value = { ...imported, points: { ...imported.points, [kind]: points } };
+}
+
+/** Pixels beside the surface at which a click still means its rim. */
+const besideRim = 10;
+
+/** A place of the surface beside a pixel; null where there is none within reach. */
+function nearby(p: Place, placeAt: (x: number, y: number) => number[] | null): number[] | null {
+  for (let k = 0; k < 8; ++k) {
+    const [x, y] = [Math.cos((k * Math.PI) / 4), Math.sin((k * Math.PI) / 4)];
+    const at = placeAt(p.x + besideRim * x, p.y + besideRim * y);
+    if (at) return at;
+  }
+  return null;
 }
 
 /** The place of the pointer in the plane through the target of the camera, which is the middle of the surface. */

@@ -1,5 +1,5 @@
-// Clips as devices: a bar along the edge and two arms across it, turned as the clip is, seen, and faintly through the leaflets that
-// close over it.
+// Clips as devices: a bar along the edge and two arms across it, turned as the clip is, each to the ventricular side of its leaflet;
+// seen, and faintly through the leaflets that close over it.
 import type { Picture, Topology } from '../protocol';
 import { clipOf, suture } from '../notable';
 import { tissue } from './colours';
@@ -7,8 +7,13 @@ import { point, Shapes } from './mesh';
 
 /** mm: a bar as thick as the leaflets that it holds. */
 const radius = 1;
-/** mm from the middle of a clip to the ends of its arms, which are longer than its bar: they show its turn. */
-const armLength = 7;
+/** mm from the middle of a clip to the ends of its arms as seen from the atrium. The length of arms is no part of the model: those of
+ *  common clips are 9 mm long, and stand steeply in a closed clip. */
+export const armReach = 4.5;
+/** mm from the middle of a leaflet to an arm on its ventricular side. */
+const beside = 1;
+/** The steepest arm, height over reach: 9 mm long. */
+const steepest = 1.7;
 /** Radii of the arms in the middle and at their ends, mm. */
 const armRadii = [0.9, 0.65];
 
@@ -56,6 +61,18 @@ export function clipBodies(topology: Topology, picture: Picture, frame: number[]
   );
 }
 
+/** mm of the leaflets above a place as seen from the atrium, along `up`, by the nearest node. */
+function liftAt(topology: Topology, picture: Picture, place: number[], up: number[]): number {
+  let [nearest, lift] = [Infinity, 0];
+  for (const node of topology.triangles) {
+    const away = point(picture.positions, node).map((v, c) => v - place[c]);
+    const height = away.reduce((sum, v, c) => sum + v * up[c], 0);
+    const level = Math.hypot(...away.map((v, c) => v - height * up[c]));
+    if (level < nearest) [nearest, lift] = [level, height];
+  }
+  return lift;
+}
+
 /** Devices of all clips as convex parts, the bar and both arms of each; `turns`: of each in degrees against the clock, by its name. */
 export function clipParts(
   topology: Topology,
@@ -64,7 +81,7 @@ export function clipParts(
   turns: Map<string, number>,
 ): Shapes[] {
   const parts: Shapes[] = [];
-  const [ap, cc] = [frame.slice(3, 6), frame.slice(6, 9)];
+  const [ap, cc, up] = [frame.slice(3, 6), frame.slice(6, 9), frame.slice(9, 12)];
   for (const [name, { middle, half }] of clipBodies(topology, picture, frame)) {
     const angle = ((turns.get(name) ?? 0) * Math.PI) / 180;
     const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
@@ -76,7 +93,10 @@ export function clipParts(
     parts.push(body);
     for (const side of [-1, 1]) {
       body.tube(at(bar, side * half), at(bar, side * (half + 0.4)), radius, tissue.suture, 12, 0.02);
-      const tip = at(arm, side * armLength);
+      const level = at(arm, side * armReach);
+      const most = steepest * armReach;
+      const lift = Math.min(most, Math.max(-most, liftAt(topology, picture, level, up) - beside));
+      const tip = level.map((v, c) => v + lift * up[c]);
       const one = new Shapes();
       one.tube(middle, tip, armRadii[0], tissue.suture, 12, armRadii[1]);
       one.sphere(tip, armRadii[1], tissue.suture, 8, 12);

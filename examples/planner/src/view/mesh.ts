@@ -19,6 +19,8 @@ export interface Mesh {
   cut: boolean;
   /** No light: colour as it is. */
   flat: boolean;
+  /** Left out where the eye is above the leaflets. */
+  fromBelow?: boolean;
   /** The only side that is drawn; both where it is not given. */
   only?: 'front' | 'back';
 }

@@ -1,6 +1,6 @@
 // Everything that is drawn of a valve, as meshes: leaflets and seams, what holds them, chordae, the leak, marks of chosen parts.
 import type { Fields, OrificePart, Picture, Topology } from '../protocol';
-import { chordae, throughAll } from './chordae';
+import { beyondAll, chordae, throughAll } from './chordae';
 import { clipParts } from './clips';
 import { tissue, type MapName } from './colours';
 import { annulusAndRings, heads } from './heart';
@@ -50,7 +50,11 @@ export function sceneMeshes(topology: Topology, middle: Picture, options: SceneO
     annulusAndRings(topology, picture, options),
     heads(topology, picture, options),
   ];
-  if (options.chordsOn) meshes.push(chordae(topology, picture, options, under));
+  if (options.chordsOn) {
+    meshes.push(chordae(topology, picture, options, under));
+    const beyond = beyondAll(topology, picture, options, under);
+    if (beyond) meshes.push(beyond);
+  }
   const devices = new Shapes();
   for (const part of clipParts(topology, middle, options.frame, options.clipTurns)) devices.add(part);
   if (!devices.isEmpty()) meshes.push(...throughTissue(devices.mesh({ cut: true }), behindDevice));

@@ -103,10 +103,15 @@ export class Viewport {
 
   /** Whether the eye looks at the leaflets from above, where they hide chordae and papillary heads. */
   private fromAtrium(): boolean {
+    return this.eyeHeight() > 0.5;
+  }
+
+  /** The sine of the height of the eye over the plane of the annulus. */
+  private eyeHeight(): number {
     const { target } = this.camera;
     const back = this.camera.position().sub(target).normalize();
     const frame = this.frameOf();
-    return back.x * frame[9] + back.y * frame[10] + back.z * frame[11] > 0.5;
+    return back.x * frame[9] + back.y * frame[10] + back.z * frame[11];
   }
 
   /** Shows the surface of an import instead of the valve. */
@@ -252,7 +257,10 @@ export class Viewport {
     const topology = picture && state.topologyOf(picture);
     const plane = this.plane();
     // a section shows what is behind its plane as it is: devices do not shine through the cut leaflets
-    const meshes = this.meshes.filter((mesh) => !(plane && mesh.cut && mesh.overlay));
+    const above = this.eyeHeight() > 0.2;
+    const meshes = this.meshes.filter(
+      (mesh) => !(plane && mesh.cut && mesh.overlay) && !(above && mesh.fromBelow),
+    );
     if (plane && topology && !this.surface) {
       meshes.push(...sectionMeshes(topology, picture, plane, this.frameOf(), this.radius()));
     }

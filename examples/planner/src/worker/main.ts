@@ -116,7 +116,7 @@ const handlers: Handlers = {
   restore: ({ name }, { stage }) => planner.restore(name, stage),
   read_checkpoint: ({ name }) => planner.readCheckpoint(name),
   save_obj: () => planner.main.read((snapshot) => snapshot.save('obj')),
-  save_session: ({ title, notes }) => saveSession(planner, title, notes),
+  save_session: (contents) => saveSession(planner, contents),
   open_session: ({ bytes }) => openSession(planner, bytes),
   founding_healthy: ({ vertices }) => {
     healthy ??= new HealthyValve(mvs, vertices);

@@ -3,10 +3,12 @@ import type { Snapshot } from 'libmvs';
 import type { Cost } from '../protocol';
 import { ml, mm, mm2, mmHg } from './units';
 
-/** The valve opened beside the plan; the gradient of a flow in ml/s, if one is given. */
-export function openingOf(snapshot: Snapshot, flow: number): Cost {
-  const asked = flow > 0 ? { residual: 1e-4, flow: flow / ml } : { residual: 1e-4 };
-  const { cost, opened } = snapshot.cost(asked);
+/** ml/s; any flow tells the gradient of all others. */
+const someFlow = 100;
+
+/** The valve opened beside the plan. */
+export function openingOf(snapshot: Snapshot): Cost {
+  const { cost, opened } = snapshot.cost({ residual: 1e-4, flow: someFlow / ml });
   opened.dispose();
   return {
     hash: snapshot.hash,
@@ -15,6 +17,6 @@ export function openingOf(snapshot: Snapshot, flow: number): Cost {
     posteriorLength: cost.posterior_length * mm,
     lengthRatio: cost.length_ratio,
     annulusForce: cost.annulus_force_sum,
-    gradient: cost.gradient / mmHg,
+    resistance: cost.gradient / mmHg / someFlow ** 2,
   };
 }

@@ -246,13 +246,12 @@ export class Planner {
     return this.second;
   }
 
-  /** The valve opened in diastole; the gradient of a flow in ml/s, if one is given. */
-  cost({ which, flow }: CostRequest): Cost {
-    const costOf = (snapshot: Snapshot) => openingOf(snapshot, flow);
-    if (which === 'preview' && this.preview) return costOf(this.preview);
-    if (which === 'first' && this.first) return costOf(this.first);
+  /** The valve opened in diastole. */
+  cost({ which }: CostRequest): Cost {
+    if (which === 'preview' && this.preview) return openingOf(this.preview);
+    if (which === 'first' && this.first) return openingOf(this.first);
     const name = checkpointIn(which);
-    return name === null ? this.main.read(costOf) : costOf(this.checkpoints.of(name));
+    return name === null ? this.main.read(openingOf) : openingOf(this.checkpoints.of(name));
   }
 
   section({ which, frame, offset }: SectionRequest): Section {

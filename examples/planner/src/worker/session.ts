@@ -3,7 +3,7 @@
 // is needed to repeat it: `mvs repair valve.obj --plan plan.json`.
 import { MvsError } from 'libmvs';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
-import type { SessionOpened } from '../protocol';
+import type { Range, SessionContents, SessionOpened } from '../protocol';
 import { refusals } from '../text/texts';
 import type { Planner } from './planner';
 
@@ -22,9 +22,21 @@ interface Description {
   checkpoints: { name: string; plan: string }[];
   /** How many operations of the plan made the valve what it was before the repair; none where it is left out. */
   before?: number;
+  leak_range_mm2?: Range;
+  flow_ml_s?: number;
 }
 
-export function saveSession(planner: Planner, title: string, notes: string): Uint8Array {
+/** Two numbers of a file, in their order; null for anything else. */
+function rangeOf(value: unknown): Range | null {
+  if (!Array.isArray(value) || value.length !== 2) return null;
+  const [low, high] = value.map(Number);
+  return low <= high ? [low, high] : null;
+}
+
+export function saveSession(
+  planner: Planner,
+  { title, notes, leakRange, flow }: SessionContents,
+): Uint8Array {
   const files: Record<string, Uint8Array> = { 'valve.obj': planner.start };
   const checkpoints = [...planner.checkpoints].map(([name, snapshot], k) => {
     const plan = `checkpoints/${k + 1}.json`;
@@ -42,6 +54,8 @@ export function saveSession(planner: Planner, title: string, notes: string): Uin
     saved: new Date().toISOString(),
     checkpoints,
     before: planner.before || undefined,
+    ...(leakRange ? { leak_range_mm2: leakRange } : {}),
+    ...(flow ? { flow_ml_s: flow } : {}),
   };
   files['session.json'] = strToU8(JSON.stringify(description, null, 2));
   return zipSync(files, { level: 6 });
@@ -115,6 +129,8 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
     checkpoints: planner.checkpoints.list(),
     notes: String(description.notes ?? ''),
     title: String(description.title ?? ''),
+    leakRange: rangeOf(description.leak_range_mm2),
+    flow: Number(description.flow_ml_s) > 0 ? Number(description.flow_ml_s) : null,
     sameResult: shown.figures.hash === description.hash,
   };
 }
