@@ -194,9 +194,10 @@ TEST_CASE("a_leak_comes_with_those_of_shorter_and_longer_chordae") {
   CHECK(interval.leak[1] == measure_orifice(*closed.model, closed.state.x).area);
   const auto [least, most] = std::minmax_element(interval.leak.begin(), interval.leak.end());
   CHECK(*most > *least + 1e-6);
-  REQUIRE(findings.size() == 2);
+  REQUIRE(findings.size() == 3);
   CHECK(findings[0].name == "leak");
   CHECK(findings[1].name == "leak_interval");
+  CHECK(findings[2].name == "leak_limits");
   CHECK(interval.draws > 0);
   CHECK(interval.least <= *least);
   CHECK(interval.most > *most);

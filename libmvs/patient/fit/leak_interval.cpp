@@ -151,6 +151,15 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
         interval.closures, ranges.c_str());
   }
   findings.push_back(finding);
+  findings.push_back(
+      {"leak_limits",
+       FindingSource::assumed,
+       1,
+       format("meshes of one valve leak alike to %.1f mm2; an interval of %.0f mm2 says nothing, "
+              "as grades of regurgitation are that far apart",
+              sealed * 1e6, unknown_leak * 1e6),
+       {sealed, unknown_leak},
+       "m2"});
 }
 
 bool all_seal(const std::vector<double> &leaks) {

@@ -62,7 +62,9 @@ struct LeakUnknowns {
   FittedShape shape;
 };
 
-// Adds the findings "leak" and "leak_interval". Without a closure at rest the second has no values.
+// Adds the findings "leak", "leak_interval" and "leak_limits": by how much meshes of one valve
+// differ, and the width at which an interval says nothing. Without a closure at rest the second has
+// no values.
 void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
                   Findings &findings);
 
