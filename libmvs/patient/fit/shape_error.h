@@ -3,9 +3,9 @@
 // Lengths, free edge and thickness move a valve among the shapes that its model can take. What a
 // fit leaves between them and the given closed surface is shared by all of its closures: errors of
 // the tissue law, of chordae that are not modelled, of the surface. So a leak is known no better
-// than its shape: each free edge may end sooner, and each leaflet lie nearer to the other, by the
-// remaining distance. The surface shows distances across the leaflets only; along them, where they
-// end, it is no better.
+// than its shape: each free edge may end sooner, and each leaflet lie nearer to the other, by 1.96
+// times the remaining distance (RMS; 95 % of normal deviates). The surface shows distances across
+// the leaflets only; along them, where they end, it is no better.
 //
 // Most: the leak of the same shape without the tissue next to the free edge. A valve that seals by
 // a narrow band leaks then, and one with a high coaptation does not. Least: the leak through gaps
