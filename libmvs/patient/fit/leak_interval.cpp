@@ -190,7 +190,9 @@ void add_shape_error(LeakInterval &interval) {
 LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
                            const std::vector<double> &known, Findings &findings,
                            const std::function<void(double)> &tell) {
-  const auto &[range, edge, thickness_error, fitted] = unknowns;
+  const LengthRange &range = unknowns.lengths;
+  const EdgeRange &edge = unknowns.edge;
+  const double thickness_error = unknowns.thickness_error;
   const size_t chords = model->valve.chords.size();
   LeakInterval interval;
   interval.factor = {1 - range.all, 1, 1 + range.all};
@@ -243,8 +245,8 @@ LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
     const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
     interval.least = std::max(0.0, *least - more);
     interval.most = *most + more;
-    if (fitted.given && !as_it_is.empty()) {
-      interval.shape = leaks_of_shape(*model, as_it_is, interval.leak[1], fitted);
+    if (unknowns.shape.given && !as_it_is.empty()) {
+      interval.shape = leaks_of_shape(*model, as_it_is, interval.leak[1], unknowns.shape);
       add_shape_error(interval);
     }
   }
