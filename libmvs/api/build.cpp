@@ -112,20 +112,16 @@ BuildSettings read_options(const mvs_build_options *given) {
   return settings;
 }
 
-// Range of lengths and thickness over which the leak of a valve is found.
-struct LeakErrors {
-  LengthRange lengths;
-  double thickness;
-};
-
-LeakErrors read_errors(const mvs_leak_errors *given) {
+LeakUnknowns read_errors(const mvs_leak_errors *given) {
   const mvs_leak_errors errors = read_struct_or_default(given, "errors");
   must_be_zero(errors.reserved, "errors.reserved");
-  LengthRange range;
+  LeakUnknowns unknowns;
+  LengthRange &range = unknowns.lengths;
   range.all = or_default(errors.lengths, range.all, 1e-3, 0.5, "errors.lengths");
   range.single = or_default(errors.single, range.single, 1e-3, 0.5, "errors.single");
   must_be_in(errors.thickness, 1e-6, 2e-3, "errors.thickness");
-  return {range, errors.thickness};
+  unknowns.thickness_error = errors.thickness;
+  return unknowns;
 }
 
 }  // namespace
@@ -147,10 +143,10 @@ mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
 mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors, mvs_build **found) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
     must_point(found, "found");
-    const LeakErrors range = read_errors(errors);
+    const LeakUnknowns unknowns = read_errors(errors);
     auto build = std::make_unique<mvs_build>();
-    report_thickness_error(range.thickness, build->findings);
-    leak_interval(s.current().model, range.lengths, {}, range.thickness, {}, build->findings,
+    report_thickness_error(unknowns.thickness_error, build->findings);
+    leak_interval(s.current().model, unknowns, {}, build->findings,
                   [&, progress = s.progress()](double share) { tell_progress(progress, share); });
     *found = build.release();
   });

@@ -264,14 +264,15 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
               findings);
   tell_progress(progress, 0.1);
   const EdgeRange edge = find_edge_range(settings.edge_error, settings.edge_lost, g, findings);
-  LengthRange range;
+  LeakUnknowns unknowns{{}, edge, settings.thickness_error, {}};
   const ClosedSurface closed{surface.closed_points, surface.closed_triangles};
   std::vector<double> leaks;
   double done = 0.1;
   if (!closed.points.empty()) {
     begin_stage(settings, "fit");
     const ChordFit fit = fit_chords(closed, edge.geometry == nullptr, progress, g, valve, findings);
-    range = range_after(fit);
+    unknowns.lengths = range_after(fit);
+    unknowns.shape = {&closed, &g};
     leaks = fit.leaks;
     done = 0.8;
   }
@@ -279,9 +280,9 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   if (!settings.finds_leak) return built;
   begin_stage(settings, "leak");
   report_thickness_error(settings.thickness_error, findings);
-  built.leak =
-      leak_interval(built.model, range, edge, settings.thickness_error, leaks, findings,
-                    [&](double share) { tell_progress(progress, done + (1 - done) * share); });
+  built.leak = leak_interval(built.model, unknowns, leaks, findings, [&](double share) {
+    tell_progress(progress, done + (1 - done) * share);
+  });
   return built;
 }
 

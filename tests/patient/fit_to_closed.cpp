@@ -189,14 +189,15 @@ TEST_CASE("a_leak_comes_with_those_of_shorter_and_longer_chordae") {
   // chordae that are a quarter too short hold the leaflets apart
   for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
   Findings findings;
-  const LeakInterval interval = leak_interval(make_model(valve), {}, {}, 0, {}, findings);
+  const LeakInterval interval = leak_interval(make_model(valve), {}, {}, findings);
   const ClosedPatient closed = close_patient(valve);
   CHECK(interval.leak[1] == measure_orifice(*closed.model, closed.state.x).area);
   const auto [least, most] = std::minmax_element(interval.leak.begin(), interval.leak.end());
   CHECK(*most > *least + 1e-6);
-  REQUIRE(findings.size() == 2);
+  REQUIRE(findings.size() == 3);
   CHECK(findings[0].name == "leak");
   CHECK(findings[1].name == "leak_interval");
+  CHECK(findings[2].name == "leak_limits");
   CHECK(interval.draws > 0);
   CHECK(interval.least <= *least);
   CHECK(interval.most > *most);
@@ -246,9 +247,9 @@ TEST_CASE("an_edge_that_is_not_sure_widens_the_interval_of_leaks") {
   Valve valve = patient_valve(200);
   for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
   Findings exact, unsure;
-  const LeakInterval sure = leak_interval(make_model(valve), {}, {}, 0, {}, exact);
+  const LeakInterval sure = leak_interval(make_model(valve), {}, {}, exact);
   const LeakInterval wide =
-      leak_interval(make_model(valve), {}, {2 * mm, 1 * mm, &g}, 0, {}, unsure);
+      leak_interval(make_model(valve), {{}, {2 * mm, 1 * mm, &g}, 0, {}}, {}, unsure);
   CHECK(wide.leak == sure.leak);
   CHECK(sure.edge_leak[0] == 0);
   // leaflets that are longer leak less; shorter ones hang on longer chordae, and may leak less as
@@ -267,8 +268,8 @@ TEST_CASE("a_thickness_that_is_not_sure_widens_the_interval_of_leaks") {
   for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
   Findings exact, unsure;
   const ModelPtr model = make_model(valve);
-  const LeakInterval sure = leak_interval(model, {}, {}, 0, {}, exact);
-  const LeakInterval wide = leak_interval(model, {}, {}, 0.3 * mm, {}, unsure);
+  const LeakInterval sure = leak_interval(model, {}, {}, exact);
+  const LeakInterval wide = leak_interval(model, {{}, {}, 0.3 * mm, {}}, {}, unsure);
   CHECK(wide.leak == sure.leak);
   CHECK(sure.tissue_leak[0] == 0);
   // that of a valve built so much thicker

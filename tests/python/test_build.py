@@ -210,6 +210,9 @@ def test_chords_get_lengths_with_which_the_valve_closes_to_a_given_surface(surfa
     assert leaflets[: len(target)].all()
     given = {"closed_points": target, "closed_triangles": np.array(closed.triangle_nodes)}
     _, found, fitted = built({**surface, **given})
+    # the interval of leaks counts the distance that the fit leaves
+    assert "mm (RMS) from the given surface: with edges" in found["leak_interval"].sentence
+    assert list(found["leak_limits"].values) == [0.5e-6, 20e-6]
     with mvs.Simulator() as sim:
         sim.build_valve(**surface)
         sim.set_load(mvs.SYSTOLE_PA)

@@ -30,6 +30,7 @@ struct Closed {
   double leak = NAN;  // of a closure that diverged, which has no shape
   bool at_rest = false;
   uint32_t iterations = 0;
+  std::vector<Vec3> x;  // m
 };
 // The change of the valve in a closure of the interval.
 struct ClosureChange {
@@ -50,7 +51,7 @@ Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRan
     const ClosedValve closed =
         close_open(solver, make_model(std::move(changed)), systolic_pressure, progress);
     return {measure_orifice(*closed.model, closed.state.x).area, closed.stats.converged,
-            closed.stats.iterations};
+            closed.stats.iterations, closed.state.x};
   } catch (const Error &error) {
     // the valve is built all the same: its closure is the caller's
     if (error.code != MVS_E_DIVERGED) throw;
@@ -72,6 +73,14 @@ std::vector<double> drawn_factors(const std::vector<ChordGroup> &groups, const L
 // One decimal, in mm2.
 std::string area_words(double leak) {
   return std::isnan(leak) ? "(diverged)" : format("%.1f mm2", leak * 1e6);
+}
+
+std::string shape_words(const ShapeLeaks &shape) {
+  return format(
+      "; the closed valve lies %.2f mm (RMS) from the given surface: with edges %.2f mm short of "
+      "where they are it leaks %s, and %s through gaps as much narrower on both sides",
+      shape.distance * 1e3, shape.error * 1e3, area_words(shape.most).c_str(),
+      area_words(shape.least).c_str());
 }
 
 std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, double thickness_error) {
@@ -133,6 +142,7 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
       finding.sentence += format("; %u of %u closures did not come to rest and are left out",
                                  interval.closures - interval.closed, interval.closures);
     }
+    if (interval.shape.distance > 0) finding.sentence += shape_words(interval.shape);
     finding.value = {interval.least, interval.most};
   } else {
     finding.sentence = format(
@@ -141,6 +151,15 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
         interval.closures, ranges.c_str());
   }
   findings.push_back(finding);
+  findings.push_back(
+      {"leak_limits",
+       FindingSource::assumed,
+       1,
+       format("meshes of one valve leak alike to %.1f mm2; an interval of %.0f mm2 says nothing, "
+              "as grades of regurgitation are that far apart",
+              sealed * 1e6, unknown_leak * 1e6),
+       {sealed, unknown_leak},
+       "m2"});
 }
 
 bool all_seal(const std::vector<double> &leaks) {
@@ -159,9 +178,21 @@ LengthRange range_after(const ChordFit &fit) {
   return range;
 }
 
-LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
-                           double thickness_error, const std::vector<double> &known,
-                           Findings &findings, const std::function<void(double)> &tell) {
+void add_shape_error(LeakInterval &interval) {
+  const double leak = interval.leak[1];
+  const auto together = [](double a, double b) { return std::hypot(std::max(0.0, a), b); };
+  const double down = together(leak - interval.least, leak - interval.shape.least);
+  const double up = together(interval.most - leak, interval.shape.most - leak);
+  interval.least = std::max(0.0, std::min(interval.least, leak - down));
+  interval.most = std::max(interval.most, leak + up);
+}
+
+LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
+                           const std::vector<double> &known, Findings &findings,
+                           const std::function<void(double)> &tell) {
+  const LengthRange &range = unknowns.lengths;
+  const EdgeRange &edge = unknowns.edge;
+  const double thickness_error = unknowns.thickness_error;
   const size_t chords = model->valve.chords.size();
   LeakInterval interval;
   interval.factor = {1 - range.all, 1, 1 + range.all};
@@ -184,11 +215,13 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
     }
     return closed;
   };
+  std::vector<Vec3> as_it_is;
   for (size_t k = 0; k < 3; ++k) {
-    const Closed closed = close({std::vector<double>(chords, interval.factor[k])});
+    Closed closed = close({std::vector<double>(chords, interval.factor[k])});
     interval.leak[k] = closed.leak;
     interval.at_rest[k] = closed.at_rest;
     interval.iterations[k] = closed.iterations;
+    if (k == 1) as_it_is = std::move(closed.x);
   }
   for (size_t k = 0; edge.geometry && k < 2; ++k) {
     interval.edge_leak[k] = close({{}, k == 0 ? edge.out : -edge.in}).leak;
@@ -212,6 +245,10 @@ LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, cons
     const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
     interval.least = std::max(0.0, *least - more);
     interval.most = *most + more;
+    if (unknowns.shape.given && !as_it_is.empty()) {
+      interval.shape = leaks_of_shape(*model, as_it_is, interval.leak[1], unknowns.shape);
+      add_shape_error(interval);
+    }
   }
   report_leaks(interval, edge, thickness_error, findings);
   return interval;

@@ -8,10 +8,13 @@
 // one for each chord, and with a random edge and thickness; the interval is the range of all leaks,
 // a quarter wider on both sides: of nine closures alone, one valve in five would lie outside
 // (exchangeable samples). Both ends move out by what meshes of one valve differ by, too, but not
-// below 0. Every closure starts from the open shape, so that none depends on another; one that does
-// not come to rest is left out, and the findings say so; if none does, the interval is not known. A
-// valve that still creeps after the last iteration shows as well whether it leaks: if none does, no
-// random ones are closed, which creep as well and take most of the time of a build.
+// below 0. If the valve was fitted to a closed surface, the distance that remains from it is an
+// error that all closures share: its share of the interval (shape_error.h) is added on both sides
+// of the leak of the valve as it is, in squares, as lengths and shape err independently. Every
+// closure starts from the open shape, so that none depends on another; one that does not come to
+// rest is left out, and the findings say so; if none does, the interval is not known. A valve that
+// still creeps after the last iteration shows as well whether it leaks: if none does, no random
+// ones are closed, which creep as well and take most of the time of a build.
 #pragma once
 
 #include <array>
@@ -21,6 +24,7 @@
 #include "model/model.h"
 #include "patient/fit/edge_range.h"
 #include "patient/fit/fit_to_closed.h"
+#include "patient/fit/shape_error.h"
 
 namespace mvs::core {
 
@@ -44,20 +48,33 @@ struct LeakInterval {
   std::array<uint32_t, 3> iterations = {};  // of each closure
   std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; 0: edge exact
   std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; 0: thickness exact
+  ShapeLeaks shape;                         // of the valve as it is, if it was fitted
   double least = NAN, most = NAN;           // m2, the interval; NaN: no closure came to rest
   uint32_t closures = 0, closed = 0;        // of these, those that came to rest
   uint32_t draws = 0;                       // closures with random lengths
 };
 
-// Adds the findings "leak" and "leak_interval". Without a closure at rest the second has no values.
+// What is not known of a valve.
+struct LeakUnknowns {
+  LengthRange lengths;
+  EdgeRange edge;
+  double thickness_error = 0;  // m, of all leaflets together
+  FittedShape shape;
+};
+
+// Adds the findings "leak", "leak_interval" and "leak_limits": by how much meshes of one valve
+// differ, and the width at which an interval says nothing. Without a closure at rest the second has
+// no values.
 void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
                   Findings &findings);
 
-// `thickness_error`: m, of all leaflets together. `known`: leaks of other closures of the same
-// valve, m2, which the interval contains. `tell` is called before and during closures with the
-// share that is done; it may throw.
-LeakInterval leak_interval(const ModelPtr &model, const LengthRange &range, const EdgeRange &edge,
-                           double thickness_error, const std::vector<double> &known,
-                           Findings &findings, const std::function<void(double)> &tell = {});
+// The interval around the leak of the valve as it is, widened by the error of its shape.
+void add_shape_error(LeakInterval &interval);
+
+// `known`: leaks of other closures of the same valve, m2, which the interval contains. `tell` is
+// called before and during closures with the share that is done; it may throw.
+LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
+                           const std::vector<double> &known, Findings &findings,
+                           const std::function<void(double)> &tell = {});
 
 }  // namespace mvs::core

@@ -922,7 +922,7 @@ const signatures: Record<string, Signature> = {
     steps: [
       { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
       { name: "errors", nullable: true, how: "inStruct", of: "mvs_leak_errors" },
-      { name: "found", nullable: false, how: "outHandle", of: "mvs_build", freedBy: "mvs_build_release" },
+      { name: "found", nullable: false, how: "outHandle", of: "mvs_build" },
     ],
   },
   mvs_build_get_finding_count: {
@@ -1702,9 +1702,9 @@ export class Functions extends Calls {
    * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
    * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures, 3 if the valve is
    * sealed with the first ones. `errors` is nullable. `found` gets findings as those of a build:
-   * "leak" and "leak_interval", m2, the latter without values if no closure came to rest; release
-   * it with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED if the progress callback
-   * of the simulator cancelled.
+   * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2;
+   * release with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED if the progress
+   * callback of the simulator cancelled.
    */
   mvs_find_leak_interval(sim: SimHandle, errors?: LeakErrors | null): BuildHandle {
     return this.invoke(signatures.mvs_find_leak_interval!, [sim, errors]) as never;

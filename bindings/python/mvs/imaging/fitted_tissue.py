@@ -8,7 +8,7 @@ that microct/tissue.py compares closures without a fit.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import Optional
+from typing import NamedTuple, Optional
 
 import numpy as np
 
@@ -31,8 +31,12 @@ PLAUSIBLE = 1.25
 """A law may be that of the patient if its distance is at most this many times the least: distances contain the
 errors of the labels, and a law whose own error is three quarters of theirs has 1.25 times their distance."""
 
-MESH_LEAK, UNKNOWN_LEAK = 0.5e-6, 20e-6
-"""m2: by which the leaks of meshes of one valve differ; width of an interval that says nothing (leak_interval.cpp)"""
+
+class LawFit(NamedTuple):
+    """A coarse fit with one law: RMS distance of the loaded leaflets from it, m, and its leak, m2."""
+
+    distance: float
+    leak: float
 
 
 def search_edge(sheet: Sheet) -> float:
@@ -41,11 +45,11 @@ def search_edge(sheet: Sheet) -> float:
     return float(np.sqrt(area / (SEARCH_VERTICES * 0.5 * np.sqrt(3))))
 
 
-def fitted_distance(build: Callable[[], ImageValve]) -> Optional[float]:
-    """The RMS distance, m, of the loaded leaflets from a fitted valve; None without a clean closure.
+def law_fit(build: Callable[[], ImageValve]) -> Optional[LawFit]:
+    """The distance and the leak of a fitted valve; None without a clean closure.
 
-    Not the other way round: where the labels lack tissue, as along the free edge, a valve without error is far
-    from them whatever its tissue.
+    The distance is that of the loaded leaflets from the valve, not the other way round: where the labels lack
+    tissue, as along the free edge, a valve without error is far from them whatever its tissue.
     """
     try:
         made = build()
@@ -54,16 +58,17 @@ def fitted_distance(build: Callable[[], ImageValve]) -> Optional[float]:
     if made.loaded is None or not made.converged or made.closed.measures.intersections:
         return None
     away = distances(made.loaded.points, *leaflet_mesh(made.closed))
-    return float(np.sqrt((away**2).mean()))
+    return LawFit(float(np.sqrt((away**2).mean())), made.closed.measures.regurgitant_orifice_area)
 
 
-def chosen_tissue(away: Mapping[str, float]) -> tuple[str, mvs.Finding]:
-    """The law and the finding `tissue` from the distances, m, of the laws that came to rest."""
+def chosen_tissue(fits: Mapping[str, LawFit]) -> tuple[str, mvs.Finding]:
+    """The law and the finding `tissue` from the fits of the laws that came to rest."""
     default = CANDIDATES[0]
-    if not away:
+    if not fits:
         return default, finding("tissue", mvs.FindingSource.ASSUMED, 0.2,
                                 f"{default}: the fitted leaflets came to rest under load with none of the tissues; give "
                                 "--leaflet if the tissue is known")
+    away = {law: fit.distance for law, fit in fits.items()}
     order = sorted(away, key=lambda law: away[law])
     best = order[0]
     if default in away and away[best] > CLEARLY_NEARER * away[default]:
@@ -77,23 +82,32 @@ def chosen_tissue(away: Mapping[str, float]) -> tuple[str, mvs.Finding]:
         [away[law] for law in order], "m")
 
 
-def with_other_tissues(found: Iterable[mvs.Finding], chosen: str, away: Mapping[str, float],
-                       leaks: Mapping[str, float]) -> tuple[mvs.Finding, ...]:
-    """Findings whose `leak_interval` also holds the leaks, m2, of the fits with the other plausible laws.
+def with_other_fits(found: Iterable[mvs.Finding], fits: Mapping[str, LawFit]) -> tuple[mvs.Finding, ...]:
+    """Findings whose `leak_interval` also holds the leaks of the coarse fits with all plausible laws.
 
-    Labels hardly determine the tissue, and a valve leaks more or less with another one.
+    Labels hardly determine the tissue, and a valve leaks more or less with another one. The fit with the law
+    that is taken counts as well: a coarser mesh that lies as near to the labels may leak where the finer closes.
     """
-    least = min(away.values(), default=0.0)
-    others = [law for law in away if law != chosen and away[law] <= PLAUSIBLE * least]
-    return tuple(_wider(one, {law: leaks[law] for law in others})
-                 if one.name == "leak_interval" and len(one.values) and others else one for one in found)
+    found = tuple(found)
+    limits = next((one.values for one in found if one.name == "leak_limits"), None)
+    least = min((fit.distance for fit in fits.values()), default=0.0)
+    leaks = {law: fit.leak for law, fit in fits.items() if fit.distance <= PLAUSIBLE * least}
+    if limits is None or not leaks:
+        return found
+    return tuple(_wider(one, leaks, *limits) if one.name == "leak_interval" and len(one.values) else one
+                 for one in found)
 
 
-def _wider(interval: mvs.Finding, leaks: Mapping[str, float]) -> mvs.Finding:
-    low = max(0.0, min(interval.values[0], min(leaks.values()) - MESH_LEAK))
-    high = max(interval.values[1], max(leaks.values()) + MESH_LEAK)
-    sure = 0.8 * (1 - min(1.0, (high - low) / UNKNOWN_LEAK))
+def _wider(interval: mvs.Finding, leaks: Mapping[str, float], alike: float, unknown: float) -> mvs.Finding:
+    """The interval with leaks, m2, that meshes change by `alike`; one that is `unknown` wide says nothing."""
+    (low, high), other = interval.values, leaks.values()
+    wide_low, wide_high = max(0.0, min(low, min(other) - alike)), max(high, max(other) + alike)
+    if wide_low == low and wide_high == high:
+        return interval
+    said = max(0.0, 1 - (wide_high - wide_low) / unknown)
+    sure = interval.confidence * said / (1 - (high - low) / unknown) if said else 0.0
     words = ", ".join(f"{law}, {leak * 1e6:.1f} mm2" for law, leak in leaks.items())
-    return finding("leak_interval", mvs.FindingSource(interval.source), min(interval.confidence, sure),
-                   f"{low * 1e6:.1f} to {high * 1e6:.1f} mm2 with other tissues that fit hardly worse ({words}, on a "
-                   f"coarse mesh); with the tissue taken: {interval.sentence}", [low, high], interval.unit)
+    return finding("leak_interval", mvs.FindingSource(interval.source), sure,
+                   f"{wide_low * 1e6:.1f} to {wide_high * 1e6:.1f} mm2 with fits on a coarse mesh that lie hardly "
+                   f"farther from the labels ({words}); of the valve itself: {interval.sentence}",
+                   [wide_low, wide_high], interval.unit)

@@ -10,7 +10,7 @@ import numpy as np
 import mvs
 from .console import Console
 from .findings import LENGTHS, finding, read_known
-from .fitted_tissue import CANDIDATES, chosen_tissue, fitted_distance, search_edge, with_other_tissues
+from .fitted_tissue import CANDIDATES, LawFit, chosen_tissue, law_fit, search_edge, with_other_fits
 from .grid import spacing_of
 from .labels import ANTERIOR, POSTERIOR, UNKNOWN, Leaflets, LabelSettings, leaflets_in
 from .landmarks import read_part
@@ -62,8 +62,7 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
     surface: Optional[Sheet] = None
     motion = Motion.none()
     found: list[mvs.Finding] = []
-    away: dict[str, float] = {}
-    leaks: dict[str, float] = {}
+    fits: dict[str, LawFit] = {}
     if loaded is not None:
         surface, found = closed_surface(loaded, segments, settings,
                                         lambda step: console.stage(f"closed leaflets: {step}"))
@@ -72,15 +71,14 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
         surface.points = motion(surface.points)
         found.append(how)
         if "leaflet" not in options:
-            away, leaks = _fits(leaflets, landmarks, surface, options, console)
-            options["leaflet"], tissue = chosen_tissue(away)
+            fits = _fits(leaflets, landmarks, surface, options, console)
+            options["leaflet"], tissue = chosen_tissue(fits)
             found.append(tissue)
     console.stage("building and closing the valve")
     made = build(leaflets, landmarks, surface, chosen.image.name.split(".")[0],
                  lambda done, _: console.share(done), findings=tuple(found), **options)
     made.findings = tuple(assumed.get(one.name, one) for one in made.findings)
-    if away:
-        made.findings = with_other_tissues(made.findings, options["leaflet"], away, leaks)
+    made.findings = with_other_fits(made.findings, fits)
     if chosen.report:
         made.image = scanned(image)
         made.loaded_image = scanned(loaded, motion) if loaded is not None else None
@@ -88,24 +86,21 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
 
 
 def _fits(leaflets: Leaflets, landmarks: dict[str, Any], loaded: Sheet, options: dict[str, Any],
-          console: Console) -> tuple[dict[str, float], dict[str, float]]:
-    """Distance, m, and leak, m2, of a fit with each law of the leaflets on a coarse mesh."""
+          console: Console) -> dict[str, LawFit]:
+    """A fit with each law of the leaflets on a coarse mesh, of those with a clean closure."""
     coarse = {**options, "edge": search_edge(leaflets.sheet), "leak": False}
-    away: dict[str, float] = {}
-    leaks: dict[str, float] = {}
+    fits: dict[str, LawFit] = {}
     for law in CANDIDATES:
         console.stage(f"fitting chordae with the tissue {law}")
 
         def fitted(law: str = law) -> ImageValve:
-            made = build(leaflets, landmarks, loaded, progress=lambda done, _: console.share(done),
+            return build(leaflets, landmarks, loaded, progress=lambda done, _: console.share(done),
                          **{**coarse, "leaflet": law})
-            leaks[law] = made.closed.measures.regurgitant_orifice_area
-            return made
 
-        distance = fitted_distance(fitted)
-        if distance is not None:
-            away[law] = distance
-    return away, leaks
+        fit = law_fit(fitted)
+        if fit is not None:
+            fits[law] = fit
+    return fits
 
 
 LEAST_LOST = 1.4e-3

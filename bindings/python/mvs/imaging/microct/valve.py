@@ -106,14 +106,15 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     opened, closed, stats = closure
     console.stage("leak over the errors of the lengths")
     found += _leaks(opened, console)
-    assumed = ("chordae", "leak", "leak_interval", "edge_error", "edge_lost", "thickness_error", "papillary_tips")
+    assumed = ("chordae", "leak", "leak_interval", "leak_limits", "edge_error", "edge_lost", "thickness_error",
+               "papillary_tips")
     kept = [one for one in made.findings if one.name not in assumed]
     return dataclasses.replace(made, opened=opened, closed=closed, converged=stats.converged,
                                findings=(*kept, *found))
 
 
 def _leaks(opened: mvs.Snapshot, console: Console) -> tuple[mvs.Finding, ...]:
-    """Findings `leak` and `leak_interval` over the errors of the lengths."""
+    """Findings `leak`, `leak_interval` and `leak_limits` over the errors of the lengths."""
     with mvs.Simulator() as sim:
         sim.restore(opened)
         return sim.find_leak_interval(lengths=LENGTH_ERROR, single=SINGLE_ERROR,
