@@ -350,7 +350,7 @@ describe('planner features', () => {
     await page.getByRole('button', { name: 'Healthy valve' }).click();
     await answered(page, 200);
     await open(page, temporaryFile('leaflets.obj', await openLeaflets(page)));
-    await page.getByRole('button', { name: 'Papillary tips' }).click();
+    await page.getByRole('button', { name: 'Papillary tips', exact: true }).click();
     // below the annulus, in the view from the side
     await page.keyboard.press('3');
     await cameraRests(page);

@@ -54,7 +54,7 @@ const points = (page) => page.evaluate(() => window.planner.state.imported.value
 
 /** Clicks both commissures, to the left and to the right of the middle of the picture. */
 async function markCommissures(page) {
-  await page.getByRole('button', { name: 'Both commissures' }).click();
+  await page.getByRole('button', { name: 'Both commissures', exact: true }).click();
   await page.keyboard.press('1');
   await cameraRests(page);
   const box = await page.locator('canvas').first().boundingBox();
@@ -143,6 +143,8 @@ describe('surface', () => {
       const [undo, clear] = ['Undo point', 'Clear'].map((name) =>
         page.getByRole('button', { name: `${name}: both commissures` }),
       );
+      // the panel scrolls to what is clicked
+      await page.getByRole('button', { name: 'Papillary tips', exact: true }).scrollIntoViewIfNeeded();
       const place = await clear.boundingBox();
       await markCommissures(page);
       // nothing moves under the pointer
