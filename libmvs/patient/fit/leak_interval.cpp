@@ -180,7 +180,10 @@ LengthRange range_after(const ChordFit &fit) {
 
 void add_shape_error(LeakInterval &interval) {
   const double leak = interval.leak[1];
-  const auto together = [](double a, double b) { return std::hypot(std::max(0.0, a), b); };
+  const auto together = [](double a, double b) {
+    const double positive = std::max(0.0, a);
+    return std::sqrt(positive * positive + b * b);
+  };
   const double down = together(leak - interval.least, leak - interval.shape.least);
   const double up = together(interval.most - leak, interval.shape.most - leak);
   interval.least = std::max(0.0, std::min(interval.least, leak - down));

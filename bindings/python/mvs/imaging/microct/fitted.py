@@ -23,13 +23,13 @@ from .loaded import Closure, settled
 from .tissue import tissue_finding, with_law
 
 LENGTH_PRIOR = mvs.Prior(0.1, 3.0)
-"""Standard deviation of a measured length, share: 0.2 closed four phantoms 0.02 mm nearer and took up to twice as
-long (tests/validation/README.md)."""
+"""Standard deviation of a measured length, share: with 0.2 four phantoms closed 0.01 to 0.06 mm nearer, and a fit took
+up to twice as long (tests/validation/README.md)."""
 NOISE = 0.5e-3
-"""m: of the simulated leaflets beside those in the image, whose tissue, thickness and missing chordae the model does
-not have; the mid-surface in the image is 0.1 mm off."""
+"""m, between the simulated leaflets and those in the image: the model lacks the patient's tissue, thickness and some
+chordae; the mid-surface in the image is 0.1 mm off."""
 CLOSURES = 10
-"""At most, of one fit; the first five bring nine tenths of what all bring."""
+"""At most, of one fit; twice as many closed four valves with known lengths at most 0.02 mm nearer."""
 TISSUES = 3
 """Laws that are fitted: nearest before the fit is not nearest after it, as lengths stand in for a tissue."""
 FIT_RESIDUAL = 1e-4
