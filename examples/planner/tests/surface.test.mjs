@@ -141,7 +141,7 @@ describe('surface', () => {
     await withPlanner({}, async ({ page }) => {
       await open(page, temporaryFile('patient.obj', await openLeaflets(page)));
       const [undo, clear] = ['Undo point', 'Clear'].map((name) =>
-        page.getByRole('button', { name: `${name}: both commissures` }),
+        page.getByRole('button', { name: `${name}: commissures` }),
       );
       const place = await clear.boundingBox();
       await markCommissures(page);
