@@ -464,6 +464,8 @@ export const importTexts = {
   guessed: 'guessed',
   undo: (of: string) => `Undo point: ${of}`,
   clear: (of: string) => `Clear: ${of}`,
+  undoTip: 'Takes the point back that was set last',
+  clearTip: 'Forgets these points; they are guessed again',
   /** What the points are of, on the buttons that take them back. */
   of: { commissures: 'commissures', anterior: 'anterior leaflet', annulus: 'annulus', tips: 'tips' },
   beside: 'That click was beside the surface: nothing was marked.',

@@ -77,6 +77,7 @@ export function ImportPanel() {
             kind="quiet"
             icon={<Undo2 size={16} />}
             label={importTexts.undo(importTexts.of[kind])}
+            title={importTexts.undoTip}
             disabled={!imported.points[kind].length}
             onClick={() => keep(kind, -1)}
           />
@@ -84,6 +85,7 @@ export function ImportPanel() {
             kind="quiet"
             icon={<X size={16} />}
             label={importTexts.clear(importTexts.of[kind])}
+            title={importTexts.clearTip}
             disabled={!imported.points[kind].length}
             onClick={() => keep(kind, 0)}
           />
