@@ -143,6 +143,8 @@ describe('surface', () => {
       const [undo, clear] = ['Undo point', 'Clear'].map((name) =>
         page.getByRole('button', { name: `${name}: commissures` }),
       );
+      // the panel is scrolled to it
+      await page.getByRole('button', { name: 'Both commissures' }).click();
       const place = await clear.boundingBox();
       await markCommissures(page);
       // nothing moves under the pointer
