@@ -177,7 +177,7 @@ describe('sessions', () => {
     assert.notEqual((await figures(page)).hash, hash);
     await open(page, copy);
     assert.equal((await figures(page)).hash, hash);
-    assert.match(await page.getByTestId('notice').innerText(), /exactly the saved valve/);
+    assert.match(await page.getByTestId('notice').innerText(), /exactly the valve that was saved/);
   });
 
   it('refuses_a_damaged_session_and_stays', async () => {
