@@ -103,7 +103,7 @@ describe('valves that were left', () => {
     // whatever is left, valve 4 offers its own repair first
     await openTour(page, 4);
     const notice = page.getByTestId('notice');
-    await notice.getByText(/“Healthy valve” was closed; .*Your repair of this valve/s).waitFor();
+    await notice.getByText(/“Healthy valve” was put aside.*Your repair of this valve/s).waitFor();
     await becomes(() => page.getByTestId('own-repair').count(), 1);
     await startHealthy(page);
     await becomes(() => notice.filter({ hasText: 'repair of this valve' }).count(), 0);
@@ -197,7 +197,7 @@ describe('sessions', () => {
     assert.equal((await figures(page)).hash, hash);
     await page
       .getByTestId('notice')
-      .getByText(/exactly the saved valve/)
+      .getByText(/exactly the valve that was saved/)
       .waitFor();
   });
 

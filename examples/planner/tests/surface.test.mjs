@@ -141,7 +141,7 @@ describe('surface', () => {
     await withPlanner({}, async ({ page }) => {
       await open(page, temporaryFile('patient.obj', await openLeaflets(page)));
       const [undo, clear] = ['Undo point', 'Clear'].map((name) =>
-        page.getByRole('button', { name: `${name}: both commissures` }),
+        page.getByRole('button', { name: `${name}: commissures` }),
       );
       // the panel scrolls to what is clicked
       await page.getByRole('button', { name: 'Papillary tips', exact: true }).scrollIntoViewIfNeeded();

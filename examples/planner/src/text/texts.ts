@@ -474,8 +474,12 @@ export const scaleTexts = {
 export const importTexts = {
   set: (count: number) => `${count} set`,
   guessed: 'guessed',
-  undo: (kind: string) => `Undo point: ${kind.toLowerCase()}`,
-  clear: (kind: string) => `Clear: ${kind.toLowerCase()}`,
+  undo: (of: string) => `Undo point: ${of}`,
+  clear: (of: string) => `Clear: ${of}`,
+  undoTip: 'Takes the point back that was set last',
+  clearTip: 'Forgets these points; they are guessed again',
+  /** What the points are of, on the buttons that take them back. */
+  of: { commissures: 'commissures', anterior: 'anterior leaflet', annulus: 'annulus', tips: 'tips' },
   beside: 'That click was beside the surface: nothing was marked.',
   build: 'Build the valve',
   leave: 'Leave',

@@ -76,14 +76,16 @@ export function ImportPanel() {
           <Button
             kind="quiet"
             icon={<Undo2 size={16} />}
-            label={importTexts.undo(importTexts.points[kind])}
+            label={importTexts.undo(importTexts.of[kind])}
+            title={importTexts.undoTip}
             disabled={!imported.points[kind].length}
             onClick={() => keep(kind, -1)}
           />
           <Button
             kind="quiet"
             icon={<X size={16} />}
-            label={importTexts.clear(importTexts.points[kind])}
+            label={importTexts.clear(importTexts.of[kind])}
+            title={importTexts.clearTip}
             disabled={!imported.points[kind].length}
             onClick={() => keep(kind, 0)}
           />
