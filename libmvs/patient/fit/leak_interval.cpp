@@ -190,6 +190,18 @@ void add_shape_error(LeakInterval &interval) {
   interval.most = std::max(interval.most, leak + up);
 }
 
+namespace {
+
+// From the leaks of closures at rest to a little beyond them, for the few that were tried.
+void set_range(LeakInterval &interval, const std::vector<double> &leaks, bool is_sealed) {
+  const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
+  const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
+  interval.least = std::max(0.0, *least - more);
+  interval.most = *most + more;
+}
+
+}  // namespace
+
 LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
                            const std::vector<double> &known, Findings &findings,
                            const std::function<void(double)> &tell) {
@@ -209,7 +221,7 @@ LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
       return true;
     };
     share_done(0, 0);
-    const Closed closed = close_with(model->valve, change, edge, share_done);
+    Closed closed = close_with(model->valve, change, edge, share_done);
     ++interval.closures;
     every.push_back(closed.leak);
     if (closed.at_rest) {
@@ -244,10 +256,7 @@ LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
     close(change);
   }
   if (!leaks.empty()) {
-    const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
-    const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
-    interval.least = std::max(0.0, *least - more);
-    interval.most = *most + more;
+    set_range(interval, leaks, is_sealed);
     if (unknowns.shape.given && !as_it_is.empty()) {
       interval.shape = leaks_of_shape(*model, as_it_is, interval.leak[1], unknowns.shape);
       add_shape_error(interval);
