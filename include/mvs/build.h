@@ -117,9 +117,9 @@ MVS_API mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface
 /* Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other lengths
  * and leaflets of other thicknesses, up to `errors`: up to 11 closures, 3 if the valve is sealed
  * with the first ones. `errors` is nullable. `found` gets findings as those of a build: "leak",
- * "leak_interval", without values if no closure came to rest, and "leak_limits", m2; release with
- * mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED if the progress callback of the
- * simulator cancelled. */
+ * "leak_interval", without values if no closure came to rest, and "leak_limits", m2; release it
+ * with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED if the progress callback of
+ * the simulator cancelled. */
 MVS_API mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors,
                                           mvs_build **found);
 

@@ -131,9 +131,10 @@ typedef uint32_t mvs_sensitivity_notes;
 typedef struct mvs_sensitivity mvs_sensitivity;
 
 /* Differentiates quantities of a snapshot at rest with respect to parameters; lists with strides as
- * in mvs_valve_desc. The snapshot does not change. `options` is nullable. From any thread.
- * MVS_E_STATE if the snapshot is not at rest, or its equilibrium is unstable; MVS_E_ARGUMENT for a
- * quantity or parameter that the valve does not have, or that has no derivative. */
+ * in mvs_valve_desc. The snapshot does not change. `options` is nullable. `sensitivity`: release it
+ * with mvs_sensitivity_release. From any thread. MVS_E_STATE if the snapshot is not at rest, or its
+ * equilibrium is unstable; MVS_E_ARGUMENT for a quantity or parameter that the valve does not have,
+ * or that has no derivative. */
 MVS_API mvs_result mvs_sensitivity_run(const mvs_snapshot *snapshot, const mvs_quantity *quantities,
                                        uint32_t quantity_count, uint32_t quantity_stride,
                                        const mvs_parameter *parameters, uint32_t parameter_count,

@@ -135,6 +135,7 @@ function steps(fn, describer) {
     } else if (p.type === "const char **") {
       made.push({ ...row, how: "outText" });
     } else if (p.type.endsWith("**")) {
+      if (!fn.result_freed_by) throw new Error(`${fn.name}: its documentation does not say what releases ${p.name}`);
       made.push({ ...row, how: "outHandle", of: base, freedBy: fn.result_freed_by });
     } else if (p.type.endsWith("*") && describer.handles.has(base)) {
       made.push({ ...row, how: "handle", of: base });

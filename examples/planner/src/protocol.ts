@@ -351,4 +351,6 @@ export interface Finding {
   source: number;
   sentence: string;
   confidence: number;
+  /** SI. */
+  values: number[];
 }

@@ -121,10 +121,11 @@ describe('planner opening', () => {
     // the smaller the ring, the less, by more than the one digit of the report says
     const [, large, small] = areas.map(parseFloat);
     assert.ok(small <= large, areas.join(', '));
-    const found = await page.evaluate(() =>
-      [...window.planner.state.openings.value.values()].map((one) => one.openArea),
-    );
-    assert.equal(new Set(found).size, 3);
+    const [of30, of28] = await page.evaluate(() => {
+      const { checkpointHashes, openings } = window.planner.state;
+      return checkpointHashes.value.map((hash) => openings.value.get(hash).openArea);
+    });
+    assert.ok(of28 < of30, `${of28}, ${of30} mm2`);
     await page.keyboard.press('Escape');
   });
 });

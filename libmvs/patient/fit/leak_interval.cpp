@@ -120,6 +120,14 @@ Finding leaks_by_length(const LeakInterval &interval, double confidence, bool at
   return finding;
 }
 
+// From the leaks of closures at rest to a little beyond them, for the few that were tried.
+void set_range(LeakInterval &interval, const std::vector<double> &leaks, bool is_sealed) {
+  const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
+  const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
+  interval.least = std::max(0.0, *least - more);
+  interval.most = *most + more;
+}
+
 }  // namespace
 
 void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
@@ -189,18 +197,6 @@ void add_shape_error(LeakInterval &interval) {
   interval.least = std::max(0.0, std::min(interval.least, leak - down));
   interval.most = std::max(interval.most, leak + up);
 }
-
-namespace {
-
-// From the leaks of closures at rest to a little beyond them, for the few that were tried.
-void set_range(LeakInterval &interval, const std::vector<double> &leaks, bool is_sealed) {
-  const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
-  const double more = sealed + (is_sealed ? 0 : widening * (*most - *least));
-  interval.least = std::max(0.0, *least - more);
-  interval.most = *most + more;
-}
-
-}  // namespace
 
 LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
                            const std::vector<double> &known, Findings &findings,

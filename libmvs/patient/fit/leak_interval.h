@@ -54,7 +54,7 @@ struct LeakInterval {
   uint32_t draws = 0;                       // closures with random lengths
 };
 
-// What is not known of a valve.
+// The unknowns of a valve over which its leak is found.
 struct LeakUnknowns {
   LengthRange lengths;
   EdgeRange edge;

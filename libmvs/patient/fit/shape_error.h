@@ -17,7 +17,7 @@
 
 namespace mvs::core {
 
-// What a valve was fitted to; unknown without a surface.
+// The surface to which a valve was fitted; none: it was not.
 struct FittedShape {
   const ClosedSurface *given = nullptr;
   const PatientGeometry *geometry = nullptr;  // of the valve
@@ -34,15 +34,15 @@ struct ShapeLeaks {
 // its nearest tissue around the corner.
 double distance_between(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x);
 
-// Of the same shape with its free edge farther in by `by` (m at rest, along the leaflets); where a
-// leaflet is low, by a quarter of its height at most (free_edge_shift.h). The nodes of the model
-// begin with the vertices of the sheet of `g`, which is at rest as in the model.
+// The leak, m2, of the same shape with its free edge farther in by `by` (m at rest, along the
+// leaflets); where a leaflet is low, by a quarter of its height at most (free_edge_shift.h). The
+// nodes of the model begin with the vertices of the sheet of `g`, which is at rest as in the model.
 double leak_with_edges_in(const Model &model, const std::vector<Vec3> &x, const PatientGeometry &g,
                           double by);
 
-// Of the same shape with both sides of each gap nearer by `by`, m: a part of the orifice keeps the
-// share of its area that its widest gap keeps of its width, which is exact for a slit, and is
-// sealed where that is within the contact thickness.
+// The leak, m2, of the same shape with both sides of each gap nearer by `by`, m: a part of the
+// orifice keeps the share of its area that its widest gap keeps of its width, which is exact for a
+// slit, and is sealed where that is within the contact thickness.
 double leak_of_narrower_gaps(const Model &model, const std::vector<Vec3> &x, double by);
 
 // `leak`: of the shape as it is, m2.

@@ -81,7 +81,7 @@ def test_the_law_that_is_nearest_after_the_fit_is_taken(monkeypatch):
     valve = mvs.valve_of(snapshot_of_generated())
     asked = []
 
-    def fit(changed, _sheet, _console):
+    def fit(changed, _closure, _sheet, _console):
         asked.append(changed.leaflets[0].law)
         return fitted.Fitted(changed, ("open", "closed", None), away[asked[-1]], away[asked[-1]])
 

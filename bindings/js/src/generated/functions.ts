@@ -821,7 +821,7 @@ const signatures: Record<string, Signature> = {
       { name: "parameter_count", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
       { name: "parameter_stride", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
       { name: "options", nullable: true, how: "inStruct", of: "mvs_sensitivity_options" },
-      { name: "sensitivity", nullable: false, how: "outHandle", of: "mvs_sensitivity" },
+      { name: "sensitivity", nullable: false, how: "outHandle", of: "mvs_sensitivity", freedBy: "mvs_sensitivity_release" },
     ],
   },
   mvs_sensitivity_release: {
@@ -922,7 +922,7 @@ const signatures: Record<string, Signature> = {
     steps: [
       { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
       { name: "errors", nullable: true, how: "inStruct", of: "mvs_leak_errors" },
-      { name: "found", nullable: false, how: "outHandle", of: "mvs_build" },
+      { name: "found", nullable: false, how: "outHandle", of: "mvs_build", freedBy: "mvs_build_release" },
     ],
   },
   mvs_build_get_finding_count: {
@@ -1625,9 +1625,10 @@ export class Functions extends Calls {
 
   /**
    * Differentiates quantities of a snapshot at rest with respect to parameters; lists with strides
-   * as in mvs_valve_desc. The snapshot does not change. `options` is nullable. From any thread.
-   * MVS_E_STATE if the snapshot is not at rest, or its equilibrium is unstable; MVS_E_ARGUMENT for
-   * a quantity or parameter that the valve does not have, or that has no derivative.
+   * as in mvs_valve_desc. The snapshot does not change. `options` is nullable. `sensitivity`:
+   * release it with mvs_sensitivity_release. From any thread. MVS_E_STATE if the snapshot is not at
+   * rest, or its equilibrium is unstable; MVS_E_ARGUMENT for a quantity or parameter that the valve
+   * does not have, or that has no derivative.
    */
   mvs_sensitivity_run(snapshot: SnapshotHandle, quantities: Quantity, quantity_count: number, quantity_stride: number, parameters: Parameter, parameter_count: number, parameter_stride: number, options?: SensitivityOptions | null): SensitivityHandle {
     return this.invoke(signatures.mvs_sensitivity_run!, [snapshot, quantities, quantity_count, quantity_stride, parameters, parameter_count, parameter_stride, options]) as never;
@@ -1703,7 +1704,7 @@ export class Functions extends Calls {
    * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures, 3 if the valve is
    * sealed with the first ones. `errors` is nullable. `found` gets findings as those of a build:
    * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2;
-   * release with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED if the progress
+   * release it with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED if the progress
    * callback of the simulator cancelled.
    */
   mvs_find_leak_interval(sim: SimHandle, errors?: LeakErrors | null): BuildHandle {

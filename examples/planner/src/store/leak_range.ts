@@ -3,6 +3,7 @@
 import { signal } from '@preact/signals';
 import type { Figures, Finding, Range } from '../protocol';
 import { verdictTexts } from '../text/texts';
+import { mm2 } from '../worker/units';
 import * as state from './state';
 
 /** mm2, by the hash of the closed valve as it was built. */
@@ -11,11 +12,11 @@ const ranges = signal<Map<string, Range>>(new Map());
 /** mm2; a range that is narrower reads as one number. */
 const least = 0.05;
 
-/** The library's finding: its sentence begins with the range, and without one closure at rest it has none. */
+/** The library's finding, which has no values without a closure at rest; to a tenth, as its sentence says it. */
 export function rangeIn(findings: Finding[]): Range | null {
-  const sentence = findings.find(({ name }) => name === 'leak_interval')?.sentence ?? '';
-  const found = /^(\d+\.\d) to (\d+\.\d) mm2 /.exec(sentence);
-  return found && [+found[1], +found[2]];
+  const values = findings.find(({ name }) => name === 'leak_interval')?.values ?? [];
+  const [low, high] = values.map((area) => +(area * mm2).toFixed(1));
+  return high === undefined ? null : [low, high];
 }
 
 export function keepLeakRange(hash: string, range: Range | null): void {

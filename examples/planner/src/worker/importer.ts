@@ -94,11 +94,12 @@ export class Importer {
       });
       return {
         valve: sim.read((snapshot) => snapshot.save('obj')),
-        findings: findings.map(({ name, source, sentence, confidence }) => ({
+        findings: findings.map(({ name, source, sentence, confidence, values }) => ({
           name,
           source: sources[String(source)] ?? 0,
           sentence,
           confidence,
+          values: [...values],
         })),
       };
     } finally {

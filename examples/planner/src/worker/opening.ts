@@ -7,7 +7,7 @@ import { ml, mm, mm2, mmHg } from './units';
 const someFlow = 100;
 
 /** The valve opened beside the plan. */
-export function openingOf(snapshot: Snapshot): Cost {
+export function costOf(snapshot: Snapshot): Cost {
   const { cost, opened } = snapshot.cost({ residual: 1e-4, flow: someFlow / ml });
   opened.dispose();
   return {

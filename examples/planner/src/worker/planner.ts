@@ -26,7 +26,7 @@ import { breathe } from './breathe';
 import { checkpointIn, Checkpoints } from './checkpoints';
 import { libraryFields } from './operations';
 import { ofRepair } from './history';
-import { openingOf } from './opening';
+import { costOf } from './opening';
 import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
 import { sectionOf } from './section';
 import { spreadOf } from './spread';
@@ -248,10 +248,10 @@ export class Planner {
 
   /** The valve opened in diastole. */
   cost({ which }: CostRequest): Cost {
-    if (which === 'preview' && this.preview) return openingOf(this.preview);
-    if (which === 'first' && this.first) return openingOf(this.first);
+    if (which === 'preview' && this.preview) return costOf(this.preview);
+    if (which === 'first' && this.first) return costOf(this.first);
     const name = checkpointIn(which);
-    return name === null ? this.main.read(openingOf) : openingOf(this.checkpoints.of(name));
+    return name === null ? this.main.read(costOf) : costOf(this.checkpoints.of(name));
   }
 
   section({ which, frame, offset }: SectionRequest): Section {

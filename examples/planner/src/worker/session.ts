@@ -54,8 +54,8 @@ export function saveSession(
     saved: new Date().toISOString(),
     checkpoints,
     before: planner.before || undefined,
-    ...(leakRange ? { leak_range_mm2: leakRange } : {}),
-    ...(flow ? { flow_ml_s: flow } : {}),
+    leak_range_mm2: leakRange ?? undefined,
+    flow_ml_s: flow || undefined,
   };
   files['session.json'] = strToU8(JSON.stringify(description, null, 2));
   return zipSync(files, { level: 6 });

@@ -62,9 +62,11 @@ def with_fitted_lengths(valve: mvs.Valve, closure: Closure, laws: Sequence[mvs.L
     """
     before = _distance(closure[1], loaded)
     fits: dict[mvs.LeafletLaw, Fitted] = {}
-    for law in list(laws[:TISSUES]) or [valve.leaflets[0].law]:
+    own = valve.leaflets[0].law
+    for law in list(laws[:TISSUES]) or [own]:
         console.stage(f"fitting the lengths of chordae with the tissue {law.name.lower()}")
-        fit = _fitted(dataclasses.replace(valve, leaflets=with_law(valve.leaflets, law)), loaded, console)
+        changed = dataclasses.replace(valve, leaflets=valve.leaflets if law == own else with_law(valve.leaflets, law))
+        fit = _fitted(changed, closure if law == own else None, loaded, console)
         if fit is not None:
             fits[law] = fit
     best = min(fits.values(), key=lambda fit: fit.distance, default=None)
@@ -72,7 +74,7 @@ def with_fitted_lengths(valve: mvs.Valve, closure: Closure, laws: Sequence[mvs.L
         if best is None or best.distance < SAME_FOLD * best.along:
             break
         console.stage("fitting the lengths of chordae again, as the valve closes from open in another fold")
-        fit = _fitted(dataclasses.replace(best.valve), loaded, console)
+        fit = _fitted(dataclasses.replace(best.valve), best.closure, loaded, console)
         if fit is None or fit.distance > LESS * best.distance:
             break
         best = fits[best.valve.leaflets[0].law] = fit
@@ -94,10 +96,13 @@ def with_fitted_lengths(valve: mvs.Valve, closure: Closure, laws: Sequence[mvs.L
     return best.closure, found
 
 
-def _fitted(valve: mvs.Valve, loaded: Sheet, console: Console) -> Optional[Fitted]:
-    """None if the valve does not come to rest without crossings, or nothing can be fitted."""
+def _fitted(valve: mvs.Valve, closure: Optional[Closure], loaded: Sheet, console: Console) -> Optional[Fitted]:
+    """None if the valve does not come to rest without crossings, or nothing can be fitted.
+
+    closure: of the valve as it is, where it is known
+    """
     try:
-        _, closed, stats = settled(valve, console)
+        _, closed, stats = closure or settled(valve, console)
         if not stats.converged:
             return None
         fit = mvs.fit(closed, (loaded.points, loaded.triangles), noise=NOISE,

@@ -32,7 +32,7 @@ def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet, console: Console
     away: dict[mvs.LeafletLaw, float] = {}
     nearest: Optional[Closure] = None
     for law in CANDIDATES:
-        valve.leaflets = [dataclasses.replace(one, law=law, constants=()) for one in given]
+        valve.leaflets = with_law(given, law)
         console.stage(f"closing the valve with the tissue {law.name.lower()}")
         try:
             closure = settled(valve, console)
@@ -65,5 +65,5 @@ def tissue_finding(away: dict[mvs.LeafletLaw, float]) -> mvs.Finding:
 
 
 def with_law(leaflets: list[mvs.Leaflet], law: mvs.LeafletLaw) -> list[mvs.Leaflet]:
-    """Leaflets with the published constants of a law, those that have it with their own."""
-    return [one if one.law == law else dataclasses.replace(one, law=law, constants=()) for one in leaflets]
+    """Leaflets with the published constants of a law."""
+    return [dataclasses.replace(one, law=law, constants=()) for one in leaflets]
