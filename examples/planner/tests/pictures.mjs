@@ -15,6 +15,8 @@ try {
   const shoot = async () => {
     await cameraRests(page);
     await page.mouse.move(2, 2);
+    // a focused control shows its tooltip
+    await page.evaluate(() => document.activeElement?.blur());
     await page.waitForTimeout(800);
     shots.push(readFileSync(await save(await page.screenshot())));
   };

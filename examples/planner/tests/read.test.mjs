@@ -22,8 +22,8 @@ describe('planner read and touched', () => {
   it('shows_the_spread_over_foldings_beside_every_figure_that_it_touches', async () => {
     await openPanel(page, 'Valve');
     assert.equal(await page.locator('.spread').count(), 0);
-    await page.locator('summary', { hasText: 'Physics' }).click();
-    await page.getByRole('button', { name: /How certain/ }).click();
+    await page.locator('summary', { hasText: 'How certain' }).click();
+    await page.getByRole('button', { name: /Close it 8 times/ }).click();
     await page.getByText(/closures came to rest/).waitFor();
     await closed(page);
     const { spread, measures, regions, chords, heads } = await page.evaluate(() => {

@@ -392,10 +392,17 @@ export const tourTexts = {
     edge: (scallop: string, height: number | null) =>
       `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
     coaptation: (least: number | null, now: number) =>
-      `Coaptation length at least 90 % of that before the illness, in the mean${least === null ? '' : `: ${apart(now, least)[1]} mm`}. (Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.)`,
-    chords: (percent: number | null) =>
-      `No chord loaded above ${percent ?? '…'} % of its working limit. (Allowed are 10 % more than the limit or, where that is more, than the highest load before the illness.)`,
-    open: 'Open area at least 90 % of that before the illness',
+      `Coaptation at least ${least === null ? '…' : apart(now, least)[1]} mm in the mean`,
+    chords: (percent: number | null) => `No chord loaded above ${percent ?? '…'} % of its working limit`,
+    open: (least: number | null) => `Open area at least ${least === null ? '…' : number(least / 100)} cm²`,
+  },
+  /** Why a goal asks for so much, and what it does not say. */
+  goalHelp: {
+    coaptation:
+      '90 % of the length before the illness. Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.',
+    chords:
+      'Allowed are 10 % more than the limit or, where that is more, than the highest load before the illness.',
+    open: '90 % of the area before the illness.',
   },
   shortGoals: {
     sealed: 'No leak',
@@ -758,13 +765,19 @@ export const valveTexts = {
     'Closed at 120 mmHg. Identity of this valve, to tell whether two files or reports are of the very same one:',
   chordsCross:
     'Chordae are straight lines between their ends, and leaflets do not push them aside: in the picture of an open valve a chord may pass through a leaflet. Its pull and its length are those of the straight line.',
-  howCertain: 'How certain? Close it 8 times',
+  howCertain: 'Close it 8 times',
   spread: (converged: number, members: number, shapes: number, apart: number) =>
     `${converged} of ${members} closures came to rest, ${shapes === 1 ? `with the same result whichever way it closes${apart < 0.05 ? '' : `, at most ${number(apart)} mm apart`}` : `in ${shapes} shapes of the folds, which differ by at most ${number(apart)} mm`}. This says nothing of errors of the image or of the chordae.`,
   spreadLeak: (low: number, high: number) =>
     number(low) === number(high)
       ? ` Leak ${number(low)} mm² each time.`
       : ` Leak ${number(low)} to ${number(high)} mm².`,
+  certainty: 'How certain it is',
+  /** What the eight closures test, and what they do not. */
+  certaintyHint:
+    'The leaflets can fold in more than one way: closed from eight different folds, the figures show how much that changes them.',
+  outflow:
+    'Risk of an obstructed outflow tract (SAM): not determined, because the septum is not known here. A small ring and long leaflets raise it.',
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
   openAreaHelp: 'Smallest opening at 5 mmHg. In adults 1.5 cm² or less is a severe stenosis (ACC/AHA 2014).',

@@ -1,6 +1,6 @@
 // The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair" and in the form of an operation.
 import { Check, CircleHelp, FolderOpen, X } from 'lucide-preact';
-import { allowedLoad, leastCoaptation } from '../store/limits';
+import { allowedLoad, leastCoaptation, leastOpening } from '../store/limits';
 import { flailHeight, flailOf, reached } from '../store/goals';
 import { startValve } from '../store/tour';
 import * as state from '../store/state';
@@ -16,10 +16,12 @@ interface Check {
   done: boolean | null;
   /** When it becomes known. */
   later?: string;
+  /** Why it asks for so much. */
+  help?: string;
 }
 
 function checks(number: number, shown: Shown | null): Check[] {
-  const { goals, shortGoals } = tourTexts;
+  const { goals, goalHelp, shortGoals } = tourTexts;
   const { sealed, chords, open, edge, coaptation } = reached(shown);
   const scallop = flailOf(number);
   return [
@@ -31,9 +33,16 @@ function checks(number: number, shown: Shown | null): Check[] {
       text: goals.coaptation(leastCoaptation(), shown?.figures.measures.coaptationMean ?? NaN),
       short: shortGoals.coaptation,
       done: coaptation,
+      help: goalHelp.coaptation,
     },
-    { text: goals.chords(allowedLoad()), short: shortGoals.chords, done: chords },
-    { text: goals.open, short: shortGoals.open, done: open, later: tourTexts.whenSealed },
+    { text: goals.chords(allowedLoad()), short: shortGoals.chords, done: chords, help: goalHelp.chords },
+    {
+      text: goals.open(leastOpening()),
+      short: shortGoals.open,
+      done: open,
+      help: goalHelp.open,
+      later: tourTexts.whenSealed,
+    },
   ];
 }
 
@@ -48,7 +57,7 @@ export function GoalLine({ number }: { number: number }) {
   return (
     <ul class="goals line" aria-label={name} data-testid="goal-line">
       {checks(number, state.preview.value ?? state.main.value).map((check) => (
-        <li class={classOf(check)} title={check.text}>
+        <li class={classOf(check)} title={[check.text, check.help].filter(Boolean).join('. ')}>
           {sign(check, 14)}
           <span>{check.short}</span>
           <span class="hidden">{tourTexts.judged(check.done)}</span>
@@ -72,7 +81,7 @@ export function Goals({ number, short }: { number: number; short?: boolean }) {
         {found.map((check) => (
           <li class={classOf(check)}>
             {sign(check, 18)}
-            <span title={short ? check.text : undefined}>
+            <span title={[short && check.text, check.help].filter(Boolean).join('. ')}>
               {short ? check.short : check.text}
               {!short && check.later && check.done === null && <small> {check.later}</small>}
             </span>

@@ -84,6 +84,7 @@ export function ValvePanel() {
       <Devices figures={figures} />
       <Chordae figures={figures} />
       <OpenArea figures={figures} />
+      <Certainty />
       <Section title={valveTexts.section} id="section">
         <SectionPlot />
       </Section>
@@ -174,19 +175,6 @@ export function ValvePanel() {
         <p class="hint" data-testid="chords-cross">
           {valveTexts.chordsCross}
         </p>
-        <Button
-          icon={<Layers size={16} />}
-          onClick={() => void measureSpread()}
-          disabled={!!state.preview.value}
-        >
-          {valveTexts.howCertain}
-        </Button>
-        {spread && (
-          <p class="hint" role="status">
-            {valveTexts.spread(spread.converged, spread.members, spread.equilibria, spread.nodeMax)}
-            {valveTexts.spreadLeak(range('orifice')?.[0] ?? 0, range('orifice')?.[1] ?? 0)}
-          </p>
-        )}
       </Section>
     </div>
   );
@@ -201,6 +189,30 @@ function billowing({ regions, measures }: Figures): string {
 function headName(h: number): string {
   const picture = state.picture.value;
   return (picture && state.topologyOf(picture)?.heads[h]?.name) ?? valveTexts.head(h + 1);
+}
+
+/** How far the figures depend on the folds from which the valve closes. */
+function Certainty() {
+  const spread = state.shownSpread.value;
+  const leak = spread?.measures.orifice ?? [0, 0];
+  return (
+    <Section title={valveTexts.certainty}>
+      <p class="hint">{valveTexts.certaintyHint}</p>
+      <Button
+        icon={<Layers size={16} />}
+        onClick={() => void measureSpread()}
+        disabled={!!state.preview.value}
+      >
+        {valveTexts.howCertain}
+      </Button>
+      {spread && (
+        <p class="hint" role="status">
+          {valveTexts.spread(spread.converged, spread.members, spread.equilibria, spread.nodeMax)}
+          {valveTexts.spreadLeak(leak[0], leak[1])}
+        </p>
+      )}
+    </Section>
+  );
 }
 
 function OpenArea({ figures }: { figures: Figures }) {
@@ -255,6 +267,9 @@ function OpenArea({ figures }: { figures: Figures }) {
           {valveTexts.measureOpen}
         </Button>
       )}
+      <p class="hint" data-testid="outflow">
+        {valveTexts.outflow}
+      </p>
     </Section>
   );
 }

@@ -31,14 +31,26 @@ export function orifice(picture: Picture): Mesh {
   };
 }
 
-/** An arrow along the jet of each part of the orifice, longer for larger parts. */
+/** The radius of a jet's shaft, mm: its section is a tenth of the part of the orifice, within what can be seen and what hides
+ *  no leaflet. */
+const jetRadius = (area: number): number => Math.min(1.6, Math.max(0.3, Math.sqrt((0.1 * area) / Math.PI)));
+
+/** An arrow along the jet of each part of the orifice, thicker and longer for larger parts. */
 export function jets(parts: OrificePart[]): Mesh {
   const shapes = new Shapes();
   for (const part of parts) {
-    const length = 4 + Math.min(8, Math.sqrt(part.area));
+    const radius = jetRadius(part.area);
+    const length = 3 + Math.min(14, 1.4 * Math.sqrt(part.area));
     const along = (s: number) => part.centroid.map((v, c) => v + s * part.direction[c]);
-    shapes.tube(along(0.5), along(length), 0.45, tissue.orifice, 10);
-    shapes.tube(along(length), along(length + 2.5), 1.2, tissue.orifice, 12, 0.02);
+    shapes.tube(along(0.5), along(length), radius, tissue.orifice, 10);
+    shapes.tube(
+      along(length),
+      along(length + 2.5 * radius + 1.2),
+      2 * radius + 0.3,
+      tissue.orifice,
+      12,
+      0.02,
+    );
   }
   return shapes.mesh();
 }
