@@ -31,16 +31,16 @@ export function orifice(picture: Picture): Mesh {
   };
 }
 
-/** The radius of a jet's shaft, mm: its section is a tenth of the part of the orifice, within what can be seen and what hides
+/** The radius of a jet's shaft, mm: its section is a twentieth of the part of the orifice, within what is seen and what hides
  *  no leaflet. */
-const jetRadius = (area: number): number => Math.min(1.6, Math.max(0.3, Math.sqrt((0.1 * area) / Math.PI)));
+const jetRadius = (area: number): number => Math.min(1.2, Math.max(0.3, Math.sqrt((0.05 * area) / Math.PI)));
 
 /** An arrow along the jet of each part of the orifice, thicker and longer for larger parts. */
 export function jets(parts: OrificePart[]): Mesh {
   const shapes = new Shapes();
   for (const part of parts) {
     const radius = jetRadius(part.area);
-    const length = 3 + Math.min(14, 1.4 * Math.sqrt(part.area));
+    const length = 3 + Math.min(8, 1.1 * Math.sqrt(part.area));
     const along = (s: number) => part.centroid.map((v, c) => v + s * part.direction[c]);
     shapes.tube(along(0.5), along(length), radius, tissue.orifice, 10);
     shapes.tube(
