@@ -29,7 +29,7 @@ describe('planner to learn with', () => {
     // the verdict names the chord, and the goal the load that is compared with
     await openPanel(page, 'Learn');
     const note =
-      /1 chord far beyond its limit \(([\d.]+ times)\)[^]*A2\/4 \1[^]*No chord loaded above 111\s% of its working limit/;
+      /1 chord far beyond its limit \(([\d.]+ times)\)[^]*A2\/4 \1[^]*No chord above 111\s% of its working limit/;
     await page.evaluate(() => {
       window.notes = [];
       const text = (id) => document.querySelector(`[data-testid=${id}]`)?.innerText;

@@ -310,6 +310,9 @@ export const kindOf = ({ kind, artificial }: { kind: number; artificial: boolean
   artificial && kind !== suture ? 'Artificial' : kinds[kind];
 export { number as figure };
 
+/** What is reached of a goal, where it is known. */
+const nowIs = (is: string): string => (is && !/NaN/.test(is) ? ` (now ${is})` : '');
+
 export const tourTexts = {
   valveOf: (k: number) => `Valve ${k}`,
   hint: 'A hint',
@@ -391,10 +394,18 @@ export const tourTexts = {
     sealed: 'No leak under 120 mmHg',
     edge: (scallop: string, height: number | null) =>
       `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
-    coaptation: (least: number | null, now: number) =>
-      `Coaptation at least ${least === null ? '…' : apart(now, least)[1]} mm in the mean`,
-    chords: (percent: number | null) => `No chord loaded above ${percent ?? '…'} % of its working limit`,
-    open: (least: number | null) => `Open area at least ${least === null ? '…' : number(least / 100)} cm²`,
+    coaptation: (least: number | null, now: number) => {
+      const [is, wanted] = least === null ? ['', '…'] : apart(now, least);
+      return `Mean coaptation ${wanted} mm or more${nowIs(is)}`;
+    },
+    chords: (percent: number | null, now: number) =>
+      `No chord above ${percent ?? '…'} % of its working limit${nowIs(Number.isNaN(now) ? '' : shareWords(now))}`,
+    open: (least: number | null, now: number | undefined) => {
+      if (least === null || now === undefined)
+        return `Open area ${least === null ? '…' : number(least / 100)} cm² or more`;
+      const [is, wanted] = apart(now / 100, least / 100);
+      return `Open area ${wanted} cm² or more${nowIs(is)}`;
+    },
   },
   /** Why a goal asks for so much, and what it does not say. */
   goalHelp: {
@@ -736,6 +747,8 @@ export const valveTexts = {
   coaptationHeight: 'Coaptation height, A2–P2',
   coaptationHeightHelp:
     'How high the leaflets touch in the middle section, along the axis of the valve. The table gives the coaptation of A2 and P2 along the leaflets, which is longer where they lie at a slant.',
+  alongLeaflets: 'along the leaflets',
+  alongAxis: 'along the axis',
   tenting: 'Tenting height',
   tentingHelp: 'Deepest point of the closed leaflets below the plane of the annulus',
   billow: 'Billow above annulus',

@@ -1,6 +1,7 @@
 // The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair" and in the form of an operation.
 import { Check, CircleHelp, FolderOpen, X } from 'lucide-preact';
-import { allowedLoad, leastCoaptation, leastOpening } from '../store/limits';
+import { allowedLoad, leastCoaptation, leastOpening, openingOf } from '../store/limits';
+import { percentOfLimit } from '../notable';
 import { flailHeight, flailOf, reached } from '../store/goals';
 import { startValve } from '../store/tour';
 import * as state from '../store/state';
@@ -24,6 +25,7 @@ function checks(number: number, shown: Shown | null): Check[] {
   const { goals, goalHelp, shortGoals } = tourTexts;
   const { sealed, chords, open, edge, coaptation } = reached(shown);
   const scallop = flailOf(number);
+  const load = percentOfLimit(shown?.figures.measures.chordLoad ?? NaN);
   return [
     { text: goals.sealed, short: shortGoals.sealed, done: sealed },
     ...(scallop
@@ -35,9 +37,14 @@ function checks(number: number, shown: Shown | null): Check[] {
       done: coaptation,
       help: goalHelp.coaptation,
     },
-    { text: goals.chords(allowedLoad()), short: shortGoals.chords, done: chords, help: goalHelp.chords },
     {
-      text: goals.open(leastOpening()),
+      text: goals.chords(allowedLoad(), load),
+      short: shortGoals.chords,
+      done: chords,
+      help: goalHelp.chords,
+    },
+    {
+      text: goals.open(leastOpening(), openingOf(shown?.figures.hash)?.openArea),
       short: shortGoals.open,
       done: open,
       help: goalHelp.open,

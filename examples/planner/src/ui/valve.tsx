@@ -29,6 +29,7 @@ export function ValvePanel() {
           good="high"
           spread={range('coaptationMean')}
           help={valveTexts.coaptationMeanHelp}
+          note={valveTexts.alongLeaflets}
         />
         <Figure
           label={valveTexts.coaptationHeight}
@@ -38,6 +39,7 @@ export function ValvePanel() {
           good="high"
           spread={range('coaptationHeight')}
           help={valveTexts.coaptationHeightHelp}
+          note={valveTexts.alongAxis}
         />
         <Figure
           label={valveTexts.tenting}
