@@ -719,7 +719,7 @@ export const barTexts = {
   show: 'Show',
   cut: 'Cut plane in the picture',
   // short words below the icons; each begins the name of its button
-  words: { cut: 'Cut', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
+  words: { cut: 'Plane', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
   pointer: 'Pointer',
@@ -881,9 +881,9 @@ export const formTexts = {
   sizeFrom: (cc: number) =>
     `Width from commissure to commissure. The annulus of the closed valve measures ${number(cc)} mm.`,
   leftEmpty: (fallback: string) => `Left empty: ${fallback}.`,
-  /** Where the largest ring is smaller than the annulus. */
-  largestRing: (size: number, annulus: number) =>
-    `The largest ring, ${number(size, 0)} mm, is ${number(annulus - size)} mm (${number((100 * (annulus - size)) / annulus, 0)} %) narrower than this annulus.`,
+  /** `largest`: there is no larger ring. */
+  narrower: (size: number, annulus: number, largest: boolean) =>
+    `${largest ? `The largest ring, ${number(size, 0)} mm,` : `A ring of ${number(size, 0)} mm`} is ${number(annulus - size)} mm (${number((100 * (annulus - size)) / annulus, 0)} %) narrower than this annulus.`,
   ringSizes: (low: number, high: number) => `Rings are made in sizes of ${low} to ${high} mm. `,
   /** Of a number that its slider does not reach. */
   beyond: (value: number, low: number, high: number, unit: string) => {

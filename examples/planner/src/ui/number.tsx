@@ -114,11 +114,11 @@ function Oversized({ size }: { size: number }) {
   );
 }
 
-/** What the size of a ring is compared with: the annulus, and by how much the `largest` ring is smaller than that. */
-function sizeWords(largest: number): string {
+/** What the size of a ring is compared with: the annulus, and by how much the ring is narrower than that. */
+function sizeWords(size: number, largest: number): string {
   const annulus = state.main.value?.figures.measures.annulusCc ?? NaN;
   const words = formTexts.sizeFrom(annulus);
-  return annulus > largest ? `${words} ${formTexts.largestRing(largest, annulus)}` : words;
+  return annulus > size ? `${words} ${formTexts.narrower(size, annulus, size === largest)}` : words;
 }
 
 /** Sizes of rings go by 2 mm, about 5 %: the nearest size above the annulus is none too large. */
@@ -213,7 +213,7 @@ export function NumberField(props: FieldProps) {
         <span class="unit">{unit}</span>
       </div>
       {position && <Side sense={sense} value={value ?? 0} />}
-      {kind === 'ring' && field.name === 'size' && <small>{sizeWords(high!)}</small>}
+      {kind === 'ring' && field.name === 'size' && <small>{sizeWords(shown ?? high!, high!)}</small>}
       {beyond && (
         <small class="warn" role="status" data-testid="beyond">
           {kind === 'ring' && formTexts.ringSizes(low!, high!)}

@@ -1,5 +1,16 @@
 // The bar above (files, undo, help) and the bar below the picture (views, opening, colours, tools).
-import { CircleHelp, Eye, FolderOpen, Hand, Redo2, Save, Slice, Tag, Undo2, Workflow } from 'lucide-preact';
+import {
+  CircleHelp,
+  Eye,
+  FolderOpen,
+  Hand,
+  Redo2,
+  Save,
+  SquareSplitHorizontal,
+  Tag,
+  Undo2,
+  Workflow,
+} from 'lucide-preact';
 import { openFile, openShipped } from '../store/files';
 import { openTo, redo, undo } from '../store/history';
 import { saveSession } from '../store/keep';
@@ -126,7 +137,7 @@ export function ViewBar(props: { go: (preset: Preset) => void }) {
       <div class="group tools" role="group" aria-label={barTexts.show}>
         <Button
           kind="quiet"
-          icon={<Slice size={18} />}
+          icon={<SquareSplitHorizontal size={18} />}
           label={barTexts.cut}
           keys="X"
           pressed={state.sectionOn.value}
