@@ -570,6 +570,7 @@ export const verdictTexts = {
   was: (orifice: string) => ` was ${orifice}`,
   at: (place: string) => `at ${place}`,
   meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
+  meetLittle: (height: number) => `at A2–P2 only ${number(height)} mm high: surgeons aim at 8 mm`,
   ofClosed: 'when closed',
   /** Chordae a little beyond their limit, which is no fault up to a load of `allowed` per cent, `goal` where that is the tour's. */
   chordsOver: (count: number, allowed: number, goal: boolean) =>
@@ -695,6 +696,7 @@ export const appTexts = {
   again: 'Load it again',
   picture: 'Picture of the valve',
   compare: 'Before or now',
+  endCompare: 'End the comparison',
   drop: 'Drop a session, a valve, or a surface here',
   before: 'Before',
   now: 'Now',
@@ -719,6 +721,8 @@ export const barTexts = {
   show: 'Show',
   cut: 'Cut plane in the picture',
   // short words below the icons; each begins the name of its button
+  scale: (mm: number) => `${mm} mm`,
+  scaleHelp: 'In the plane through the middle of what you look at; nearer tissue is drawn larger',
   words: { cut: 'Plane', chordae: 'Chordae', names: 'Names', look: 'Turn', grasp: 'Grasp', push: 'Push' },
   chordae: 'Chordae',
   names: 'Names',
@@ -892,6 +896,8 @@ export const formTexts = {
   },
   oversized: (more: number) =>
     `Oversized: ${number(more)} mm wider than the annulus. It spreads the leaflets instead of bringing them nearer.`,
+  bandLength: (mm: number | null) =>
+    `In the preview: ${mm === null ? '…' : number(mm)} mm along its curve, from trigone to trigone.`,
   /** The place of a clip in its preview. */
   placed: (place: string | null) => `In the preview: ${place ?? '…'}`,
   auto: 'auto',

@@ -3,6 +3,7 @@ import { useSignal, type Signal } from '@preact/signals';
 import { titlesOf } from '../notable';
 import { setField } from '../store/edit';
 import * as state from '../store/state';
+import { ringCurves } from '../view/heart';
 import { clipPlaceIn, fieldTip, figure, formTexts } from '../text/texts';
 import type { FieldInfo } from '../protocol';
 import { SliderEnds } from './parts';
@@ -80,6 +81,16 @@ function previewedPlace(): string | null {
   if (state.outdated.value) return null;
   const title = state.preview.value && titlesOf(state.preview.value.figures).at(-1);
   return title ? clipPlaceIn(title) : null;
+}
+
+/** The length of the previewed band, mm; null until its preview is shown. */
+function previewedBand(): number | null {
+  const curve = state.preview.value && ringCurves(state.preview.value.picture).at(-1);
+  if (!curve || state.outdated.value) return null;
+  return curve.slice(1).reduce((sum, point, k) => {
+    const [a, b] = [curve[k], point];
+    return sum + Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+  }, 0);
 }
 
 /** The side of the middle on which a position lies. */
@@ -221,6 +232,7 @@ export function NumberField(props: FieldProps) {
         </small>
       )}
       {kind === 'ring' && field.name === 'size' && <Oversized size={value ?? NaN} />}
+      {kind === 'band' && field.name === 'factor' && <small>{formTexts.bandLength(previewedBand())}</small>}
       {position && <small>{formTexts.position(value ?? 0)}</small>}
       {position && kind === 'clip' && <small>{formTexts.placed(previewedPlace())}</small>}
       {rest !== null && value !== undefined && <small>{formTexts.change(rest, value)}</small>}

@@ -43,6 +43,8 @@ function seenPlan(): Seen {
 function takePictures(seen: Shown): Pictures {
   const viewport = view()!;
   const { camera } = viewport;
+  // a view that is on its way is there afterwards
+  camera.finish();
   const kept = {
     target: camera.target.clone(),
     orientation: camera.orientation.clone(),

@@ -113,13 +113,16 @@ function open(name: string): void {
   if (!state.draft.value) state.panel.value = 'repair';
 }
 
+/** mm: half of the coaptation that surgeons aim at in A2–P2, a judgement. */
+const littleHeight = 4;
+
 /** Digits of a leak in mm2. */
 const digits = (orifice: number): number => (orifice > 0 && orifice < 10 ? 1 : 0);
 
 /** The size of the leak and its place, or how far the leaflets meet; dots stand for what is still to come. */
 function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
   const words = verdictTexts;
-  const { orifice, coaptationMean } = figures.measures;
+  const { orifice, coaptationMean, coaptationHeight } = figures.measures;
   const shape = figures.known === 'shape';
   const size = (area: number) => figure(area, digits(area));
   const before = state.before.value?.measures.orifice;
@@ -141,6 +144,11 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
         <div class="verdict-where" title={orifice > 0 ? undefined : valveTexts.coaptationMeanHelp}>
           {orifice > 0 ? words.at(where(figures)) : words.meet(figure(coaptationMean))}
           {orifice === 0 && <Spread range={spread?.coaptationMean} digits={1} />}
+        </div>
+      )}
+      {graded && orifice === 0 && coaptationHeight < littleHeight && (
+        <div class="verdict-note" title={valveTexts.coaptationHeightHelp}>
+          {words.meetLittle(coaptationHeight)}
         </div>
       )}
     </>

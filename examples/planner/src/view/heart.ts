@@ -94,5 +94,6 @@ export function heads(topology: Topology, picture: Picture, options: SceneOption
     shapes.tube(at, below, radius, colour, 16, radius * headFlare);
     shapes.sphere(below, radius * headFlare, colour, 10, 16);
   });
-  return shapes.mesh();
+  // those before the plane of a section hide nothing of it
+  return shapes.mesh({ cut: true });
 }

@@ -7,6 +7,7 @@ import { boxAt, Callout, overlap, placesAround, type Box, type Line } from './ca
 import { clipPlace } from './clip';
 import { pickSurface } from './pick';
 import type { Topology } from '../protocol';
+import type { CutPlane } from './renderer';
 import type { Viewport } from './viewport';
 import { visiblePlaces } from './visible';
 
@@ -131,12 +132,14 @@ export class Labels {
     return [...handleLabels(view, topology, x), ...names, ...chordLabel(topology, x)];
   }
 
-  /** Whether a leaflet lies between the eye and a place. */
+  /** Whether a leaflet lies between the eye and a place, or a section cuts it away. */
   private hidden(view: Viewport, { at }: Label, px: number, py: number): boolean {
+    const plane = view.plane();
+    if (plane && isBefore(plane, at)) return true;
     const picture = state.picture.value!;
     const topology = state.topologyOf(picture)!;
     const { camera, width, height } = view;
-    const hit = pickSurface(camera, topology, picture.positions, px, py, width, height, view.plane());
+    const hit = pickSurface(camera, topology, picture.positions, px, py, width, height, plane);
     const eye = camera.position();
     return !!hit && Math.hypot(at[0] - eye.x, at[1] - eye.y, at[2] - eye.z) > hit.distance + tolerance;
   }
@@ -243,6 +246,10 @@ export class Labels {
     return boxAt([x, y], size);
   }
 }
+
+/** Whether a place is on the side of a plane that is not drawn. */
+const isBefore = ({ normal, offset }: CutPlane, at: number[]): boolean =>
+  normal.reduce((sum, v, c) => sum + v * at[c], 0) > offset;
 
 /** All chordae on the screen. */
 function chordLines(view: Viewport): Line[] {
