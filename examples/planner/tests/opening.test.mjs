@@ -128,4 +128,41 @@ describe('planner opening', () => {
     assert.ok(of28 < of30, `${of28}, ${of30} mm2`);
     await page.keyboard.press('Escape');
   });
+
+  it('opens_a_form_without_the_answers_of_the_form_before', async () => {
+    const answers = page.locator('.why p');
+    await begin(page, 'clip');
+    await page
+      .getByTestId('opening')
+      .getByText(/Opens to \d/)
+      .waitFor();
+    await page.locator('.why summary').click();
+    await answers.first().waitFor();
+    await page.keyboard.press('Escape');
+    await begin(page, 'ring');
+    await page.locator('#f-size').fill('26');
+    await page.keyboard.press('Tab');
+    await answered(page, 300);
+    await page.locator('.why summary').waitFor();
+    assert.equal(await answers.filter({ visible: true }).count(), 0);
+    await page.keyboard.press('Escape');
+  });
+
+  it('says_how_long_a_band_is_before_it_is_sewn_in', async () => {
+    await begin(page, 'band');
+    await page.locator('#f-factor').fill('84');
+    await page.keyboard.press('Tab');
+    await answered(page, 300);
+    const words = await page.getByText(/In the preview: [\d.]+\smm along its curve/).innerText();
+    await apply(page);
+    await openPanel(page, 'Plan');
+    const step = await page
+      .getByText(/Sew in .*mm, 84\s% of the posterior annulus/)
+      .first()
+      .innerText();
+    const [said, sewn] = [words, step].map((text) => +/([\d.]+)\smm/.exec(text)[1]);
+    // both are rounded to 0.1 mm
+    assert.ok(said > 40 && Math.abs(said - sewn) < 0.11, `${words} ${step}`);
+    await undo(page);
+  });
 });

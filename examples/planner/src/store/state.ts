@@ -53,6 +53,8 @@ export const coming = signal(false);
 export const underway = signal(0);
 /** Pixels that the keys of the colours take at the foot of the picture. */
 export const keysHeight = signal(0);
+/** mm of a pixel in the plane through the middle of what the camera looks at. */
+export const perPixel = signal(0.1);
 /** Picture and figures show the valve before instead of the present one. */
 export const past = signal(false);
 /** The first closed valve of the plan, for "before". */

@@ -1,10 +1,8 @@
 // The page: bar, picture, panels, dialogs.
 import { useEffect, useLayoutEffect, useRef } from 'preact/hooks';
-import { X } from 'lucide-preact';
 import { apply, discard, edit } from '../store/edit';
 import { openFile } from '../store/files';
 import { leftValves } from '../store/left';
-import { compareCheckpoint } from '../store/measure';
 import { planName } from '../store/plans';
 import * as state from '../store/state';
 import { appTexts, barTexts, help, t, tips, tipTexts } from '../text/texts';
@@ -135,13 +133,6 @@ function Compare() {
             ? planName(state.main.value?.figures.hash)
             : appTexts.now}
       </Button>
-      {compared && (
-        <Button
-          icon={<X size={16} />}
-          label={appTexts.endCompare}
-          onClick={() => void compareCheckpoint(null)}
-        />
-      )}
     </div>
   );
 }

@@ -16,7 +16,7 @@ const sliders: Record<string, Record<string, [number, number, number]>> = {
   neochord: { length: [5, 40, 0.5] },
   chord_add: { length: [5, 40, 0.5] },
   chord_length: { length: [3, 45, 0.1] },
-  clip: { position: [-1, 1, 0.05], angle: [-45, 45, 5], width: [2, 12, 0.5] },
+  clip: { position: [-1, 1, 0.05], angle: [-45, 45, 5], width: [4, 12, 0.5] },
   resect: { position: [-1, 1, 0.05], width: [2, 20, 0.5], depth: [2, 15, 0.5] },
   patch: { width: [4, 25, 0.5], height: [3, 18, 0.5] },
 };

@@ -48,13 +48,17 @@ export function Opening({ kind }: { kind: string }) {
       {flow && gradient !== null && (
         <small>{openingTexts.gradient(gradient, flow, gradientOf(before))}</small>
       )}
-      {why.length > 0 && <Why question={openingTexts.why(word, less)} answers={why as string[]} />}
+      {why.length > 0 && (
+        <Why kind={kind} question={openingTexts.why(word, less)} answers={why as string[]} />
+      )}
     </div>
   );
 }
 
 /** Closed it takes one line of the foot: the fields above it stay in sight. */
-function Why({ question, answers }: { question: string; answers: string[] }) {
+function Why({ kind, question, answers }: { kind: string; question: string; answers: string[] }) {
+  // read for one operation, it does not stand in the way of the next one
+  const section = `why it opens so far, ${kind}`;
   const open = state.sections.value.get(section) ?? false;
   return (
     <details
@@ -72,6 +76,3 @@ function Why({ question, answers }: { question: string; answers: string[] }) {
     </details>
   );
 }
-
-/** The name by which the page remembers whether it is open. */
-const section = 'why it opens so far';

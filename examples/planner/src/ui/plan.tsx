@@ -1,7 +1,8 @@
 // The panel "Plan": operations, checkpoints, two plans side by side, notes, and keeping it all.
 import { useEffect, useRef } from 'preact/hooks';
-import { Download, FileText, Redo2, Save, Undo2 } from 'lucide-preact';
+import { Download, FileText, Redo2, Save, Undo2, X } from 'lucide-preact';
 import { redo, undo } from '../store/history';
+import { compareCheckpoint } from '../store/measure';
 import { canKeepFile, chooseKeptFile, keptFile, leaveKeptFile, saveObj, saveSession } from '../store/keep';
 import { allowAutosave, autosave, storageWorks } from '../store/recovery';
 import { openingOf } from '../store/limits';
@@ -129,52 +130,57 @@ function SideBySide() {
   // it may lie below the panel's edge: a press of Compare would show nothing
   useEffect(() => table.current?.scrollIntoView({ block: 'start' }), [state.compareWith.value]);
   return (
-    <table class="table" data-testid="compare" ref={table}>
-      <thead>
-        <tr>
-          <th></th>
-          <th>{state.compareWith.value}</th>
-          <th>{planName(now.hash)}</th>
-        </tr>
-      </thead>
-      <tbody>
-        <tr class="wrap">
-          <th scope="row">{figureNames.verdict}</th>
-          {[other, now].map((figures) => (
-            <td>
-              <strong>{headline(figures)}</strong>
-            </td>
-          ))}
-        </tr>
-        {comparedRows(other, now).map(([label, ...values]) => (
+    <>
+      <Button icon={<X size={16} />} onClick={() => void compareCheckpoint(null)}>
+        {planTexts.endCompare}
+      </Button>
+      <table class="table" data-testid="compare" ref={table}>
+        <thead>
           <tr>
-            <th scope="row">{label}</th>
-            {values.map((value) => (
-              <td>{value}</td>
+            <th></th>
+            <th>{state.compareWith.value}</th>
+            <th>{planName(now.hash)}</th>
+          </tr>
+        </thead>
+        <tbody>
+          <tr class="wrap">
+            <th scope="row">{figureNames.verdict}</th>
+            {[other, now].map((figures) => (
+              <td>
+                <strong>{headline(figures)}</strong>
+              </td>
             ))}
           </tr>
-        ))}
-        <tr>
-          <th scope="row">{valveTexts.openArea}</th>
-          {[other, now].map(({ hash }) => (
-            <td>{openArea(hash)}</td>
+          {comparedRows(other, now).map(([label, ...values]) => (
+            <tr>
+              <th scope="row">{label}</th>
+              {values.map((value) => (
+                <td>{value}</td>
+              ))}
+            </tr>
           ))}
-        </tr>
-        {state.flow.value && (
           <tr>
-            <th scope="row">{reportTexts.gradient(state.flow.value)}</th>
+            <th scope="row">{valveTexts.openArea}</th>
             {[other, now].map(({ hash }) => (
-              <td>{gradientText(openingOf(hash)) || '…'}</td>
+              <td>{openArea(hash)}</td>
             ))}
           </tr>
-        )}
-        <tr class="wrap">
-          <th scope="row">{planTexts.steps}</th>
-          {[other, now].map((figures) => (
-            <td>{stepsOf(figures).join('; ') || planTexts.none}</td>
-          ))}
-        </tr>
-      </tbody>
-    </table>
+          {state.flow.value && (
+            <tr>
+              <th scope="row">{reportTexts.gradient(state.flow.value)}</th>
+              {[other, now].map(({ hash }) => (
+                <td>{gradientText(openingOf(hash)) || '…'}</td>
+              ))}
+            </tr>
+          )}
+          <tr class="wrap">
+            <th scope="row">{planTexts.steps}</th>
+            {[other, now].map((figures) => (
+              <td>{stepsOf(figures).join('; ') || planTexts.none}</td>
+            ))}
+          </tr>
+        </tbody>
+      </table>
+    </>
   );
 }

@@ -88,7 +88,11 @@ function takePictures(seen: Shown): Pictures {
 const tableRow = (label: string, was: string, now: string): string =>
   `<tr><th>${escape(label)}</th><td>${escape(was)}</td><td>${escape(now)}</td></tr>`;
 
-/** Open areas, and the gradient of the present valve, if they were measured. */
+/** How long both leaflets are where they do not touch. */
+const lengthsText = (cost: Cost | null): string =>
+  cost ? valveTexts.lengthsOf(cost.anteriorLength, cost.posteriorLength) : '';
+
+/** Open areas, gradients and the lengths of the leaflets, if they were measured. */
 function openingRows(then: Figures, now: Figures): string {
   const [before, after] = [openingOf(then.hash), openingOf(now.hash)];
   if (!after) return '';
@@ -97,7 +101,8 @@ function openingRows(then: Figures, now: Figures): string {
     tableRow(valveTexts.openArea, area(before), area(after)) +
     (state.flow.value
       ? tableRow(reportTexts.gradient(state.flow.value), gradientText(before), gradientText(after))
-      : '')
+      : '') +
+    tableRow(valveTexts.lengths, lengthsText(before), lengthsText(after))
   );
 }
 
@@ -145,7 +150,7 @@ function reportHtml({ shown }: Seen, pictures: Pictures, plot: string): string {
 <section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
 <div class="pair"><section>${images(pictures.before)}</section><section>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
-<div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table></section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
+<div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table><p><small>${escape(valveTexts.outflow)}</small></p></section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
 ${otherPlans(now)}
 ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
 <p><small>${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;

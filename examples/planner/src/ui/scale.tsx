@@ -47,7 +47,25 @@ export function Scale() {
       aria-hidden={tissue ? 'true' : undefined}
     >
       {tissue ? <TissueKeys surface={surface} /> : <MapScale name={name} />}
+      <Length />
     </div>
+  );
+}
+
+/** Lengths of the bar, mm, the longest first, and the most pixels of it. */
+const lengths = [100, 50, 20, 10, 5, 2, 1, 0.5];
+const widest = 84;
+
+/** A bar of known length, true in the plane through the middle of what is looked at: the picture is in perspective. */
+function Length() {
+  const perPixel = state.perPixel.value;
+  const mm = lengths.find((length) => length <= widest * perPixel) ?? lengths[lengths.length - 1];
+  return (
+    <span class="length" title={barTexts.lengthHelp}>
+      <b data-testid="length" style={{ width: `${(mm / perPixel).toFixed(1)}px` }}>
+        {barTexts.length(mm)}
+      </b>
+    </span>
   );
 }
 

@@ -6,6 +6,7 @@ import { formTexts, sectionTexts, tips, tipTexts } from '../text/texts';
 import type { Picture, Section, SectionRequest } from '../protocol';
 import { crossings, cutScallops, cutsOf, placeOf, planeOf } from '../view/cut';
 import { isClosed, ringCurves, ringRadius } from '../view/heart';
+import { point } from '../view/mesh';
 import { Button, SliderEnds } from './parts';
 
 interface Curve {
@@ -57,15 +58,18 @@ const inPlane = (at: number[], frame: number[]): [number, number] =>
     number,
   ];
 
-/** Where the plane cuts the rings of the shown valve. */
-function ringDots(): [number, number][] {
-  const { picture, figures } = state.shown.value!;
-  const { frame } = figures;
+/** Where the plane of the plot cuts curves of the shown valve, in the frame of all curves. */
+function dots(curves: number[][][], frame: number[]): [number, number][] {
   const plane = planeOf(frame, state.sectionAt.value);
-  return ringCurves(picture).flatMap((curve) =>
+  return curves.flatMap((curve) =>
     crossings(curve, isClosed(curve), plane).map(({ middle }) => inPlane(middle, frame)),
   );
 }
+
+/** The annulus of the shown valve, mm. */
+const annulusOf = (picture: Picture): number[][] => [
+  ...Array.from(state.topologyOf(picture)?.annulus ?? [], (node) => point(picture.positions, node)),
+];
 
 /** Where the plane cuts the valve that is being opened or moved by hand: rows as of the worker. */
 function movingSection(picture: Picture, frame: number[], offset: number): Section {
@@ -129,7 +133,10 @@ export function SectionPlot() {
   const outdated = state.outdated.value || shown.value !== wanted().key;
   const limit = 0.5 * (state.figures.value?.measures.annulusCc ?? 40);
   if (!state.main.value) return null;
-  const drawn = beside(curves.value, state.main.value.figures.frame);
+  const { frame } = state.main.value.figures;
+  const drawn = beside(curves.value, frame);
+  const seen = state.motion.value ? null : state.shown.value?.picture;
+  const hinges = seen ? dots([annulusOf(seen)], frame) : [];
   const box = boxOf(drawn.map(({ points }) => points));
   const text = { class: 'plot-text', style: { fontSize: `${box.text}px` } };
   const [left, right] = [box.x + box.text / 2, box.x + box.width - box.text / 2];
@@ -152,8 +159,17 @@ export function SectionPlot() {
         <text x={right} y={box.y + 1.3 * box.text} text-anchor="end" {...text}>
           {sectionTexts.posterior}
         </text>
-        {!state.motion.value &&
-          ringDots().map(([ap, height]) => <circle cx={-ap} cy={-height} r={ringRadius} class="plot-ring" />)}
+        {hinges.length === 2 && (
+          <path
+            d={`M${hinges.map(([ap, height]) => `${-ap} ${-height}`).join('L')}`}
+            class="plot-hinges"
+            data-testid="hinges"
+          />
+        )}
+        {seen &&
+          dots(ringCurves(seen), frame).map(([ap, height]) => (
+            <circle cx={-ap} cy={-height} r={ringRadius} class="plot-ring" />
+          ))}
         {drawn.map((curve) => (
           <path d={lines(curve.points)} class={`plot-${curve.style}`} />
         ))}
@@ -181,6 +197,10 @@ export function SectionPlot() {
         <span>
           <i class="key key-axis" />
           {sectionTexts.annulus}
+        </span>
+        <span>
+          <i class="key key-hinges" />
+          {sectionTexts.hinges}
         </span>
       </div>
       <label class="slider" title={tipTexts.plane}>

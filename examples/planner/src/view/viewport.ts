@@ -12,7 +12,6 @@ import { Raster } from './raster';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
 import { lowestFree, outlineOf, topOf } from './room';
-import { ScaleBar } from './scale_bar';
 import { rimOf, sectionMeshes, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh } from './surface';
@@ -33,7 +32,6 @@ export class Viewport {
   readonly camera = new Camera();
   renderer: Renderer;
   readonly labels: Labels;
-  private readonly bar: ScaleBar;
   width = 1;
   height = 1;
   private meshes: Mesh[] = [];
@@ -66,7 +64,6 @@ export class Viewport {
     host.prepend(this.renderer.canvas);
     this.describe();
     this.labels = new Labels(host);
-    this.bar = new ScaleBar(host);
     new Gestures(this);
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
@@ -292,7 +289,7 @@ export class Viewport {
     this.camera.update();
     this.renderer.draw(this.scene(), this.camera, fast);
     this.labels.update(this);
-    this.bar.update(this.camera.scale(this.height));
+    state.perPixel.value = this.camera.scale(this.height);
     this.dirty = false;
     this.drawnFully = !fast;
     this.markFirst();
