@@ -78,6 +78,26 @@ void say_given(const std::array<double, 2> &distance, Finding &finding) {
   finding.sentence += ": are they of this patient and phase?";
 }
 
+// Doubts given commissures where the leaflets are higher than midway between them: there they would
+// be in the middle of both free edges.
+void doubt_high(const AnnulusSamples &annulus, const std::array<double, 2> &feet, double length,
+                Finding &finding) {
+  const auto height = [&](double foot) {
+    return annulus.height[static_cast<size_t>(wrapped(foot, length) / length * samples) % samples];
+  };
+  const double half = 0.5 * wrapped(feet[1] - feet[0], length);
+  const std::array<double, 2> there = {height(feet[0]), height(feet[1])},
+                              between = {height(feet[0] + half),
+                                         height(feet[1] + 0.5 * length - half)};
+  const double share = (between[0] + between[1]) / (there[0] + there[1]);
+  if (!(share < 1)) return;
+  finding.confidence *= 0.5 * share;
+  finding.sentence += format(
+      "; but the leaflets are %.1f and %.1f mm high there and %.1f and %.1f mm midway between: "
+      "commissures are where leaflets are lowest, are these in the middle of the free edges?",
+      there[0] * 1e3, there[1] * 1e3, between[0] * 1e3, between[1] * 1e3);
+}
+
 // Clefts and tears are narrower than 6 mm, leaflets are low over 10 mm and more at a commissure.
 AnnulusSamples annulus_samples(const LeafletSheet &sheet, const SheetRims &rims,
                                const std::vector<double> &heights, const std::vector<Vec3> &tips) {
@@ -240,7 +260,10 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
   }
   // found points take the same way as given ones, so that giving them changes no bit
   const auto [feet, distance] = feet_of(sheet, coordinates, commissures);
-  if (!landmarks.commissures.empty()) say_given(distance, findings[at]);
+  if (!landmarks.commissures.empty()) {
+    say_given(distance, findings[at]);
+    doubt_high(annulus, feet, length, findings[at]);
+  }
   LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};
   AnteriorOdds shape = anterior_odds(annulus, arcs, length);
   shape.orientation = orientation;

@@ -183,6 +183,29 @@ TEST_CASE("commissures_given_beside_the_surface_are_doubted") {
   }
 }
 
+TEST_CASE("commissures_given_in_the_middle_of_the_leaflets_are_doubted") {
+  const ParametricSheet p = parametric_sheet(430);
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  Findings guessed;
+  const LeafletArcs arcs = find_leaflets(p.sheet, p.rims, c, {}, guessed);
+  const double length = c.annulus_length, quarter = 0.5 * (arcs.to - arcs.from);
+  const Loop annulus(p.rims.annulus, p.sheet.x);
+  // turned by a quarter they are the middles of both leaflets; landmarks by hand are a few mm off
+  for (const double turn : {0.0, 0.2, 1.0}) {
+    const std::vector<Vec3> points = {
+        annulus.at(std::fmod(arcs.from + turn * quarter, length)),
+        annulus.at(std::fmod(arcs.to + turn * (0.5 * length - quarter), length))};
+    Findings found;
+    find_leaflets(p.sheet, p.rims, c, {points, {}, {}}, found);
+    const Finding &said = *find_finding(found, "commissures");
+    CAPTURE(turn);
+    CHECK((said.confidence < 0.5) == (turn == 1));
+    CHECK((said.confidence == 1) == (turn < 1));
+    CHECK((said.sentence.find("in the middle of the free edges") != std::string::npos) ==
+          (turn == 1));
+  }
+}
+
 TEST_CASE("places_as_low_as_the_commissures_are_counted") {
   constexpr size_t n = 120;
   const auto heights = [](size_t leaflets) {

@@ -14,7 +14,7 @@ async function goTo(page, wanted) {
   await tabTo(page, wanted);
   // the browser scrolls to it in the next frames, and notices make way after that
   let found = await focused(page);
-  for (let k = 0; k < 10 && (k < 2 || found.covered); ++k) {
+  for (let k = 0; k < 40 && (k < 2 || found.covered); ++k) {
     await page.waitForTimeout(50);
     found = await focused(page);
   }

@@ -22,6 +22,8 @@ export interface Left {
   kept: number;
   /** The grade of its leak. */
   verdict: string;
+  /** When it was left, ms since 1970. */
+  at: number;
   /** Equal for equal contents. */
   content: string;
 }
@@ -49,6 +51,7 @@ export async function leave(): Promise<Left | null> {
     steps: done.length,
     kept: checkpoints.value.length,
     verdict: verdictOf(figures).word,
+    at: Date.now(),
     content: JSON.stringify([title, figures.hash, done, plans, notes.value, tour.value?.number]),
   };
   try {

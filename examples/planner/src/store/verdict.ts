@@ -23,6 +23,8 @@ export interface Verdict {
   but: string[];
   /** An operation may have narrowed the valve, and how far it opens is not known. */
   unmeasured: boolean;
+  /** Something beside the leak is as bad as a severe one. */
+  severe: boolean;
   /** The annulus is so small that the leaflets lie in folds: the word is no grade of the leak. */
   folded: boolean;
 }
@@ -42,10 +44,27 @@ function ofOpening({ hash }: Figures): string[] {
   return goal === null ? [] : [verdictTexts.openingBelow(cost.openArea, goal)];
 }
 
+/** Whether the opening is a severe stenosis; the limits are those of adults. */
+function isSevere({ hash }: Figures): boolean {
+  const cost = openingOf(hash);
+  return !!cost && smallAnnulus() === null && /severe/.test(stenosis(cost.openArea));
+}
+
 /** How wide the annulus is, if the plan has made it much too small. */
 function ofAnnulus({ measures }: Figures): string[] {
   const from = undersizedFrom(measures.annulusCc);
   return from === null ? [] : [verdictTexts.undersized(measures.annulusCc, from)];
+}
+
+/** mm above the surface of the annulus. In the long-axis view of echocardiography 2 mm count as prolapse, above a line that lies
+ *  higher (libmvs/measure/DEFINITIONS.md), so that the verdict says by how much a leaflet billows and no more. */
+const prolapse = 2;
+
+/** The scallop that billows most, if a sealed valve prolapses: a leak is said first. */
+function ofBillow({ regions, measures, known }: Figures): string[] {
+  if (known !== 'all' || measures.orifice > 0 || !(measures.billowHeight > prolapse)) return [];
+  const [most] = regions.filter(({ commissure }) => !commissure).sort((a, b) => b.billow - a.billow);
+  return most ? [verdictTexts.prolapse(most.name, measures.billowHeight)] : [];
 }
 
 /** Whether the load of a chord is a fault, which the verdict names. */
@@ -62,7 +81,7 @@ function ofChordae(figures: Figures): string[] {
 
 export function verdictOf(figures: Figures): Verdict {
   const { known, measures } = figures;
-  const none = { level: null, but: [], unmeasured: false, folded: false };
+  const none = { level: null, but: [], unmeasured: false, folded: false, severe: false };
   if (known === 'shape') return { ...none, word: verdictTexts.measuring };
   if (!measures.atRest || !measures.underLoad) return { ...none, word: verdictTexts.notAtRest };
   const share = foldedShare(measures.annulusCc);
@@ -71,11 +90,13 @@ export function verdictOf(figures: Figures): Verdict {
     level,
     word: share === null ? word : verdictTexts.noRepair,
     folded: share !== null,
+    severe: share !== null || isSevere(figures),
     but: [
       ...(share === null ? [] : [verdictTexts.folded(share)]),
       ...ofLeakRange(figures),
       ...ofOpening(figures),
       ...(share === null ? ofAnnulus(figures) : []),
+      ...ofBillow(figures),
       ...missedGoals(figures),
       ...ofChordae(figures),
     ],

@@ -252,6 +252,9 @@ export function say(sentence: string): string {
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
+    .replace(/(?:divide|multiply) by \d+ or give --unit (\w+)/, (_, unit: string) =>
+      importTexts.chooseUnit(unit),
+    )
     .replace(clipEnd, () => `, ${clipSaid(clipWords(sentence)!)}`)
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) x (?=\d)/g, '$1 × ')
@@ -530,7 +533,14 @@ export const importTexts = {
   tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
   again: 'Change and build again',
   kindGuessed: '; if it is not, choose what it is by “Change and build again”',
+  chooseUnit: (unit: string) => `choose ${unit} as the unit of the file`,
   found: 'What was found and what was guessed',
+  groups: {
+    leak: 'Its leak',
+    unsure: 'Please check: not certain',
+    sure: 'Known well enough',
+    mesh: 'The mesh',
+  },
   sources: ['', 'given', 'measured', 'guessed', 'normal anatomy'],
 };
 
@@ -580,7 +590,7 @@ export const verdictTexts = {
   leakKnown: (low: number, high: number) =>
     `chordae are guessed: a leak of ${number(low)} to ${number(high)} mm² is possible`,
   leakBefore: (low: number, high: number) =>
-    `The leak before the repair is known as ${number(low)} to ${number(high)} mm² only: chordae were guessed`,
+    `The leak before the repair is known as ${number(low)} to ${number(high)} mm² only: chordae were guessed, and the result is no better known`,
   butHelp: 'A sealed valve may still open too little, miss another goal, or hang on chordae that may tear.',
   /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
   openingIs: (area: number, word: string, adult: boolean, goal: number | null) =>
@@ -593,6 +603,7 @@ export const verdictTexts = {
   noRepair: 'No real repair',
   folded: (percent: number) =>
     `the annulus is ${percent} % of its width before; leaflets lie in folds: do not trust the figures`,
+  prolapse: (scallop: string, height: number) => `${scallop} billows ${number(height)} mm above the annulus`,
   undersized: (cc: number, from: number) =>
     `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
   edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
@@ -648,10 +659,17 @@ export const leaveTexts = {
   heading: (count: number) => `Earlier valves (${count})`,
   headingTip: 'Valves that were left since the page was opened, with their plans',
   hint: 'They stay until this page is closed. What must last longer: “Save session”.',
-  contents: (verdict: string, steps: number, kept: number) =>
-    [verdict, steps ? `${steps} ${steps === 1 ? 'step' : 'steps'}` : '', kept ? keptPlans(kept) : '']
+  contents: (verdict: string, steps: number, kept: number, at: number): string =>
+    [
+      verdict,
+      steps ? `${steps} ${steps === 1 ? 'step' : 'steps'}` : '',
+      kept ? keptPlans(kept) : '',
+      leaveTexts.leftAt(at),
+    ]
       .filter(Boolean)
       .join(' · '),
+  leftAt: (at: number): string =>
+    `left at ${new Date(at).toLocaleTimeString(undefined, { hour: '2-digit', minute: '2-digit' })}`,
   again: 'Open it again',
   againTip: 'Opens this valve with its plan and kept plans; the present valve takes its place in the list',
   own: 'Your earlier repair of this valve:',
@@ -796,6 +814,8 @@ export const valveTexts = {
     'Risk of an obstructed outflow tract (SAM): not determined, because the septum is not known here. A small ring and long leaflets raise it.',
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
+  openAreaWide:
+    'More than the 4 to 6 cm² of healthy adults: the wall of the ventricle, which would stop the leaflets, is missing here.',
   openAreaHelp: 'Smallest opening at 5 mmHg. In adults 1.5 cm² or less is a severe stenosis (ACC/AHA 2014).',
   annulusPull: 'Pull on the annulus',
   lengths: 'Leaflets from annulus to coaptation, A2 and P2',
@@ -877,6 +897,7 @@ export const formTexts = {
     scallop: 'Click a scallop, or choose it below.',
     points: 'Click along the cut on the leaflet, from free edge to free edge.',
   } as Record<string, string>,
+  slack: 'Slack in the preview: it carries nothing.',
   change: (was: number, now: number) =>
     Math.abs(now - was) < 0.06
       ? 'as at present'

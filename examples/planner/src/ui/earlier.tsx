@@ -10,7 +10,7 @@ function Row({ left, title }: { left: Left; title: string }) {
   return (
     <div class="row earlier-valve">
       <span>
-        {title} <small>{leaveTexts.contents(left.verdict, left.steps, left.kept)}</small>
+        {title} <small>{leaveTexts.contents(left.verdict, left.steps, left.kept, left.at)}</small>
       </span>
       <Button icon={<RotateCcw size={16} />} title={leaveTexts.againTip} onClick={() => void comeBack(left)}>
         {leaveTexts.again}

@@ -2,7 +2,7 @@
 import { Hammer, Undo2, X } from 'lucide-preact';
 import { buildValve, chooseUnit } from '../store/files';
 import * as state from '../store/state';
-import type { FileUnit, SurfaceKind } from '../protocol';
+import type { FileUnit, Finding, SurfaceKind } from '../protocol';
 import { fileUnits, millimetres } from '../units';
 import { importTexts, say, tips } from '../text/texts';
 import { Button } from './parts';
@@ -110,6 +110,39 @@ export function ImportPanel() {
   );
 }
 
+/** Confidence below which a finding is to be looked at, also where it was given. */
+const sure = 0.7;
+
+const ofLeak = /^leak/;
+const ofMesh = /^(surface|mesh|crossings|\w*holes|cut_handles|pinched_gaps|leak_limits)$/;
+
+/** The findings by what is to be done about them, the least certain first; what was done to the mesh last. */
+function groupsOf(findings: Finding[]): [string, Finding[]][] {
+  const leak = findings.filter(({ name }) => ofLeak.test(name) && !ofMesh.test(name));
+  const mesh = findings.filter(({ name }) => ofMesh.test(name));
+  const others = findings
+    .filter((one) => !leak.includes(one) && !mesh.includes(one))
+    .sort((a, b) => a.confidence - b.confidence);
+  const { groups } = importTexts;
+  return [
+    [groups.leak, leak],
+    [groups.unsure, others.filter(({ confidence }) => confidence < sure)],
+    [groups.sure, others.filter(({ confidence }) => confidence >= sure)],
+    [groups.mesh, mesh],
+  ];
+}
+
+function Row({ finding }: { finding: Finding }) {
+  const doubtful = finding.confidence < sure && !ofLeak.test(finding.name);
+  return (
+    <li class={`source-${finding.source}${doubtful ? ' doubtful' : ''}`}>
+      <strong>{finding.name.replace(/_/g, ' ')}</strong>{' '}
+      <span class="tag">{importTexts.sources[finding.source]}</span>
+      <p>{say(finding.sentence)}</p>
+    </li>
+  );
+}
+
 function Findings() {
   const imported = state.imported.value!;
   const { findings, name } = imported;
@@ -117,15 +150,21 @@ function Findings() {
     <div class="panel-body">
       <h2>{importTexts.found}</h2>
       <p class="hint">{name}</p>
-      <ul class="findings" data-testid="findings">
-        {findings.map((finding) => (
-          <li class={`source-${finding.source}`}>
-            <strong>{finding.name.replace(/_/g, ' ')}</strong>{' '}
-            <span class="tag">{importTexts.sources[finding.source]}</span>
-            <p>{say(finding.sentence)}</p>
-          </li>
-        ))}
-      </ul>
+      <div data-testid="findings">
+        {groupsOf(findings).map(
+          ([title, group]) =>
+            group.length > 0 && (
+              <>
+                <h3>{title}</h3>
+                <ul class="findings">
+                  {group.map((finding) => (
+                    <Row finding={finding} />
+                  ))}
+                </ul>
+              </>
+            ),
+        )}
+      </div>
       <div class="form-foot">
         <Button onClick={() => (state.imported.value = { ...imported, findings: [] })}>
           {importTexts.again}

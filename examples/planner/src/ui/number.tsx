@@ -83,6 +83,9 @@ function previewedPlace(): string | null {
   return title ? clipPlaceIn(title) : null;
 }
 
+/** Whether the chord that the preview adds carries nothing. */
+const isSlack = (): boolean => !state.outdated.value && (state.added.value?.strain ?? 1) <= 0;
+
 /** The length of the previewed band, mm; null until its preview is shown. */
 function previewedBand(): number | null {
   const curve = state.preview.value && ringCurves(state.preview.value.picture).at(-1);
@@ -236,6 +239,9 @@ export function NumberField(props: FieldProps) {
       {position && <small>{formTexts.position(value ?? 0)}</small>}
       {position && kind === 'clip' && <small>{formTexts.placed(previewedPlace())}</small>}
       {rest !== null && value !== undefined && <small>{formTexts.change(rest, value)}</small>}
+      {kind === 'chord_add' && field.name === 'length' && isSlack() && (
+        <small class="warn">{formTexts.slack}</small>
+      )}
       {value === undefined &&
         field.fallback &&
         !rest &&

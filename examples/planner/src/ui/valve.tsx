@@ -217,6 +217,9 @@ function Certainty() {
   );
 }
 
+/** mm2: the open valves of healthy adults have 4 to 6 cm2. */
+const widest = 600;
+
 function OpenArea({ figures }: { figures: Figures }) {
   const cost = openingOf(figures.hash);
   const gradient = gradientOf(cost);
@@ -252,6 +255,7 @@ function OpenArea({ figures }: { figures: Figures }) {
             value={cost.openArea / 100}
             unit="cm²"
             help={valveTexts.openAreaHelp}
+            note={cost.openArea > widest ? '*' : ''}
           />
           {gradient !== null && (
             <Figure
@@ -269,6 +273,7 @@ function OpenArea({ figures }: { figures: Figures }) {
           {valveTexts.measureOpen}
         </Button>
       )}
+      {cost && cost.openArea > widest && <p class="hint">* {valveTexts.openAreaWide}</p>}
       <p class="hint" data-testid="outflow">
         {valveTexts.outflow}
       </p>

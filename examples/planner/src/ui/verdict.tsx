@@ -20,10 +20,10 @@ export function Verdict() {
       </div>
     );
   const shape = figures.known === 'shape';
-  const { level, word, but, unmeasured, folded } = verdictOf(figures);
+  const { level, word, but, unmeasured, folded, severe } = verdictOf(figures);
   const small = smallAnnulus();
   const tag = tagOf();
-  const grading = level === null ? 'none' : but.length && !level ? 'but' : level;
+  const grading = level === null ? 'none' : severe ? 4 : but.length && !level ? 'but' : level;
   return (
     <div
       class={`verdict level-${grading}${state.outdated.value ? ' outdated' : ''}`}

@@ -90,6 +90,8 @@ function grasp(view: Viewport, hit: Hit): Drag {
     },
   ).catch(fail);
   state.handing.value = true;
+  // the hand moves the closed valve
+  state.openness.value = 1;
   return { kind: 'hand', depth: surface.distance };
 }
 
