@@ -1,8 +1,9 @@
-// A click chooses what is drawn under it: the pixels of the picture are the reference, not the code that picks.
+// A click chooses what is drawn under it: the pixels of the picture are the reference, not the code that picks. What is chosen is
+// dragged where it is drawn.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { withPlanner } from './fixtures/browser.mjs';
-import { cameraRests } from './fixtures/person.mjs';
+import { answered, apply, cameraRests, chordPlace, openPanel } from './fixtures/person.mjs';
 
 /**
  * Places in the window whose pixels, with all their neighbours within 2, show a papillary head or a chord, by their
@@ -121,4 +122,48 @@ describe('planner, picking', () => {
         assert.deepEqual(await wrongAt(page, places, 'scallop', press(page)), []);
       });
     });
+
+  it('drags_the_chosen_chord_through_what_hides_it_and_drops_it_when_it_is_cut', async () => {
+    await withPlanner({}, async ({ page }) => {
+      // from the atrium the leaflets hide all chordae, and the chosen one shines through
+      await page.keyboard.press('1');
+      await cameraRests(page);
+      await openPanel(page, 'Repair');
+      const blue = () =>
+        page.evaluate(() => {
+          const chosen = (m, i) =>
+            m.front[i] < 0.02 && Math.abs(m.front[i + 1] - 0.62) < 0.02 && m.front[i + 2] > 0.98;
+          return window.planner.viewport
+            .scene()
+            .meshes.some((m) => Array.from(m.front.keys()).some((i) => i % 3 === 0 && chosen(m, i)));
+        });
+      for (const k of [2, 11, 20]) {
+        const { id, name, rest } = await page.evaluate((n) => {
+          const chord = window.planner.state.main.value.figures.chords[n];
+          window.planner.state.choice.value = { kind: 'chord', id: chord.id };
+          return chord;
+        }, k);
+        const { head, leaf, middle } = await chordPlace(page, name);
+        const length = Math.hypot(leaf.x - head.x, leaf.y - head.y);
+        const [dx, dy] = [(leaf.x - head.x) / length, (leaf.y - head.y) / length];
+        await page.mouse.move(middle.x, middle.y);
+        await page.mouse.down();
+        await page.mouse.move(middle.x - 30 * dx, middle.y - 30 * dy, { steps: 6 });
+        await page.mouse.up();
+        await answered(page, 300);
+        const draft = await page.evaluate(() => window.planner.state.draft.value);
+        assert.equal(draft?.kind, 'chord_length', name);
+        assert.equal(draft.fields.chord, id);
+        assert.ok(draft.fields.length < rest, `${name}: ${draft.fields.length} of ${rest} mm`);
+        await page.keyboard.press('Escape');
+        await answered(page, 300);
+      }
+      assert.ok(await blue());
+      await page.getByRole('button', { name: 'Cut', exact: true }).click();
+      await answered(page, 300);
+      assert.ok(await blue(), 'what the operation removes is shown');
+      await apply(page);
+      assert.ok(!(await blue()), 'it is gone');
+    });
+  });
 });

@@ -223,7 +223,7 @@ describe('planner sides', () => {
         return { mm, bar: element.getBoundingClientRect().width, drawn: b - a };
       });
       // the width of an element is written with a digit behind the point
-      assert.ok(Math.abs(bar - drawn) < 0.2 && bar > 25 && bar <= 84, `${mm} mm: ${bar}, drawn ${drawn}`);
+      assert.ok(Math.abs(bar - drawn) < 0.2 && bar > 39 && bar <= 100, `${mm} mm: ${bar}, drawn ${drawn}`);
     }
     await page.keyboard.press('1');
     await cameraRests(page);

@@ -57,14 +57,14 @@ function ofAnnulus({ measures }: Figures): string[] {
 }
 
 /** mm above the surface of the annulus. In the long-axis view of echocardiography 2 mm count as prolapse, above a line that lies
- *  higher (libmvs/measure/DEFINITIONS.md), so that the verdict says by how much a leaflet billows and no more. */
-const prolapse = 2;
+ *  higher by up to half the height of the saddle (libmvs/measure/DEFINITIONS.md), about 1 mm in the middle: a judgement. */
+const billowing = 3;
 
 /** The scallop that billows most, if a sealed valve prolapses: a leak is said first. */
 function ofBillow({ regions, measures, known }: Figures): string[] {
-  if (known !== 'all' || measures.orifice > 0 || !(measures.billowHeight > prolapse)) return [];
+  if (known !== 'all' || measures.orifice > 0 || !(measures.billowHeight > billowing)) return [];
   const [most] = regions.filter(({ commissure }) => !commissure).sort((a, b) => b.billow - a.billow);
-  return most ? [verdictTexts.prolapse(most.name, measures.billowHeight)] : [];
+  return most ? [verdictTexts.billows(most.name, measures.billowHeight)] : [];
 }
 
 /** Whether the load of a chord is a fault, which the verdict names. */

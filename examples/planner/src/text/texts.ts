@@ -579,8 +579,9 @@ export const verdictTexts = {
   atPressure: ' at 120 mmHg',
   was: (orifice: string) => ` was ${orifice}`,
   at: (place: string) => `at ${place}`,
-  meet: (length: string) => `leaflets meet over ${length} mm (mean)`,
-  meetLittle: (height: number) => `at A2–P2 only ${number(height)} mm high: surgeons aim at 8 mm`,
+  meet: (length: string, middle: number | null) =>
+    `leaflets meet over ${length} mm (mean)${middle === null ? '' : `, A2–P2 ${number(middle)}`}`,
+  meetLittle: 'Surgeons aim at 8 mm at A2–P2. ',
   ofClosed: 'when closed',
   /** Chordae a little beyond their limit, which is no fault up to a load of `allowed` per cent, `goal` where that is the tour's. */
   chordsOver: (count: number, allowed: number, goal: boolean) =>
@@ -603,7 +604,7 @@ export const verdictTexts = {
   noRepair: 'No real repair',
   folded: (percent: number) =>
     `the annulus is ${percent} % of its width before; leaflets lie in folds: do not trust the figures`,
-  prolapse: (scallop: string, height: number) => `${scallop} billows ${number(height)} mm above the annulus`,
+  billows: (scallop: string, height: number) => `${scallop} billows ${number(height)} mm above the annulus`,
   undersized: (cc: number, from: number) =>
     `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
   edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,

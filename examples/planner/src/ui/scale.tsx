@@ -54,7 +54,7 @@ export function Scale() {
 
 /** Lengths of the bar, mm, the longest first, and the most pixels of it. */
 const lengths = [100, 50, 20, 10, 5, 2, 1, 0.5];
-const widest = 84;
+const widest = 100;
 
 /** A bar of known length, true in the plane through the middle of what is looked at: the picture is in perspective. */
 function Length() {

@@ -127,6 +127,8 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
   const size = (area: number) => figure(area, digits(area));
   const before = state.before.value?.measures.orifice;
   const spread = state.shownSpread.value?.measures;
+  const little = orifice === 0 && coaptationHeight < littleHeight;
+  const help = little ? words.meetLittle + valveTexts.coaptationHeightHelp : valveTexts.coaptationMeanHelp;
   return (
     <>
       <div class="verdict-figure">
@@ -141,14 +143,11 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
         <Spread range={spread?.orifice} digits={digits(orifice)} />
       </div>
       {graded && (
-        <div class="verdict-where" title={orifice > 0 ? undefined : valveTexts.coaptationMeanHelp}>
-          {orifice > 0 ? words.at(where(figures)) : words.meet(figure(coaptationMean))}
+        <div class={little ? 'verdict-where little' : 'verdict-where'} title={orifice > 0 ? undefined : help}>
+          {orifice > 0
+            ? words.at(where(figures))
+            : words.meet(figure(coaptationMean), little ? coaptationHeight : null)}
           {orifice === 0 && <Spread range={spread?.coaptationMean} digits={1} />}
-        </div>
-      )}
-      {graded && orifice === 0 && coaptationHeight < littleHeight && (
-        <div class="verdict-note" title={valveTexts.coaptationHeightHelp}>
-          {words.meetLittle(coaptationHeight)}
         </div>
       )}
     </>

@@ -4,6 +4,7 @@ import * as state from '../store/state';
 import { edit } from '../store/edit';
 import { fail, request, tell } from '../store/requests';
 import { armLength, clipPlace, setClip, type ClipPlace } from './clip';
+import { point } from './mesh';
 import type { Hit } from './pick';
 import type { Viewport } from './viewport';
 
@@ -33,13 +34,33 @@ function isNear(view: Viewport, at: ArrayLike<number>, p: Place, reach: number):
   return Math.hypot(x - p.x, y - p.y) < 16 + reach / 2;
 }
 
+/** Pixels from a place to the line between two points of the valve. */
+function fromLine(view: Viewport, from: ArrayLike<number>, to: ArrayLike<number>, p: Place): number {
+  const [[ax, ay], [bx, by]] = [project(view, from), project(view, to)];
+  const [dx, dy] = [bx - ax, by - ay];
+  const s = Math.min(1, Math.max(0, ((p.x - ax) * dx + (p.y - ay) * dy) / (dx * dx + dy * dy || 1)));
+  return Math.hypot(p.x - ax - s * dx, p.y - ay - s * dy);
+}
+
 /** Whether a place is at the handle or on the arms of the clip, which turn it as well. */
 function isOnArms(view: Viewport, clip: ClipPlace, p: Place, reach: number): boolean {
   const end = clip.at.map((v, c) => v - armLength * clip.arm[c]);
-  const [[ax, ay], [bx, by]] = [project(view, end), project(view, clip.handle)];
-  const [dx, dy] = [bx - ax, by - ay];
-  const s = Math.min(1, Math.max(0, ((p.x - ax) * dx + (p.y - ay) * dy) / (dx * dx + dy * dy || 1)));
-  return Math.hypot(p.x - ax - s * dx, p.y - ay - s * dy) < reach || isNear(view, clip.handle, p, reach);
+  return fromLine(view, end, clip.handle, p) < reach || isNear(view, clip.handle, p, reach);
+}
+
+/** The chosen chord if a press is on it: it is drawn through all that is before it, and goes before that. */
+function chosenAt(view: Viewport, p: Place, reach: number): Drag | null {
+  const { choice, picture, main, motion } = state;
+  const topology = picture.value && state.topologyOf(picture.value);
+  if (choice.value?.kind !== 'chord' || !topology || motion.value) return null;
+  const { id } = choice.value;
+  const k = topology.chords.findIndex((part) => part.id === id);
+  const chord = main.value?.figures.chords.find((item) => item.id === id);
+  if (k < 0 || !chord) return null;
+  const [from, to] = [0, 1].map((end) => point(picture.value!.positions, topology.chordNodes[2 * k + end]));
+  return fromLine(view, from, to, p) < reach
+    ? { kind: 'chord', id, rest: presentLength(id, chord.rest) }
+    : null;
 }
 
 /** What a press at a place drags: a part under the pointer, or the camera. */
@@ -48,15 +69,10 @@ export function dragAt(view: Viewport, p: Place, reach: number, hit: Hit | null)
   const clip = clipPlace();
   if (clip && isNear(view, clip.at, p, reach)) return { kind: 'clip', position: clip.position };
   if (clip && isOnArms(view, clip, p, reach)) return { kind: 'turn-clip' };
+  const chord = state.tool.value === 'look' ? chosenAt(view, p, reach) : null;
+  if (chord) return chord;
   if (!hit) return { kind: 'turn' };
   if (state.tool.value !== 'look' && hit.surface) return grasp(view, hit);
-  const topology = state.topologyOf(state.picture.value!)!;
-  const choice = state.choice.value;
-  const chosen = hit.chord >= 0 && choice?.kind === 'chord' && topology.chords[hit.chord].id === choice.id;
-  if (chosen && !state.motion.value) {
-    const chord = state.main.value?.figures.chords.find((item) => item.id === choice.id);
-    if (chord) return { kind: 'chord', id: choice.id, rest: presentLength(chord.id, chord.rest) };
-  }
   return { kind: 'turn' };
 }
 

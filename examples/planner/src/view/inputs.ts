@@ -15,6 +15,8 @@ export function sceneInputs(): unknown[] {
     state.map.value === 'distance' ? state.compared.value : null,
     state.map.value === 'distance' ? state.main.value : null,
     state.choice.value,
+    // what a preview removes is drawn faintly until it is applied
+    !!state.preview.value,
     state.added.value?.id,
     state.chordsOn.value,
   ];

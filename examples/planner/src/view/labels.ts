@@ -5,6 +5,8 @@ import { markTexts } from '../text/texts';
 import { cutScallops } from './cut';
 import { boxAt, Callout, overlap, placesAround, type Box, type Line } from './callout';
 import { clipPlace } from './clip';
+import { headFlare, headLength, headRadius } from './heart';
+import { point } from './mesh';
 import { pickSurface } from './pick';
 import type { Topology } from '../protocol';
 import type { CutPlane } from './renderer';
@@ -191,14 +193,35 @@ export class Labels {
     for (const one of of('chord')) taken.push(this.callOut(view, one.element, one.at, wished));
     // what is chosen stays where it is; the others give way to it
     names.sort((a, b) => rank(a.label) - rank(b.label));
-    for (const one of names) this.putName(one, taken);
+    const muscles = this.muscles(view);
+    for (const one of names) this.putName(one, taken, one.label.kind === 'scallop' ? muscles : []);
+  }
+
+  /** The papillary muscles that are seen: the name of a scallop on one would be read as that of the muscle. */
+  private muscles(view: Viewport): Box[] {
+    const picture = state.picture.value;
+    const topology = picture && state.topologyOf(picture);
+    if (!topology || state.surface.value) return [];
+    const { camera, width, height } = view;
+    const up = view.frameOf().slice(9, 12);
+    const half = (headRadius(topology) * headFlare) / camera.scale(height);
+    return Array.from(topology.headNodes).flatMap((node) => {
+      const at = point(picture.positions, node);
+      const ends = [at, at.map((v, c) => v - headLength * up[c])].map(([x, y, z]) =>
+        camera.project(x, y, z, width, height),
+      );
+      if (this.hidden(view, { text: '', at, kind: 'head' }, ends[0][0], ends[0][1])) return [];
+      const [xs, ys] = [0, 1].map((axis) => ends.map((end) => end[axis]));
+      const [x, y] = [Math.min(...xs) - half, Math.min(...ys) - half];
+      return [{ x, y, width: Math.max(...xs) + half - x, height: Math.max(...ys) + half - y }];
+    });
   }
 
   /** A name stands at its place, beside it where another label is there, or nowhere. */
-  private putName({ label, element, at, size }: Placed, taken: Box[]): void {
+  private putName({ label, element, at, size }: Placed, taken: Box[], muscles: Box[]): void {
     const far = label.chosen ? reach.chosen : reach.other;
     const place = placesAround(at, size, far).find(
-      (one) => !taken.some((other) => overlap(other, boxAt(one, size))),
+      (one) => ![...taken, ...muscles].some((other) => overlap(other, boxAt(one, size))),
     );
     element.hidden = !place && !label.chosen;
     const [x, y] = place ?? at;
