@@ -150,16 +150,16 @@ function reportHtml({ shown }: Seen, pictures: Pictures, plot: string): string {
 <section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
 <div class="pair"><section>${images(pictures.before)}</section><section>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
-<div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table><p><small>${escape(valveTexts.outflow)}</small></p></section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
+<div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table></section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
 ${otherPlans(now)}
 ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
-<p><small>${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;
+<p><small>${escape(valveTexts.outflow)} ${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;
 }
 
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
 .pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
 table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400;white-space:nowrap}.wrap{white-space:normal}.plans th,.plans td{padding-right:.6rem}
-@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:58mm;object-fit:cover}svg.cut{max-height:60mm}}`;
+@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:54mm;object-fit:cover}svg.cut{max-height:60mm}}`;
 
 export function ReportDialog() {
   const html = useSignal('');
