@@ -819,7 +819,7 @@ export const valveTexts = {
     'More than the 4 to 6 cm² of healthy adults: the wall of the ventricle, which would stop the leaflets, is missing here.',
   openAreaHelp: 'Smallest opening at 5 mmHg. In adults 1.5 cm² or less is a severe stenosis (ACC/AHA 2014).',
   annulusPull: 'Pull on the annulus',
-  lengths: 'Leaflets from annulus to coaptation, A2 and P2',
+  lengths: 'Length of A2 and P2 that is free',
   lengthsOf: (anterior: number, posterior: number) => `${number(anterior)} and ${number(posterior)} mm`,
   measureOpen: 'Measure the open area',
   flow: 'Flow through the open valve',
