@@ -12,6 +12,7 @@
 #include "patient/leaflet_heights.h"
 #include "patient/leaflet_labels.h"
 #include "patient/leaflet_odds.h"
+#include "patient/surface/mirrored.h"
 
 namespace mvs::core {
 namespace {
@@ -28,6 +29,8 @@ constexpr double least_guessed_share = 0.28;
 constexpr double farthest_landmark = 8e-3;
 // m: given commissures farther from the surface than landmarks by hand are doubted.
 constexpr double near_landmark = 3e-3;
+// Of commissures that lie on the surface if x and y are mirrored, and beside it as given.
+constexpr double mirrored_confidence = 0.1;
 // Odds of the leaflet that is said to be the anterior one, below which this is doubted.
 constexpr double doubtful_odds = 0.1;
 // Least over greatest height along the annulus, from which on no commissures are guessed: leaflets
@@ -43,21 +46,27 @@ Finding &add(Findings &findings, const char *name, FindingSource source, double 
   return findings.back();
 }
 
-// Feet of the commissures, and how far they are from the surface, m.
+// Feet of the commissures, how far they are from the surface, and the farther one with x and y
+// mirrored, m.
 struct CommissureFeet {
   std::array<double, 2> feet{}, distance{};
+  double mirrored = 0;
 };
 
 CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
                        const std::vector<Vec3> &points) {
   CommissureFeet found;
-  auto &[feet, distance] = found;
+  auto &[feet, distance, other] = found;
+  for (const Vec3 &p : points) {
+    other = std::max(other, place_on(sheet, coordinates, mirrored(p)).distance);
+  }
   for (size_t k = 0; k < 2; ++k) {
     const SheetPlace place = place_on(sheet, coordinates, points[k]);
     MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "commissures",
              "commissure %zu lies %.1f mm from the surface, at most %.0f mm are accepted: are both "
-             "in one frame (LPS or RAS), of one patient and one phase?",
-             k + 1, place.distance * 1e3, farthest_landmark * 1e3);
+             "in one frame (LPS or RAS), of one patient and one phase?%s",
+             k + 1, place.distance * 1e3, farthest_landmark * 1e3,
+             mirrored_words(place.distance, other, near_landmark).c_str());
     feet[k] = place.foot;
     distance[k] = place.distance;
   }
@@ -69,13 +78,18 @@ CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordi
   return found;
 }
 
-void say_given(const std::array<double, 2> &distance, Finding &finding) {
+void say_given(const CommissureFeet &found, Finding &finding) {
+  const std::array<double, 2> &distance = found.distance;
   const double farthest = std::max(distance[0], distance[1]);
   finding.sentence = format("the given points, %.1f and %.1f mm from the surface",
                             distance[0] * 1e3, distance[1] * 1e3);
   if (farthest <= near_landmark) return;
   finding.confidence = near_landmark / farthest;
-  finding.sentence += ": are they of this patient and phase?";
+  finding.sentence += ": are they of this patient and phase?" +
+                      mirrored_words(farthest, found.mirrored, near_landmark);
+  if (fits_mirrored(farthest, found.mirrored, near_landmark)) {
+    finding.confidence = std::min(finding.confidence, mirrored_confidence);
+  }
 }
 
 // Clefts and tears are narrower than 6 mm, leaflets are low over 10 mm and more at a commissure.
@@ -239,8 +253,9 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
     findings[at].confidence *= orientation;  // the sides tell the two commissures apart
   }
   // found points take the same way as given ones, so that giving them changes no bit
-  const auto [feet, distance] = feet_of(sheet, coordinates, commissures);
-  if (!landmarks.commissures.empty()) say_given(distance, findings[at]);
+  const CommissureFeet placed = feet_of(sheet, coordinates, commissures);
+  const std::array<double, 2> &feet = placed.feet;
+  if (!landmarks.commissures.empty()) say_given(placed, findings[at]);
   LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};
   AnteriorOdds shape = anterior_odds(annulus, arcs, length);
   shape.orientation = orientation;
