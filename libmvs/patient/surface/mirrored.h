@@ -23,11 +23,11 @@ inline bool fits_mirrored(double as_given, double other, double near) {
   return other <= near && 3 * other <= as_given;
 }
 
-// The words for it; none if they do not fit.
+// The words for it, after a question; none if they do not fit.
 inline std::string mirrored_words(double as_given, double other, double near) {
   if (!fits_mirrored(as_given, other, near)) return "";
   return format(
-      "; with x and y mirrored they lie %.1f mm from it: they are in the other frame of "
+      " With x and y mirrored they lie %.1f mm from it: they are in the other frame of "
       "LPS and RAS",
       other * 1e3);
 }
