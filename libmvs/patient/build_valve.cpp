@@ -23,6 +23,7 @@
 #include "patient/surface/mend_crossings.h"
 #include "patient/surface/mend_free_edge.h"
 #include "patient/surface/rims.h"
+#include "patient/tall_leaflets.h"
 
 namespace mvs::core {
 namespace {
@@ -219,8 +220,11 @@ PatientGeometry find_geometry(const PatientSurface &surface, const BuildSettings
                               Findings &findings) {
   const MidSheet mid = find_mid_sheet(surface, settings, findings);
   begin_stage(settings, "leaflets");
-  find_leaflets(mid.sheet, mid.rims, sheet_coordinates(mid.sheet, mid.rims),
-                {surface.commissures, surface.anterior, surface.tips}, findings);
+  const SheetCoordinates coordinates = sheet_coordinates(mid.sheet, mid.rims);
+  const LeafletArcs arcs =
+      find_leaflets(mid.sheet, mid.rims, coordinates,
+                    {surface.commissures, surface.anterior, surface.tips}, findings);
+  doubt_tall_leaflets(mid.rims, coordinates, arcs, findings);
   begin_stage(settings, "remesh");
   MidSheet mesh = remeshed(mid, settings, findings);
   PatientGeometry g;

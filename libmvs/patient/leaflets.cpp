@@ -9,6 +9,7 @@
 #include "measure/annulus/landmarks.h"
 #include "model/sides.h"
 #include "patient/findings.h"
+#include "patient/given_commissures.h"
 #include "patient/leaflet_heights.h"
 #include "patient/leaflet_labels.h"
 #include "patient/leaflet_odds.h"
@@ -18,16 +19,8 @@ namespace {
 
 // Samples of the annulus: about 1 mm apart.
 constexpr size_t samples = 120;
-// No leaflet is attached along less than this share of the annulus: normal are 0.35 to 0.45 for the
-// anterior one.
-constexpr double least_share = 0.2;
 // The same for a guess, which must not take both ends of one notch.
 constexpr double least_guessed_share = 0.28;
-// m: a landmark farther from the surface is of another frame or patient. Landmarks of commissures
-// are placed by hand on images of 0.7 mm; networks err by up to 3.6 mm.
-constexpr double farthest_landmark = 8e-3;
-// m: given commissures farther from the surface than landmarks by hand are doubted.
-constexpr double near_landmark = 3e-3;
 // Odds of the leaflet that is said to be the anterior one, below which this is doubted.
 constexpr double doubtful_odds = 0.1;
 // Least over greatest height along the annulus, from which on no commissures are guessed: leaflets
@@ -41,61 +34,6 @@ Finding &add(Findings &findings, const char *name, FindingSource source, double 
              std::string sentence) {
   findings.push_back({name, source, confidence, std::move(sentence), {}, ""});
   return findings.back();
-}
-
-// Feet of the commissures, and how far they are from the surface, m.
-struct CommissureFeet {
-  std::array<double, 2> feet{}, distance{};
-};
-
-CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
-                       const std::vector<Vec3> &points) {
-  CommissureFeet found;
-  auto &[feet, distance] = found;
-  for (size_t k = 0; k < 2; ++k) {
-    const SheetPlace place = place_on(sheet, coordinates, points[k]);
-    MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "commissures",
-             "commissure %zu lies %.1f mm from the surface, at most %.0f mm are accepted: are both "
-             "in one frame (LPS or RAS), of one patient and one phase?",
-             k + 1, place.distance * 1e3, farthest_landmark * 1e3);
-    feet[k] = place.foot;
-    distance[k] = place.distance;
-  }
-  const double apart = std::abs(around(feet[0], feet[1], coordinates.annulus_length));
-  MVS_MUST(apart >= least_share * coordinates.annulus_length, MVS_E_OP, "commissures",
-           "the commissures are %.1f mm apart along the annulus of %.0f mm, less than a fifth of "
-           "it: give one point for each commissure",
-           apart * 1e3, coordinates.annulus_length * 1e3);
-  return found;
-}
-
-void say_given(const std::array<double, 2> &distance, Finding &finding) {
-  const double farthest = std::max(distance[0], distance[1]);
-  finding.sentence = format("the given points, %.1f and %.1f mm from the surface",
-                            distance[0] * 1e3, distance[1] * 1e3);
-  if (farthest <= near_landmark) return;
-  finding.confidence = near_landmark / farthest;
-  finding.sentence += ": are they of this patient and phase?";
-}
-
-// Doubts given commissures where the leaflets are higher than midway between them: there they would
-// be in the middle of both free edges.
-void doubt_high(const AnnulusSamples &annulus, const std::array<double, 2> &feet, double length,
-                Finding &finding) {
-  const auto height = [&](double foot) {
-    return annulus.height[static_cast<size_t>(wrapped(foot, length) / length * samples) % samples];
-  };
-  const double half = 0.5 * wrapped(feet[1] - feet[0], length);
-  const std::array<double, 2> there = {height(feet[0]), height(feet[1])},
-                              between = {height(feet[0] + half),
-                                         height(feet[1] + 0.5 * length - half)};
-  const double share = (between[0] + between[1]) / (there[0] + there[1]);
-  if (!(share < 1)) return;
-  finding.confidence *= 0.5 * share;
-  finding.sentence += format(
-      "; but the leaflets are %.1f and %.1f mm high there and %.1f and %.1f mm midway between: "
-      "commissures are where leaflets are lowest, are these in the middle of the free edges?",
-      there[0] * 1e3, there[1] * 1e3, between[0] * 1e3, between[1] * 1e3);
 }
 
 // Clefts and tears are narrower than 6 mm, leaflets are low over 10 mm and more at a commissure.
@@ -183,6 +121,10 @@ void add_anterior(FindingSource source, const char *sentence, const AnteriorOdds
   const double odds = anterior ? shape.odds : 1 - shape.odds;
   if (odds >= doubtful_odds) {
     add(findings, "anterior", source, 1, sentence);
+    if (odds < 0.5) {
+      findings.back().sentence += format("; by %s alone the other one is the likelier, %.0f %%",
+                                         shape.cues.c_str(), 100 * (1 - odds));
+    }
     return;
   }
   add(findings, "anterior", source, odds,
@@ -259,9 +201,10 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
     findings[at].confidence *= orientation;  // the sides tell the two commissures apart
   }
   // found points take the same way as given ones, so that giving them changes no bit
-  const auto [feet, distance] = feet_of(sheet, coordinates, commissures);
+  const CommissureFeet placed = feet_of(sheet, coordinates, commissures);
+  const std::array<double, 2> &feet = placed.feet;
   if (!landmarks.commissures.empty()) {
-    say_given(distance, findings[at]);
+    say_given(placed, findings[at]);
     doubt_high(annulus, feet, length, findings[at]);
   }
   LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};

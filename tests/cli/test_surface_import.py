@@ -120,6 +120,18 @@ class SurfaceImport(unittest.TestCase):
         self.assertEqual(rows["edge_error"]["values"], [0.6e-3])
         self.assertIn("0.6 mm farther out", rows["leak_interval"]["sentence"])
 
+    def test_an_anterior_point_on_the_posterior_leaflet_is_warned_of(self):
+        found = {f["name"]: f for f in self.imported("open.stl", "as_is.h5")["findings"]}
+        anterior = found["anterior"]["values"]
+        around = found["annulus"]["values"]
+        rim = [around[k:k + 3] for k in range(0, len(around), 3)]
+        across = max(rim, key=lambda p: sum((a - b) ** 2 for a, b in zip(p, anterior)))
+        for name, point, warned in (("right", anterior, False), ("wrong", across, True)):
+            write_markups(self.dir / f"{name}.mrk.json", [point], "LPS")
+            done = self.ok("import", self.dir / "open.stl", "-o", self.dir / f"{name}.h5", "--json", "--edge", "2.4",
+                           "--frame", "LPS", "--anterior", self.dir / f"{name}.mrk.json")
+            self.assertEqual("mvs: warning: anterior, " in done.stderr, warned, done.stderr)
+
     def test_landmarks_of_another_known_frame_are_turned(self):
         def negated(points):
             return [(-x, -y, z) for x, y, z in points]

@@ -12,6 +12,7 @@
 #include "patient/findings.h"
 #include "patient/leaflet_heights.h"
 #include "patient/leaflets.h"
+#include "patient/surface/mirrored.h"
 #include "tests/patient/parametric_sheet.h"
 
 using namespace mvs::core;
@@ -203,6 +204,28 @@ TEST_CASE("commissures_given_in_the_middle_of_the_leaflets_are_doubted") {
     CHECK((said.confidence == 1) == (turn < 1));
     CHECK((said.sentence.find("in the middle of the free edges") != std::string::npos) ==
           (turn == 1));
+  }
+}
+
+TEST_CASE("commissures_in_the_other_frame_are_named_so") {
+  // near the origin, where mirrored points are near the surface too, and far from it
+  for (const double away : {2e-3, 0.2}) {
+    CAPTURE(away);
+    ParametricSheet p = parametric_sheet(430);
+    for (Vec3 &x : p.sheet.x) x += Vec3(away, 1.5e-3, 0);
+    const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+    Findings guessed, found;
+    find_leaflets(p.sheet, p.rims, c, {}, guessed);
+    std::vector<Vec3> points = mirrored(points_in(*find_finding(guessed, "commissures")));
+    if (away > 0.1) {
+      CHECK_THROWS_WITH_AS(find_leaflets(p.sheet, p.rims, c, {points, {}, {}}, found),
+                           doctest::Contains("in the other frame"), Error);
+      continue;
+    }
+    find_leaflets(p.sheet, p.rims, c, {points, {}, {}}, found);
+    const Finding &given = *find_finding(found, "commissures");
+    CHECK(given.confidence <= 0.1);
+    CHECK(given.sentence.find("in the other frame") != std::string::npos);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "patient/surface/annulus_through.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/level_cut.h"
+#include "patient/tall_leaflets.h"
 #include "tests/patient/atrial_wall.h"
 
 using namespace mvs::core;
@@ -137,6 +138,26 @@ TEST_CASE("a_wall_with_veins_and_a_closed_atrium_are_cut_off") {
   }
   CHECK(boundary_loops(cleaned(valve.surface)).size() == 1);
   check_leaflets(cut(valve.surface, annulus_points(valve, 6, 0)), valve);
+}
+
+TEST_CASE("a_wall_without_annulus_points_is_doubted_as_tall_leaflets") {
+  const auto doubted = [](const WalledValve &valve, const std::vector<Vec3> &annulus) {
+    LeafletSheet sheet = cleaned(valve.surface);
+    Findings findings;
+    const SheetRims rims = find_rims(sheet, {annulus, {}}, findings);
+    const SheetCoordinates coordinates = sheet_coordinates(sheet, rims);
+    const double before = find(findings, "annulus")->confidence;
+    const LeafletArcs arcs = find_leaflets(sheet, rims, coordinates, {}, findings);
+    doubt_tall_leaflets(rims, coordinates, arcs, findings);
+    const bool is_tall = find(findings, "tall_leaflets") != nullptr;
+    CHECK(find(findings, "annulus")->confidence == (is_tall ? 0.5 * before : before));
+    return is_tall;
+  };
+  // 6 mm all around, and none; the points cut the wall off
+  const WalledValve wall = with_wall(430, 3, [](uint32_t) { return true; });
+  CHECK(doubted(wall, {}));
+  CHECK_FALSE(doubted(wall, wall.annulus));
+  CHECK_FALSE(doubted(with_wall(430, 0, [](uint32_t) { return true; }), {}));
 }
 
 TEST_CASE("leaflets_without_wall_are_not_cut") {

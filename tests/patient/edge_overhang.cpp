@@ -91,3 +91,24 @@ TEST_CASE("a_free_edge_that_the_closed_leaflets_end_at_stays") {
   CHECK(findings.empty());
   CHECK(whole.rest.get() == before);
 }
+
+TEST_CASE("a_softer_tissue_reaches_past_the_edge_and_the_finding_says_so") {
+  const PatientGeometry &g = parametric_geometry(430);
+  Findings findings;
+  Valve stiff = leaflets_of(g, LeafletLawId::neo_hookean);
+  add_chordae(stiff, g, find_papillary_tips({}, g, findings), {}, findings);
+  Valve soft = stiff;
+  // 200 kPa are the default
+  for (Leaflet &leaflet : soft.leaflets) leaflet.constants = {130e3};
+  const ClosedPatient closed = close_patient(soft);
+  ClosedSurface given{closed.state.x, soft.triangles.get()};
+  given.points.resize(g.sheet.x.size());
+  PatientGeometry moved = g;
+  findings.clear();
+  extend_free_edge(stiff, moved, given, findings, {});
+  REQUIRE(findings.size() == 1);
+  const double most = findings[0].value[1];
+  CHECK(most > 1 * mm);
+  CHECK(findings[0].confidence == (most > 0.9 * most_overhang ? 0.2 : 0.5));
+  CHECK(findings[0].sentence.find("the tissue is softer") != std::string::npos);
+}

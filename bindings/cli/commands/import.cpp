@@ -12,6 +12,8 @@
 namespace cli {
 namespace {
 
+constexpr double least_confidence = 0.1;  // of a finding: below, what was given is wrong
+
 struct ImportOptions {
   std::string surface, out, findings_out, with;
   std::string annulus, commissures, anterior, tips, closed;
@@ -158,6 +160,18 @@ void warn_of_whole_valve(const std::string &path) {
   }
 }
 
+// Names on stderr what was given and contradicts the surface, as swapped labels and landmarks of
+// another frame do: the valve is written all the same, and most readers of JSON look at its values.
+void warn_of_contradictions(const std::vector<mvs::BuildFinding> &findings) {
+  for (const mvs::BuildFinding &finding : findings) {
+    const bool of_input = finding.name == "annulus" || finding.name == "commissures" ||
+                          finding.name == "anterior" || finding.name == "closed_fit";
+    if (!of_input || finding.confidence > least_confidence) continue;
+    std::fprintf(stderr, "mvs: warning: %s, %.0f %% sure: %s\n", finding.name.c_str(),
+                 100 * finding.confidence, finding.sentence.c_str());
+  }
+}
+
 void run_import(const ImportOptions &given, Console &console) {
   ImportOptions options = given;
   options.build.edge = options.edge * 1e-3;
@@ -177,6 +191,7 @@ void run_import(const ImportOptions &given, Console &console) {
   mvs::Simulator sim = make_sim(how);
   const std::vector<mvs::BuildFinding> findings =
       mvs::build_valve(sim, desc_of(input, options, name), options.build);
+  warn_of_contradictions(findings);
   const mvs::Snapshot valve = sim.snapshot();
   valve.save(options.out);
   const std::string path = findings_path(options);

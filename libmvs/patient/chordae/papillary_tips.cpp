@@ -103,7 +103,8 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
        format("the given points: %zu anterolateral, %zu posteromedial%s", tips.anterolateral.size(),
               tips.posteromedial.size(),
               swapped ? "; they lie under the anterior leaflet, where normal tips lie under the "
-                        "posterior one: give a point of the anterior leaflet if both are swapped"
+                        "posterior one: give a point of the anterior leaflet if both are swapped, "
+                        "and check the frame (LPS or RAS) of the tips"
                       : ""),
        {},
        ""});

@@ -15,7 +15,6 @@ constexpr double foot_window = 3e-3;     // m of the annulus, on both sides of a
 constexpr double least_outwards = 0.5;   // between a match and the plane of the leaflet there
 constexpr double at_vertex = 1e-6;       // weight of a corner that counts
 constexpr double farthest_match = 6e-3;  // m: beyond, another part of the surface was met
-constexpr double most_overhang = 5e-3;   // m, as of `edge_lost`: more is no error of an edge
 
 // For each free-edge node: the area beyond it, m2, the length of the edge, m, the direction
 // outwards.

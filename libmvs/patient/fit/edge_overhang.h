@@ -14,8 +14,10 @@
 
 namespace mvs::core {
 
-// m, at the end of the fibre of each vertex of the sheet of `g`; 0 where nothing is beyond the
-// edge. The nodes of `closed` begin with the vertices of the sheet.
+inline constexpr double most_overhang = 5e-3;  // m, as of `edge_lost`: more is no error of an edge
+
+// m, up to most_overhang, at the end of the fibre of each vertex of the sheet of `g`; 0 where
+// nothing is beyond the edge. The nodes of `closed` begin with the vertices of the sheet.
 std::vector<double> edge_overhang(const PatientGeometry &g, const ClosedValve &closed,
                                   const std::vector<SurfaceMatch> &matches);
 

@@ -15,6 +15,8 @@ namespace {
 
 constexpr double least_mean = 0.1e-3;  // m: exact surfaces of one valve differ by as much
 
+constexpr double limit_share = 0.9;  // of most_overhang: few edges lack as much
+
 // The valve with the lengths of a search from one start, closed from open.
 ClosedValve closed_roughly(const Valve &valve, const ClosedSurface &given,
                            const FitProgress &progress) {
@@ -47,13 +49,16 @@ void extend_free_edge(Valve &valve, PatientGeometry &g, const ClosedSurface &giv
   valve = with_edge_moved(valve, g, by);
   std::copy_n(valve.rest.get().begin(), g.sheet.x.size(), g.sheet.x.begin());
   g.coordinates = sheet_coordinates(g.sheet, g.rims);
+  const bool at_limit = most > limit_share * most_overhang;
   findings.push_back(
       {"edge_found",
        FindingSource::guessed,
-       0.5,
+       at_limit ? 0.2 : 0.5,
        format("the closed surface goes on past the free edge of the open one: the edge was moved "
-              "out by %.2f mm in the mean, at most %.2f mm",
-              mean * 1e3, most * 1e3),
+              "out by %.2f mm in the mean, at most %.2f mm%s; if the open surface has its edge "
+              "where it is, the tissue is softer than the one taken: give its law, and say that "
+              "the edge is exact",
+              mean * 1e3, most * 1e3, at_limit ? ", the limit" : ""),
        {mean, most},
        "m"});
 }

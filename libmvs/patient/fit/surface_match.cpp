@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "model/sides.h"
+#include "patient/fit/closed_pieces.h"
 
 namespace mvs::core {
 namespace {
@@ -70,10 +71,42 @@ SurfaceMatcher::SurfaceMatcher(const ClosedSurface &given, const Model &model,
     if (used[i] && k++ % stride == 0) sample_.push_back(i);
   }
   sample_area_ = area / static_cast<double>(sample_.size());
-  const double as_given = rms_distance(match(model, x));
-  for (Vec3 &n : normal_) n = -n;
-  if (rms_distance(match(model, x)) < as_given) return;
-  for (Vec3 &n : normal_) n = -n;
+  turn_pieces(model.valve.triangles, x);
+}
+
+// A piece faces the atrium the way in which its points lie nearer to tissue that faces so, by their
+// squared distances.
+void SurfaceMatcher::turn_pieces(const std::vector<Tri> &triangles, const std::vector<Vec3> &x) {
+  const ClosedPieces pieces = closed_pieces(given_.points, given_.triangles);
+  std::vector<uint32_t> piece_of_point(given_.points.size(), 0);
+  for (size_t t = 0; t < normal_.size(); ++t) {
+    if (pieces.turned[t]) normal_[t] = -normal_[t];
+    for (const uint32_t i : given_.triangles[t]) piece_of_point[i] = pieces.of_triangle[t];
+  }
+  const TriangleBvh tree(triangles, x);
+  const std::vector<Vec3> normals = triangle_normals(x, triangles);
+  const std::vector<Vec3> at_points = given_point_normals();
+  std::vector<double> gain(pieces.count, 0);  // m2, of turning
+  for (const uint32_t i : sample_) {
+    const Vec3 normal = at_points[i].normalized();
+    const Nearest as_given = nearest_facing(tree, normals, given_.points[i], normal);
+    const Nearest turned = nearest_facing(tree, normals, given_.points[i], -normal);
+    if (as_given.triangle == none || turned.triangle == none) continue;
+    gain[piece_of_point[i]] += as_given.distance2 - turned.distance2;
+  }
+  for (size_t t = 0; t < normal_.size(); ++t) {
+    if (gain[pieces.of_triangle[t]] > 0) normal_[t] = -normal_[t];
+  }
+}
+
+std::vector<Vec3> SurfaceMatcher::given_point_normals() const {
+  std::vector<Vec3> normals(given_.points.size(), Vec3::Zero());
+  for (size_t t = 0; t < given_.triangles.size(); ++t) {
+    for (const uint32_t i : given_.triangles[t]) {
+      normals[i] += triangle_area(given_.points, given_.triangles[t]) * normal_[t];
+    }
+  }
+  return normals;
 }
 
 std::vector<SurfaceMatch> SurfaceMatcher::match(const Model &model,
@@ -95,12 +128,7 @@ std::vector<SurfaceMatch> SurfaceMatcher::match(const Model &model,
   }
   const TriangleBvh tree(triangles, x);
   const std::vector<Vec3> normals = triangle_normals(x, triangles);
-  std::vector<Vec3> given_normals(given_.points.size(), Vec3::Zero());
-  for (size_t t = 0; t < given_.triangles.size(); ++t) {
-    for (const uint32_t i : given_.triangles[t]) {
-      given_normals[i] += triangle_area(given_.points, given_.triangles[t]) * normal_[t];
-    }
-  }
+  const std::vector<Vec3> given_normals = given_point_normals();
   for (const uint32_t i : sample_) {
     const Vec3 &p = given_.points[i];
     const Vec3 normal = given_normals[i].normalized();

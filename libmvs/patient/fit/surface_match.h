@@ -38,12 +38,17 @@ struct SurfaceMatch {
 // touches.
 class SurfaceMatcher {
  public:
-  // Turns the surface, if that brings it closer to the closed valve. Keeps a reference to `given`.
+  // Turns each piece of the surface, if that brings it closer to the closed valve. Keeps a
+  // reference to `given`.
   SurfaceMatcher(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x);
 
   std::vector<SurfaceMatch> match(const Model &model, const std::vector<Vec3> &x) const;
 
  private:
+  void turn_pieces(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
+  // Of each given point, by area; zero beside no triangle.
+  std::vector<Vec3> given_point_normals() const;
+
   const ClosedSurface &given_;
   TriangleBvh tree_;
   std::vector<Vec3> normal_;  // of each given triangle

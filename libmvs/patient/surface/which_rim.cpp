@@ -7,12 +7,13 @@
 #include "base/error.h"
 #include "geometry/distance.h"
 #include "patient/findings.h"
+#include "patient/surface/mirrored.h"
 
 namespace mvs::core {
 namespace {
 
 // m: papillary tips lie 15 to 40 mm below the annulus, also in a dilated ventricle.
-constexpr double farthest_papillary_tip = 70e-3;
+constexpr double farthest_papillary_tip = 70e-3, usual_papillary_tip = 40e-3;
 // m: points of the annulus are placed by hand on images of 0.7 mm; farther from a rim in the mean
 // they say that tissue is missing or that the wall of the atrium belongs to the surface.
 constexpr double near_annulus = 2e-3;
@@ -54,12 +55,16 @@ bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims
   const double d0 = mean_distance(sheet, rims[0], points);
   const double d1 = mean_distance(sheet, rims[1], points);
   const double near = std::min(d0, d1), far = std::max(d0, d1);
+  const auto other = [&] {
+    const std::vector<Vec3> turned = mirrored(points);
+    return std::min(mean_distance(sheet, rims[0], turned), mean_distance(sheet, rims[1], turned));
+  };
   MVS_MUST(
       near <= farthest_annulus, MVS_E_OP, "annulus",
       "the annulus points lie %.1f mm from the nearest boundary of the surface in the mean, at "
       "most %.0f mm are accepted: are both in one frame (LPS or RAS), of one patient and one "
-      "phase?",
-      near * 1e3, farthest_annulus * 1e3);
+      "phase?%s",
+      near * 1e3, farthest_annulus * 1e3, mirrored_words(near, other(), near_annulus).c_str());
   finding.source = FindingSource::given;
   finding.confidence = far > 0 ? (far - near) / far : 0;
   finding.sentence = format(
@@ -77,18 +82,30 @@ bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims
   return d0 <= d1;
 }
 
-bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
-                   Finding &finding) {
+// The mean distances of the tips from the middles of both rims.
+std::array<double, 2> distances_of_tips(const std::vector<RimLoop> &rims,
+                                        const std::vector<Vec3> &tips) {
   std::array<double, 2> apart{};
   for (size_t k = 0; k < 2; ++k) {
     for (const Vec3 &tip : tips) apart[k] += (tip - rims[k].shape.centre).norm();
     apart[k] /= static_cast<double>(tips.size());
   }
+  return apart;
+}
+
+bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &tips,
+                   Finding &finding) {
+  const std::array<double, 2> apart = distances_of_tips(rims, tips);
   const double near = std::min(apart[0], apart[1]), far = std::max(apart[0], apart[1]);
+  const auto other = [&] {
+    const std::array<double, 2> turned = distances_of_tips(rims, mirrored(tips));
+    return std::min(turned[0], turned[1]);
+  };
   MVS_MUST(near <= farthest_papillary_tip, MVS_E_OP, "papillary_tips",
            "the papillary tips lie %.0f mm from the middle of the nearer boundary in the mean, at "
-           "most %.0f mm are accepted: are both in one frame (LPS or RAS)?",
-           near * 1e3, farthest_papillary_tip * 1e3);
+           "most %.0f mm are accepted: are both in one frame (LPS or RAS)?%s",
+           near * 1e3, farthest_papillary_tip * 1e3,
+           mirrored_words(near, other(), usual_papillary_tip).c_str());
   // the free edge of a normal valve is two thirds as far from the tips
   finding.confidence = std::clamp(3 * (far - near) / far, 0.0, 1.0);
   finding.sentence = format(

@@ -140,6 +140,10 @@ def test_faults_of_label_maps_are_refused_with_a_sentence():
     labels, at = funnel()
     refused(np.zeros_like(labels), "no valve in it")
     refused(np.where(labels == 1, 1, 0).astype(np.uint8), "one leaflet is missing")
+    one = imaging.labels_of(image_of(np.where(labels == 1, 1, 0).astype(np.uint8)), NAMES)
+    one.masks[NAMES[2]] = np.zeros_like(one.masks[NAMES[1]])
+    with pytest.raises(mvs.ArgumentError, match='the segment "posterior leaflet" has no voxels'):
+        imaging.leaflets_in(one)
     apart = labels.copy()
     apart[np.abs(at[..., 0]) < 1.5] = 0
     refused(apart, "2 disconnected pieces")

@@ -11,7 +11,7 @@ import argparse
 import importlib.util
 import json
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any, Optional
 
@@ -129,11 +129,19 @@ def run_build(chosen: argparse.Namespace) -> int:
         console.stage("report")
         write_page(chosen.report, made, str(chosen.image))
     console.done()
+    _warn_of_contradictions(made.findings)
     _print_result(chosen, made, findings)
     if not made.converged:
         print("mvs-image: the valve does not come to rest under load; the findings say what was "
               "guessed", file=sys.stderr)
     return 0 if made.converged else 1
+
+
+def _warn_of_contradictions(findings: Iterable[mvs.Finding]) -> None:
+    """Names what was given and contradicts the image, as swapped labels do; the rule of `mvs import`."""
+    for one in findings:
+        if one.name in ("annulus", "commissures", "anterior", "closed_fit") and one.confidence <= 0.1:
+            print(f"mvs-image: warning: {one.name}, {100 * one.confidence:.0f} % sure: {one.sentence}", file=sys.stderr)
 
 
 def _print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None:
@@ -152,8 +160,11 @@ def _print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None
     print(f"{chosen.output}: an open valve of {vertices} leaflet vertices, {len(opened.chord_kind)} "
           f"chord segments, {len(opened.head_nodes)} papillary heads")
     print(f"{findings}: what was found, guessed and assumed; edit it and give it by --with")
+    interval = next((f.values for f in made.findings if f.name == "leak_interval" and len(f.values) == 2), None)
     print(f"closed under 120 mmHg: {'at rest' if made.converged else 'NOT at rest'}, "
-          f"{'sealed' if leak < 0.05 else f'leaks through {leak:.1f} mm2'}")
+          f"{'sealed' if leak < 0.05 else f'leaks through {leak:.1f} mm2'}"
+          + (f"; {interval[0] * 1e6:.1f} to {interval[1] * 1e6:.1f} mm2 over what is not sure"
+             if interval is not None else ""))
     if made.repair:
         facts = _repair_facts(made)["repair"]
         print(f"after {facts['operations']} operations: "

@@ -92,7 +92,10 @@ def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None
     got = set(meant.values())
     if got in ({ANTERIOR}, {POSTERIOR}):
         missing = "posterior" if got == {ANTERIOR} else "anterior"
+        empty = [name for name in labels.masks
+                 if name not in filled and leaflet_of(name) == 3 - max(got)]
         raise ArgumentError(
+            f'one leaflet is missing: the segment "{empty[0]}" has no voxels. ' if empty else
             f"one leaflet is missing: the image has {known}, and no segment of the {missing} leaflet. "
             "A valve needs both; if the segment holds both leaflets, say --leaflet-label", "labels")
     return meant

@@ -36,8 +36,9 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
             if k < 2 or k not in small and not _is_long_hole(found, loops[k], length[k], length[0])]
     if len(loops) < 2 or length[1] <= np.pi * settings.hole:
         raise ArgumentError(
-            "the leaflets have one rim and no orifice: the valve is closed in this image, or the label "
-            "covers the orifice. Give the image of the open valve, and the closed one by --loaded",
+            "the leaflets have one rim and no orifice: the valve is closed in this image, the label covers "
+            "the orifice, or a leaflet is missing. Give the image of the open valve with both leaflets, and "
+            "the closed one by --loaded",
             "image")
     if len(rims) > 2:
         centre = sheet.points[loops[rims[2]]].mean(axis=0) * 1e3

@@ -28,6 +28,9 @@ from .tissue import with_tissue_of_image
 Points = NDArray[np.float64]
 MARGINAL, BASAL = 2.5e-3, 4e-3
 """m: insertions this near to the free edge are marginal, this near to the annulus basal"""
+BARE_EDGE = 12e-3
+"""m: chordae insert every 3 to 5 mm along the free edge; where none does over a longer stretch than this, images or the
+valve lack some."""
 LENGTH_ERROR, SINGLE_ERROR = 0.1, 0.1
 """Errors of all lengths together and of one beside the others, shares: of chordae in phantoms with voxels
 of 0.2 to 0.3 mm the mean is 2 to 11 % off (tests/validation/phantoms.py)"""
@@ -86,7 +89,7 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     valve = mvs.valve_of(made.opened)
     vertex, moved = _vertices_of(made.opened, network)
     _set_chords(valve, made.opened, network, vertex)
-    found = [_chord_finding(network, moved)]
+    found = [_chord_finding(network, moved, bare_edge(made.opened, vertex))]
     if loaded is not None:
         found += with_loaded_boundary(valve, network, loaded)
     laws: list[mvs.LeafletLaw] = []
@@ -181,9 +184,24 @@ def _kinds(opened: mvs.Snapshot, network: ChordNetwork, vertex: NDArray[np.int64
     return np.array(kinds, np.uint32)
 
 
-def _chord_finding(network: ChordNetwork, moved: Points) -> mvs.Finding:
+def bare_edge(opened: mvs.Snapshot, vertex: NDArray[np.int64]) -> float:
+    """The longest stretch of the free edge, m, without insertions (leaflet vertices) within BASAL of it."""
+    edge = np.asarray(opened.node_rest)[np.asarray(opened.free_edge_nodes, np.int64)]
+    at = np.append(0.0, np.cumsum(np.linalg.norm(np.roll(edge, -1, axis=0) - edge, axis=1)))
+    away = np.linalg.norm(np.asarray(opened.node_rest)[vertex][:, None] - edge[None], axis=2)
+    places = np.sort(at[away.argmin(axis=1)[away.min(axis=1) < BASAL]])
+    if not len(places):
+        return float(at[-1])
+    return float(np.diff(np.append(places, places[0] + at[-1])).max())
+
+
+def _chord_finding(network: ChordNetwork, moved: Points, bare: float) -> mvs.Finding:
+    lacks = bare > BARE_EDGE
     return finding(
-        "chordae", mvs.FindingSource.MEASURED, 0.7,
+        "chordae", mvs.FindingSource.MEASURED, 0.3 if lacks else 0.7,
         f"{network}; their ends moved by {1e3 * np.median(moved):.2f} mm in the median, at most "
         f"{1e3 * moved.max():.2f} mm, to vertices of the mesh; rest lengths are the lengths in the open "
-        "image, slack arcs included", network.length, "m")
+        "image, slack arcs included"
+        + (f"; along {1e3 * bare:.0f} mm of the free edge none is seen: if the valve has chordae there, it leaks "
+           "too much, and labels of the leaflets (without chordae) give a better valve" if lacks else ""),
+        network.length, "m")

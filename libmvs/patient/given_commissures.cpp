@@ -1,0 +1,79 @@
+// Distances on the surface, and heights of the leaflets at the commissures and between them.
+#include "patient/given_commissures.h"
+
+#include <algorithm>
+
+#include "base/error.h"
+#include "patient/surface/mirrored.h"
+
+namespace mvs::core {
+namespace {
+
+// m: given commissures farther from the surface than landmarks by hand are doubted.
+constexpr double near_landmark = 3e-3;
+// Of commissures that lie on the surface if x and y are mirrored, and beside it as given.
+constexpr double mirrored_confidence = 0.1;
+
+}  // namespace
+
+CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
+                       const std::vector<Vec3> &points) {
+  CommissureFeet found;
+  auto &[feet, distance, other] = found;
+  for (const Vec3 &p : points) {
+    other = std::max(other, place_on(sheet, coordinates, mirrored(p)).distance);
+  }
+  for (size_t k = 0; k < 2; ++k) {
+    const SheetPlace place = place_on(sheet, coordinates, points[k]);
+    MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "commissures",
+             "commissure %zu lies %.1f mm from the surface, at most %.0f mm are accepted: are both "
+             "in one frame (LPS or RAS), of one patient and one phase?%s",
+             k + 1, place.distance * 1e3, farthest_landmark * 1e3,
+             mirrored_words(place.distance, other, near_landmark).c_str());
+    feet[k] = place.foot;
+    distance[k] = place.distance;
+  }
+  const double apart = std::abs(around(feet[0], feet[1], coordinates.annulus_length));
+  MVS_MUST(apart >= least_share * coordinates.annulus_length, MVS_E_OP, "commissures",
+           "the commissures are %.1f mm apart along the annulus of %.0f mm, less than a fifth of "
+           "it: give one point for each commissure",
+           apart * 1e3, coordinates.annulus_length * 1e3);
+  return found;
+}
+
+void say_given(const CommissureFeet &found, Finding &finding) {
+  const std::array<double, 2> &distance = found.distance;
+  const double farthest = std::max(distance[0], distance[1]);
+  finding.sentence = format("the given points, %.1f and %.1f mm from the surface",
+                            distance[0] * 1e3, distance[1] * 1e3);
+  if (farthest <= near_landmark) return;
+  finding.confidence = near_landmark / farthest;
+  finding.sentence += ": are they of this patient and phase?" +
+                      mirrored_words(farthest, found.mirrored, near_landmark);
+  if (fits_mirrored(farthest, found.mirrored, near_landmark)) {
+    finding.confidence = std::min(finding.confidence, mirrored_confidence);
+  }
+}
+
+void doubt_high(const AnnulusSamples &annulus, const std::array<double, 2> &feet, double length,
+                Finding &finding) {
+  const size_t samples = annulus.height.size();
+  const auto height = [&](double foot) {
+    return annulus
+        .height[static_cast<size_t>(wrapped(foot, length) / length * static_cast<double>(samples)) %
+                samples];
+  };
+  const double half = 0.5 * wrapped(feet[1] - feet[0], length);
+  const std::array<double, 2> there = {height(feet[0]), height(feet[1])},
+                              between = {height(feet[0] + half),
+                                         height(feet[1] + 0.5 * length - half)};
+  const double share = (between[0] + between[1]) / (there[0] + there[1]);
+  if (!(share < 1)) return;
+  finding.confidence *= 0.5 * share;
+  finding.sentence += format(
+      "; but the leaflets are %.1f and %.1f mm high there and %.1f and %.1f mm midway between: "
+      "commissures are where leaflets are lowest, are these in the middle of the free edges?",
+      there[0] * 1e3, there[1] * 1e3, between[0] * 1e3, between[1] * 1e3);
+}
+
+}  // namespace mvs::core

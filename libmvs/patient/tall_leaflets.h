@@ -1,0 +1,15 @@
+// Leaflets that are too tall: wall of the atrium or the aorta that the surface has above the
+// annulus.
+#pragma once
+
+#include "patient/leaflets.h"
+
+namespace mvs::core {
+
+// Where the annulus was not given: adds the finding "tall_leaflets" and halves the confidence in
+// the annulus if the leaflets are a third taller than the largest normal ones at both commissures,
+// or in the anterior leaflet. Wall beside P2 alone is not seen so.
+void doubt_tall_leaflets(const SheetRims &rims, const SheetCoordinates &coordinates,
+                         const LeafletArcs &arcs, Findings &findings);
+
+}  // namespace mvs::core
