@@ -580,7 +580,7 @@ export const verdictTexts = {
   was: (orifice: string) => ` was ${orifice}`,
   at: (place: string) => `at ${place}`,
   meet: (length: string, middle: number | null) =>
-    `leaflets meet over ${length} mm (mean)${middle === null ? '' : `, A2–P2 ${number(middle)}`}`,
+    `leaflets meet over ${length} mm${middle === null ? ' (mean)' : `, A2–P2 ${number(middle)}`}`,
   meetLittle: 'Surgeons aim at 8 mm at A2–P2. ',
   ofClosed: 'when closed',
   /** Chordae a little beyond their limit, which is no fault up to a load of `allowed` per cent, `goal` where that is the tour's. */
