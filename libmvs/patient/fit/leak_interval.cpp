@@ -163,10 +163,11 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
       {"leak_limits",
        FindingSource::assumed,
        1,
-       format("meshes of one valve leak alike to %.1f mm2; an interval of %.0f mm2 says nothing, "
-              "as grades of regurgitation are that far apart; leaks of ruptured or missing chordae, "
-              "and of other insertions than those of this valve, are not in it",
-              sealed * 1e6, unknown_leak * 1e6),
+       format(
+           "meshes of one valve leak alike to %.1f mm2; an interval of %.0f mm2 says nothing, "
+           "as grades of regurgitation are that far apart; leaks of ruptured or missing chordae, "
+           "and of other insertions than those of this valve, are not in it",
+           sealed * 1e6, unknown_leak * 1e6),
        {sealed, unknown_leak},
        "m2"});
 }

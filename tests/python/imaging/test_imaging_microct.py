@@ -10,7 +10,6 @@ pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
 from mvs import imaging  # noqa: E402
 from mvs.imaging import mesh  # noqa: E402
 from mvs.imaging.microct import PIPELINE  # noqa: E402
-from mvs.imaging.microct.valve import BARE_EDGE, bare_edge  # noqa: E402
 
 VOXEL, THICKNESS, DIAMETER = 0.3, 1.0, 0.9  # mm
 TOP, BOTTOM, HEIGHT = 8.5, 6.5, 9.0  # mm: radii of annulus and free edge
@@ -106,32 +105,6 @@ def test_stages_are_kept_and_can_be_replaced(run, volume):
         PIPELINE.replaced("x", other)
     given = PIPELINE.run({"image": volume, "tissue": run["tissue"]}, until="tissue")
     assert given["tissue"] is run["tissue"] and not given.seconds
-
-
-def test_thick_leaflets_are_seen_as_whole_as_thin_ones():
-    chords = [(MUSCLES[muscle_of(end)], end) for end in INSERTIONS]
-    # the lateral area of the cone, mm2
-    whole = np.pi * (TOP + BOTTOM) * np.hypot(TOP - BOTTOM, HEIGHT)
-    for thickness in (THICKNESS, 1.8):
-        run = PIPELINE.run({"image": grey_volume(chords, thickness=thickness)}, until="sheet")
-        area = mesh.areas(run["sheet"].points, run["sheet"].triangles).sum() * 1e6
-        # a band of a voxel at either rim, 6 % of the area
-        assert abs(area / whole - 1) < 0.06, thickness
-
-
-def test_a_free_edge_without_chordae_is_seen():
-    with mvs.Simulator() as sim:
-        sim.generate()
-        opened = sim.snapshot()
-    ends = np.asarray(mvs.valve_of(opened).chord_nodes)[:, 1]
-    ends = ends[np.asarray(opened.node_kind)[ends] == mvs.NodeKind.LEAFLET]
-    edge = np.asarray(opened.node_rest)[np.asarray(opened.free_edge_nodes)]
-    length = np.linalg.norm(np.roll(edge, -1, axis=0) - edge, axis=1).sum()
-    assert bare_edge(opened, ends) < BARE_EDGE
-    assert bare_edge(opened, ends[:0]) == pytest.approx(length)
-    left = np.asarray(opened.node_rest)[ends, 0] > 0
-    # half of the edge has none; the mean of both sides of the valve, and a chord spacing of 5 mm
-    assert abs(bare_edge(opened, ends[left]) - length / 2) < 10e-3
 
 
 def test_an_image_without_a_valve_is_refused():
