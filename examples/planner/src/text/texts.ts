@@ -530,7 +530,7 @@ export const importTexts = {
     annulus: 'Points along the annulus',
     tips: 'Papillary tips',
   },
-  tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
+  tips: 'Commissures: one click on each corner, where both leaflets meet at the annulus. Annulus: six points or more all around cut off what is beyond it. Papillary tips: in any order. Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
   again: 'Change and build again',
   kindGuessed: '; if it is not, choose what it is by “Change and build again”',
   chooseUnit: (unit: string) => `choose ${unit} as the unit of the file`,
