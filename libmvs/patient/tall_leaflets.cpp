@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "patient/findings.h"
 #include "patient/leaflet_heights.h"
+#include "patient/surface/rims.h"
 
 namespace mvs::core {
 namespace {
@@ -15,8 +16,6 @@ constexpr size_t samples = 120;  // of the annulus: about 1 mm apart
 // m: a third more than the largest normal heights, 10 mm at a commissure and 25 mm at A2. Leaflets
 // of Barlow's disease come near to them.
 constexpr double tall_commissure = 13.3e-3, tall_anterior = 33e-3;
-// m: heights of valves with a smaller annulus scale with it.
-constexpr double whole_annulus = 100e-3;
 
 }  // namespace
 

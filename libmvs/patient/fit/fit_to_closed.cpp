@@ -131,8 +131,9 @@ double distance_between(const Model &model, const std::vector<Vec3> &a,
   return std::sqrt(sum / area);
 }
 
-double squared(double v) {
-  return v * v;
+// The root of the sum of the squares of independent deviations.
+double combined(double a, double b, double c = 0) {
+  return std::sqrt(a * a + b * b + c * c);
 }
 
 // Puts the searches that are as good as the best one into the fit, with deviations and spread.
@@ -164,14 +165,13 @@ void collect(const std::vector<Found> &found, size_t best, const FitParameters &
       const double open = 0.5 * (high[at] - low[at]);
       const double single = s.one_by_one ? taken.chord_deviation[at] : 0;
       fit.chord_factor[c] = taken.trial.factor[at];
-      fit.chord_deviation[c] =
-          std::sqrt(squared(taken.group_deviation[g]) + squared(single) + squared(open));
+      fit.chord_deviation[c] = combined(taken.group_deviation[g], single, open);
       factor += taken.trial.factor[at];
       half += open;
     }
     const double count = static_cast<double>(groups.groups[g].chords.size());
     fit.factor.push_back(factor / count);
-    fit.deviation.push_back(std::sqrt(squared(taken.group_deviation[g]) + squared(half / count)));
+    fit.deviation.push_back(combined(taken.group_deviation[g], half / count));
   }
 }
 

@@ -32,9 +32,8 @@ constexpr double closed_width = 1e-3, doubtful_width = 3e-3;
 // the atrial side of 8 to 33 % of the area of closed valves has the other leaflet within 2 mm, of
 // open ones none.
 constexpr double coapted_gap = 2e-3, coapted_share = 0.04;
-// m: the annulus of a small adult valve. Widths scale with it: the edges of an infant's valve with
-// an annulus of 33 mm lie 1 mm apart.
-constexpr double whole_annulus = 100e-3;
+// Both scale with the annulus: the edges of an infant's valve with an annulus of 33 mm lie 1 mm
+// apart.
 
 std::string list_of_lengths(const std::vector<RimLoop> &rims) {
   std::string list;

@@ -10,6 +10,10 @@ namespace mvs::core {
 // and more.
 constexpr double farthest_annulus = 8e-3;
 
+// m: the annulus of a small adult valve. Heights and widths of valves with a smaller one scale with
+// it.
+inline constexpr double whole_annulus = 100e-3;
+
 // Known landmarks; empty: not known.
 struct RimLandmarks {
   std::vector<Vec3> annulus;  // points along it, in any order
