@@ -66,8 +66,9 @@ describe('planner figures', { skip: process.env.MVS_COMMAND ? false : 'MVS_COMMA
     await page.locator('summary', { hasText: 'Physics' }).click();
     const shown = async (label, at = 0) => {
       const box = page.locator('.figure', { has: page.getByText(label, { exact: true }) }).nth(at);
+      const text = (await box.locator('.figure-value').innerText()).replace(/\s+/g, ' ');
       // the scallop of a largest value is the next test's
-      return (await box.locator('.figure-value').innerText()).replace(/ at [AP]\d$/, '').replace(/\s+/g, ' ');
+      return text.replace(/ (at [AP]\d|along the (leaflets|axis))$/, '');
     };
     const m = native.measures;
     for (const [label, value, digits, unit] of [
