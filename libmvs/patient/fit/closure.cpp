@@ -6,6 +6,10 @@
 namespace mvs::core {
 namespace {
 
+// A closure from a closed valve has some ten iterations; one that wanders is given up for another
+// trial of the fit.
+constexpr uint32_t most_iterations = 150;
+
 SolveOptions without_margins() {
   SolveOptions options;
   options.margins = false;
@@ -27,7 +31,9 @@ ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &va
   ClosedValve closed{make_model(valve, from.model.get()), from.state, {}};
   closed.state.drop_cache();
   closed.state.rest_tolerance = 0;
-  closed.stats = solver.settle(*closed.model, closed.state, without_margins(), {});
+  SolveOptions options = without_margins();
+  options.max_iterations = most_iterations;
+  closed.stats = solver.settle(*closed.model, closed.state, options, {});
   return closed;
 }
 
