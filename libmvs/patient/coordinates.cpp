@@ -215,6 +215,10 @@ double number_annulus(const LeafletSheet &sheet, const SheetRims &rims, std::vec
 
 }  // namespace
 
+size_t sample_at(double foot, double length, size_t count) {
+  return static_cast<size_t>(wrapped(foot, length) / length * static_cast<double>(count)) % count;
+}
+
 double wrapped(double s, double length) {
   const double r = s - length * std::floor(s / length);
   return r < length ? r : 0;  // rounding

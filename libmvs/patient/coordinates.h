@@ -28,6 +28,9 @@ double triangle_foot(const SheetCoordinates &coordinates, const Tri &triangle);
 std::vector<double> height_profile(const SheetRims &rims, const SheetCoordinates &coordinates,
                                    size_t count);
 
+// The one of `count` samples, evenly along the annulus, to which a foot belongs.
+size_t sample_at(double foot, double length, size_t count);
+
 // The representative of an arc length in [0, length).
 double wrapped(double s, double length);
 // The difference b - a of two arc lengths around a loop, in [-length / 2, length / 2).

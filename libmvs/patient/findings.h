@@ -1,6 +1,8 @@
 // Adds findings to a list, finds them by name, and puts points into them.
 #pragma once
 
+#include <utility>
+
 #include "patient/leaflet_sheet.h"
 
 namespace mvs::core {
@@ -18,6 +20,10 @@ inline const Finding *find_finding(const Findings &findings, const std::string &
     if (finding.name == name) return &finding;
   }
   return nullptr;
+}
+
+inline Finding *find_finding(Findings &findings, const std::string &name) {
+  return const_cast<Finding *>(find_finding(std::as_const(findings), name));
 }
 
 // Points (m) as the value of a finding: x, y, z in turn.

@@ -11,7 +11,7 @@ namespace {
 
 // m: given commissures farther from the surface than landmarks by hand are doubted.
 constexpr double near_landmark = 3e-3;
-// Of commissures that lie on the surface if x and y are mirrored, and beside it as given.
+// Confidence in commissures that lie on the surface only if x and y are mirrored.
 constexpr double mirrored_confidence = 0.1;
 
 }  // namespace
@@ -57,11 +57,8 @@ void say_given(const CommissureFeet &found, Finding &finding) {
 
 void doubt_high(const AnnulusSamples &annulus, const std::array<double, 2> &feet, double length,
                 Finding &finding) {
-  const size_t samples = annulus.height.size();
   const auto height = [&](double foot) {
-    return annulus
-        .height[static_cast<size_t>(wrapped(foot, length) / length * static_cast<double>(samples)) %
-                samples];
+    return annulus.height[sample_at(foot, length, annulus.height.size())];
   };
   const double half = 0.5 * wrapped(feet[1] - feet[0], length);
   const std::array<double, 2> there = {height(feet[0]), height(feet[1])},

@@ -104,10 +104,8 @@ struct AnteriorOdds {
 };
 
 AnteriorOdds anterior_odds(const AnnulusSamples &annulus, const LeafletArcs &arcs, double length) {
-  const auto sample = [&](double foot) {
-    return static_cast<size_t>(wrapped(foot, length) / length * samples) % samples;
-  };
-  size_t first = sample(arcs.from), last = sample(arcs.to);
+  size_t first = sample_at(arcs.from, length, samples);
+  size_t last = sample_at(arcs.to, length, samples);
   if (last <= first) last += samples;
   return {ArcOdds(annulus).is_anterior(first, last),
           std::string("its height and the share and flatness of its annulus") +

@@ -2,7 +2,6 @@
 #include "patient/tall_leaflets.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/error.h"
 #include "patient/findings.h"
@@ -21,15 +20,12 @@ constexpr double tall_commissure = 13.3e-3, tall_anterior = 33e-3;
 
 void doubt_tall_leaflets(const SheetRims &rims, const SheetCoordinates &coordinates,
                          const LeafletArcs &arcs, Findings &findings) {
-  const auto annulus = std::find_if(findings.begin(), findings.end(),
-                                    [](const Finding &f) { return f.name == "annulus"; });
-  if (annulus == findings.end() || annulus->source == FindingSource::given) return;
+  Finding *annulus = find_finding(findings, "annulus");
+  if (!annulus || annulus->source == FindingSource::given) return;
   const double length = coordinates.annulus_length;
   const std::vector<double> height = smoothed(height_profile(rims, coordinates, samples), 2);
-  const auto at = [&](double foot) {
-    return height[static_cast<size_t>(wrapped(foot, length) / length * samples) % samples];
-  };
-  const double first = at(arcs.from), last = at(arcs.to);
+  const double first = height[sample_at(arcs.from, length, samples)];
+  const double last = height[sample_at(arcs.to, length, samples)];
   double anterior = 0;
   for (size_t k = 0; k < samples; ++k) {
     const double foot = (static_cast<double>(k) + 0.5) * length / samples;

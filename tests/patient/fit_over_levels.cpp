@@ -3,7 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include "patient/chordae/papillary_tips.h"
 #include "tests/patient/patient_valve.h"
 
 using namespace mvs::core;
@@ -12,14 +11,6 @@ using namespace mvs::core::test;
 namespace {
 
 constexpr double mm = 1e-3;
-
-Valve valve_of_levels(uint32_t vertices) {
-  const PatientGeometry g = parametric_geometry(vertices);
-  Findings findings;
-  Valve valve = leaflets_of(g, LeafletLawId::neo_hookean);
-  add_chordae(valve, g, find_papillary_tips({}, g, findings), {}, findings);
-  return valve;
-}
 
 // Anterior chordae shorter, posterior marginal ones longer.
 std::vector<double> changed_factors(const std::vector<ChordGroup> &groups) {
@@ -33,7 +24,7 @@ std::vector<double> changed_factors(const std::vector<ChordGroup> &groups) {
 }  // namespace
 
 TEST_CASE("lengths_of_a_fine_valve_are_sought_on_a_coarser_mesh") {
-  const Valve valve = valve_of_levels(430);
+  const Valve valve = patient_valve(430);
   const std::vector<ChordGroup> groups = chord_groups(*make_model(valve), ChordGrouping::kinds);
   Valve truth = valve;
   scale_groups(truth, groups, changed_factors(groups));
@@ -64,7 +55,7 @@ TEST_CASE("lengths_of_a_fine_valve_are_sought_on_a_coarser_mesh") {
 }
 
 TEST_CASE("valves_that_are_hardly_finer_are_fitted_as_they_are") {
-  const Valve valve = valve_of_levels(200);
+  const Valve valve = patient_valve(200);
   Solver solver(Backend::fastest);
   const ClosedValve closed = close_open(solver, make_model(valve), systolic_pressure);
   const ClosedSurface surface{closed.state.x, valve.triangles};

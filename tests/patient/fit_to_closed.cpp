@@ -22,22 +22,9 @@ namespace {
 
 constexpr double mm = 1e-3;
 
-Valve patient_valve(uint32_t vertices) {
-  const PatientGeometry g = parametric_geometry(vertices);
-  Findings findings;
-  Valve valve = leaflets_of(g, LeafletLawId::neo_hookean);
-  add_chordae(valve, g, find_papillary_tips({}, g, findings), {}, findings);
-  return valve;
-}
-
 double known_factor(const ChordGroup &group) {
   if (group.name[0] == 'A') return 0.93;
   return group.name == "P marginal" ? 1.06 : 1;
-}
-
-// Distance of a shape of the valve from a surface, both ways.
-double distance_from(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x) {
-  return rms_distance(SurfaceMatcher(given, model, x).match(model, x));
 }
 
 // Closed along a path of its own: a disturbed start, four increments of the pressure.

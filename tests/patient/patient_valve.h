@@ -8,6 +8,7 @@
 #include "measure/measure.h"
 #include "model/law.h"
 #include "patient/chordae/patient_chordae.h"
+#include "patient/fit/surface_match.h"
 #include "solve/solver.h"
 #include "solve/static/mesh_hierarchy.h"
 #include "tests/patient/parametric_sheet.h"
@@ -60,6 +61,21 @@ inline Valve leaflets_of(const PatientGeometry &g, LeafletLawId law) {
     valve.triangle_leaflet.push_back(scallop < 3 ? 0 : 1);
   }
   return valve;
+}
+
+// A neo-Hookean valve with chordae of normal anatomy.
+inline Valve patient_valve(uint32_t vertices) {
+  const PatientGeometry g = parametric_geometry(vertices);
+  Findings findings;
+  Valve valve = leaflets_of(g, LeafletLawId::neo_hookean);
+  add_chordae(valve, g, find_papillary_tips({}, g, findings), {}, findings);
+  return valve;
+}
+
+// Distance of a shape of the valve from a surface, both ways.
+inline double distance_from(const ClosedSurface &given, const Model &model,
+                            const std::vector<Vec3> &x) {
+  return rms_distance(SurfaceMatcher(given, model, x).match(model, x));
 }
 
 struct ClosedPatient {

@@ -15,19 +15,6 @@ namespace {
 
 constexpr double mm = 1e-3;
 
-Valve patient_valve(uint32_t vertices) {
-  const PatientGeometry g = parametric_geometry(vertices);
-  Findings findings;
-  Valve valve = leaflets_of(g, LeafletLawId::neo_hookean);
-  add_chordae(valve, g, find_papillary_tips({}, g, findings), {}, findings);
-  return valve;
-}
-
-// Distance of a shape of the valve from a surface, both ways.
-double distance_from(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x) {
-  return rms_distance(SurfaceMatcher(given, model, x).match(model, x));
-}
-
 }  // namespace
 
 TEST_CASE("each_piece_of_a_closed_surface_may_be_wound_either_way") {

@@ -12,7 +12,7 @@
 namespace cli {
 namespace {
 
-constexpr double least_confidence = 0.1;  // of a finding: below, what was given is wrong
+constexpr double least_confidence = 0.1;  // of a finding: up to it, an input is taken for wrong
 
 struct ImportOptions {
   std::string surface, out, findings_out, with;
@@ -160,8 +160,8 @@ void warn_of_whole_valve(const std::string &path) {
   }
 }
 
-// Names on stderr what was given and contradicts the surface, as swapped labels and landmarks of
-// another frame do: the valve is written all the same, and most readers of JSON look at its values.
+// Names inputs that contradict the surface on stderr, such as swapped labels and landmarks of
+// another frame: the valve is written all the same, and most readers of JSON look at its values.
 void warn_of_contradictions(const std::vector<mvs::BuildFinding> &findings) {
   for (const mvs::BuildFinding &finding : findings) {
     const bool of_input = finding.name == "annulus" || finding.name == "commissures" ||

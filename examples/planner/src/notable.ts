@@ -1,5 +1,5 @@
 // Parts of a valve's figures that are named one by one: chordae beyond their working limit, places of a leak, operations.
-import type { Chord, Figures, OrificePart } from './protocol';
+import type { Chord, Figures, OrificePart, Region } from './protocol';
 
 /** The kind of the stitches of a suture or a clip. */
 export const suture = 7;
@@ -76,3 +76,7 @@ export const cutOf = (name: string): string =>
 
 /** The clip that a stitch belongs to, which may have any name: its stitches are "clip", "clip/2", "clip/3"; empty for those of a cut. */
 export const clipOf = (name: string): string => (cutOf(name) ? '' : name.replace(/\/\d+$/, ''));
+
+/** The scallop whose leaflet stands highest above the annulus. */
+export const mostBillowing = (regions: Region[]): Region | undefined =>
+  regions.filter(({ commissure }) => !commissure).sort((a, b) => b.billow - a.billow)[0];

@@ -1,9 +1,9 @@
 // Welded points, joined sides, triangles turned alike within each piece.
 #include "patient/fit/closed_pieces.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 
+#include "model/sides.h"
 #include "patient/surface/manifold.h"
 #include "patient/surface/weld.h"
 
@@ -13,11 +13,6 @@ namespace {
 // Corners that are equal but for rounding, as share of the median side: numbers in single precision
 // at 0.5 m from the origin are 60 nm apart.
 constexpr double weld_share = 1e-3;
-
-bool has_area(const std::vector<Vec3> &x, const Tri &t) {
-  return t[0] != t[1] && t[1] != t[2] && t[2] != t[0] &&
-         (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]).squaredNorm() > 0;
-}
 
 }  // namespace
 
@@ -29,7 +24,7 @@ ClosedPieces closed_pieces(const std::vector<Vec3> &points, const std::vector<Tr
   for (uint32_t t = 0; t < triangles.size(); ++t) {
     const Tri &corners = triangles[t];
     const Tri welded = {first[corners[0]], first[corners[1]], first[corners[2]]};
-    if (!has_area(points, welded)) continue;
+    if (!(area_normal(points, welded).squaredNorm() > 0)) continue;
     sheet.triangles.push_back(welded);
     origin.push_back(t);
   }

@@ -18,8 +18,8 @@ struct ClosedValve {
 ClosedValve close_open(Solver &solver, ModelPtr model, double pressure,
                        const Progress &progress = {});
 
-// From a closed valve with the same nodes and other rest lengths; not at rest after 150 iterations
-// at most.
+// From a closed valve with the same nodes and other rest lengths; it ends after 150
+// iterations, at rest or not.
 ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &valve);
 
 }  // namespace mvs::core

@@ -46,7 +46,7 @@ class SurfaceMatcher {
 
  private:
   void turn_pieces(const std::vector<Tri> &triangles, const std::vector<Vec3> &x);
-  // Of each given point, by area; zero beside no triangle.
+  // The normal of each given point, by area; zero beside no triangle.
   std::vector<Vec3> given_point_normals() const;
 
   const ClosedSurface &given_;

@@ -138,7 +138,7 @@ def run_build(chosen: argparse.Namespace) -> int:
 
 
 def _warn_of_contradictions(findings: Iterable[mvs.Finding]) -> None:
-    """Names what was given and contradicts the image, as swapped labels do; the rule of `mvs import`."""
+    """Names inputs that contradict the image, such as swapped labels; the rule of `mvs import`."""
     for one in findings:
         if one.name in ("annulus", "commissures", "anterior", "closed_fit") and one.confidence <= 0.1:
             print(f"mvs-image: warning: {one.name}, {100 * one.confidence:.0f} % sure: {one.sentence}", file=sys.stderr)

@@ -1,8 +1,8 @@
 // The verdict on a valve with its reservations, the same in the card, the report, the comparison of plans and the status line: a
 // valve that is sealed may open too little, or hang on chordae beyond their limit.
-import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
+import { beyondLimit, mostBillowing, percentOfLimit, shareOfLimit } from '../notable';
 import type { Figures } from '../protocol';
-import { grade, headlineOf, stenosis, verdictTexts, where } from '../text/texts';
+import { grade, headlineOf, isSevere, stenosis, verdictTexts, where } from '../text/texts';
 import { missedGoals } from './goals';
 import { ofLeakRange } from './leak_range';
 import {
@@ -45,9 +45,9 @@ function ofOpening({ hash }: Figures): string[] {
 }
 
 /** Whether the opening is a severe stenosis; the limits are those of adults. */
-function isSevere({ hash }: Figures): boolean {
+function opensTooLittle({ hash }: Figures): boolean {
   const cost = openingOf(hash);
-  return !!cost && smallAnnulus() === null && /severe/.test(stenosis(cost.openArea));
+  return !!cost && smallAnnulus() === null && isSevere(cost.openArea);
 }
 
 /** How wide the annulus is, if the plan has made it much too small. */
@@ -60,10 +60,10 @@ function ofAnnulus({ measures }: Figures): string[] {
  *  higher by up to half the height of the saddle (libmvs/measure/DEFINITIONS.md), about 1 mm in the middle: a judgement. */
 const billowing = 3;
 
-/** The scallop that billows most, if a sealed valve prolapses: a leak is said first. */
+/** How much a sealed valve billows, if that is much: a leak is said first. */
 function ofBillow({ regions, measures, known }: Figures): string[] {
   if (known !== 'all' || measures.orifice > 0 || !(measures.billowHeight > billowing)) return [];
-  const [most] = regions.filter(({ commissure }) => !commissure).sort((a, b) => b.billow - a.billow);
+  const most = mostBillowing(regions);
   return most ? [verdictTexts.billows(most.name, measures.billowHeight)] : [];
 }
 
@@ -90,7 +90,7 @@ export function verdictOf(figures: Figures): Verdict {
     level,
     word: share === null ? word : verdictTexts.noRepair,
     folded: share !== null,
-    severe: share !== null || isSevere(figures),
+    severe: share !== null || opensTooLittle(figures),
     but: [
       ...(share === null ? [] : [verdictTexts.folded(share)]),
       ...ofLeakRange(figures),

@@ -31,9 +31,12 @@ export function grade(orifice: number): { level: number; word: string } {
 export function stenosis(area: number): string {
   const shown = Math.round(area / 10);
   if (shown <= 10) return 'very severe stenosis';
-  if (shown <= 15) return 'severe stenosis';
+  if (isSevere(area)) return 'severe stenosis';
   return shown < 18 ? 'narrow' : '';
 }
+
+/** Whether an open area, mm2, is a severe stenosis. */
+export const isSevere = (area: number): boolean => Math.round(area / 10) <= 15;
 
 /** A share of a limit, in per cent or, far beyond it, in times. */
 const shareWords = (percent: number): string =>
@@ -314,7 +317,7 @@ export const kindOf = ({ kind, artificial }: { kind: number; artificial: boolean
 export { number as figure };
 
 /** What is reached of a goal, where it is known. */
-const nowIs = (is: string): string => (is && !/NaN/.test(is) ? ` (now ${is})` : '');
+const nowIs = (is: string): string => (is ? ` (now ${is})` : '');
 
 export const tourTexts = {
   valveOf: (k: number) => `Valve ${k}`,
@@ -399,7 +402,7 @@ export const tourTexts = {
       `The free edge of ${scallop} below the plane of the annulus${height === null ? '' : ` (now ${number(Math.abs(height))} mm ${height < 0 ? 'below' : 'above'})`}`,
     coaptation: (least: number | null, now: number) => {
       const [is, wanted] = least === null ? ['', '…'] : apart(now, least);
-      return `Mean coaptation ${wanted} mm or more${nowIs(is)}`;
+      return `Mean coaptation ${wanted} mm or more${nowIs(Number.isNaN(now) ? '' : is)}`;
     },
     chords: (percent: number | null, now: number) =>
       `No chord above ${percent ?? '…'} % of its working limit${nowIs(Number.isNaN(now) ? '' : shareWords(now))}`,

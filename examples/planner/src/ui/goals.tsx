@@ -56,6 +56,10 @@ function checks(number: number, shown: Shown | null): Check[] {
 const sign = ({ done }: Check, size: number) =>
   done === null ? <CircleHelp size={size} /> : done ? <Check size={size} /> : <X size={size} />;
 
+/** The tooltip; `whole`: with the goal itself, where a word stands for it. */
+const hintOf = ({ text, help }: Check, whole?: boolean): string =>
+  [whole && text, help].filter(Boolean).join('. ');
+
 const classOf = ({ done }: Check): string => (done === null ? 'open' : done ? 'done' : 'missed');
 
 /** In the foot of a form: the goals as the valve of its preview reaches them, in one line. */
@@ -64,7 +68,7 @@ export function GoalLine({ number }: { number: number }) {
   return (
     <ul class="goals line" aria-label={name} data-testid="goal-line">
       {checks(number, state.preview.value ?? state.main.value).map((check) => (
-        <li class={classOf(check)} title={[check.text, check.help].filter(Boolean).join('. ')}>
+        <li class={classOf(check)} title={hintOf(check, true)}>
           {sign(check, 14)}
           <span>{check.short}</span>
           <span class="hidden">{tourTexts.judged(check.done)}</span>
@@ -88,7 +92,7 @@ export function Goals({ number, short }: { number: number; short?: boolean }) {
         {found.map((check) => (
           <li class={classOf(check)}>
             {sign(check, 18)}
-            <span title={[short && check.text, check.help].filter(Boolean).join('. ')}>
+            <span title={hintOf(check, short)}>
               {short ? check.short : check.text}
               {!short && check.later && check.done === null && <small> {check.later}</small>}
             </span>

@@ -113,12 +113,12 @@ export function ImportPanel() {
 /** Confidence below which a finding is to be looked at, also where it was given. */
 const sure = 0.7;
 
-const ofLeak = /^leak/;
+const ofLeak = /^leak(_interval)?$/;
 const ofMesh = /^(surface|mesh|crossings|\w*holes|cut_handles|pinched_gaps|leak_limits)$/;
 
 /** The findings by what is to be done about them, the least certain first; what was done to the mesh last. */
 function groupsOf(findings: Finding[]): [string, Finding[]][] {
-  const leak = findings.filter(({ name }) => ofLeak.test(name) && !ofMesh.test(name));
+  const leak = findings.filter(({ name }) => ofLeak.test(name));
   const mesh = findings.filter(({ name }) => ofMesh.test(name));
   const others = findings
     .filter((one) => !leak.includes(one) && !mesh.includes(one))
@@ -135,7 +135,7 @@ function groupsOf(findings: Finding[]): [string, Finding[]][] {
 function Row({ finding }: { finding: Finding }) {
   const doubtful = finding.confidence < sure && !ofLeak.test(finding.name);
   return (
-    <li class={`source-${finding.source}${doubtful ? ' doubtful' : ''}`}>
+    <li class={doubtful ? 'doubtful' : undefined}>
       <strong>{finding.name.replace(/_/g, ' ')}</strong>{' '}
       <span class="tag">{importTexts.sources[finding.source]}</span>
       <p>{say(finding.sentence)}</p>

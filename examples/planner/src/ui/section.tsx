@@ -6,7 +6,7 @@ import { formTexts, sectionTexts, tips, tipTexts } from '../text/texts';
 import type { Picture, Section, SectionRequest } from '../protocol';
 import { crossings, cutScallops, cutsOf, placeOf, planeOf } from '../view/cut';
 import { isClosed, ringCurves, ringRadius } from '../view/heart';
-import { point } from '../view/mesh';
+import { annulusOf } from '../view/shown';
 import { Button, SliderEnds } from './parts';
 
 interface Curve {
@@ -65,11 +65,6 @@ function dots(curves: number[][][], frame: number[]): [number, number][] {
     crossings(curve, isClosed(curve), plane).map(({ middle }) => inPlane(middle, frame)),
   );
 }
-
-/** The annulus of the shown valve, mm. */
-const annulusOf = (picture: Picture): number[][] => [
-  ...Array.from(state.topologyOf(picture)?.annulus ?? [], (node) => point(picture.positions, node)),
-];
 
 /** Where the plane cuts the valve that is being opened or moved by hand: rows as of the worker. */
 function movingSection(picture: Picture, frame: number[], offset: number): Section {

@@ -3,6 +3,7 @@ import { Activity, Layers } from 'lucide-preact';
 import { measureCost, measureSpread } from '../store/measure';
 import { gradientOf, isTooMuch } from '../store/gradient';
 import { openingOf } from '../store/limits';
+import { mostBillowing } from '../notable';
 import * as state from '../store/state';
 import { appTexts, tips, valveTexts } from '../text/texts';
 import type { Figures, Measures } from '../protocol';
@@ -184,7 +185,7 @@ export function ValvePanel() {
 
 /** The scallop in which the leaflets billow most. */
 function billowing({ regions, measures }: Figures): string {
-  const [most] = regions.filter(({ commissure }) => !commissure).sort((a, b) => b.billow - a.billow);
+  const most = mostBillowing(regions);
   return most && measures.billowHeight > 0 ? valveTexts.at(most.name) : '';
 }
 
@@ -223,6 +224,7 @@ const widest = 600;
 function OpenArea({ figures }: { figures: Figures }) {
   const cost = openingOf(figures.hash);
   const gradient = gradientOf(cost);
+  const wide = !!cost && cost.openArea > widest;
   return (
     <Section title={valveTexts.opens}>
       <div class="field">
@@ -255,7 +257,7 @@ function OpenArea({ figures }: { figures: Figures }) {
             value={cost.openArea / 100}
             unit="cm²"
             help={valveTexts.openAreaHelp}
-            note={cost.openArea > widest ? '*' : ''}
+            note={wide ? '*' : ''}
           />
           {gradient !== null && (
             <Figure
@@ -273,7 +275,7 @@ function OpenArea({ figures }: { figures: Figures }) {
           {valveTexts.measureOpen}
         </Button>
       )}
-      {cost && cost.openArea > widest && <p class="hint">* {valveTexts.openAreaWide}</p>}
+      {wide && <p class="hint">* {valveTexts.openAreaWide}</p>}
       <p class="hint" data-testid="outflow">
         {valveTexts.outflow}
       </p>

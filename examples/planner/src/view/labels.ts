@@ -103,6 +103,8 @@ const ball = 26;
 /** How far a name may stand from its place to avoid other labels, in heights and half widths of its words. */
 const reach = { chosen: 4, other: 2 };
 
+const farOf = ({ chosen }: Label): number => (chosen ? reach.chosen : reach.other);
+
 /** The order in which names take their places. */
 const rank = ({ chosen, kind }: Label): number => (chosen ? 0 : kind === 'head' ? 1 : 2);
 
@@ -135,7 +137,7 @@ export class Labels {
   }
 
   /** Whether a leaflet lies between the eye and a place, or a section cuts it away. */
-  private hidden(view: Viewport, { at }: Label, px: number, py: number): boolean {
+  private hidden(view: Viewport, at: number[], px: number, py: number): boolean {
     const plane = view.plane();
     if (plane && isBefore(plane, at)) return true;
     const picture = state.picture.value!;
@@ -186,22 +188,26 @@ export class Labels {
     const taken: Box[] = of('handle').map(({ at }) => boxAt(at, { width: ball, height: ball }));
     for (const { element, at } of of('handle')) this.besideHandle(view, element, at, taken);
     const names = of('head', 'scallop').filter(
-      ({ label, at }) => label.kind === 'scallop' || !this.hidden(view, label, ...at),
+      ({ label, at }) => label.kind === 'scallop' || !this.hidden(view, label.at, ...at),
     );
     for (const one of of('head')) one.element.hidden = !names.includes(one);
     const wished = [...taken, ...names.map(({ at, size }) => boxAt(at, size))];
     for (const one of of('chord')) taken.push(this.callOut(view, one.element, one.at, wished));
     // what is chosen stays where it is; the others give way to it
     names.sort((a, b) => rank(a.label) - rank(b.label));
-    const muscles = this.muscles(view);
-    for (const one of names) this.putName(one, taken, one.label.kind === 'scallop' ? muscles : []);
+    const scallops = names.filter(({ label }) => label.kind === 'scallop');
+    const muscles = this.musclesUnder(view, scallops);
+    for (const one of names) this.putName(one, taken, scallops.includes(one) ? muscles : []);
   }
 
-  /** The papillary muscles that are seen: the name of a scallop on one would be read as that of the muscle. */
-  private muscles(view: Viewport): Box[] {
+  /** The papillary muscles that are seen where a scallop's name may stand: it would be read as that of the muscle. */
+  private musclesUnder(view: Viewport, names: Placed[]): Box[] {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
-    if (!topology || state.surface.value) return [];
+    if (!topology || !names.length) return [];
+    const boxes = names.flatMap(({ label, at, size }) =>
+      placesAround(at, size, farOf(label)).map((one) => boxAt(one, size)),
+    );
     const { camera, width, height } = view;
     const up = view.frameOf().slice(9, 12);
     const half = (headRadius(topology) * headFlare) / camera.scale(height);
@@ -210,17 +216,17 @@ export class Labels {
       const ends = [at, at.map((v, c) => v - headLength * up[c])].map(([x, y, z]) =>
         camera.project(x, y, z, width, height),
       );
-      if (this.hidden(view, { text: '', at, kind: 'head' }, ends[0][0], ends[0][1])) return [];
       const [xs, ys] = [0, 1].map((axis) => ends.map((end) => end[axis]));
       const [x, y] = [Math.min(...xs) - half, Math.min(...ys) - half];
-      return [{ x, y, width: Math.max(...xs) + half - x, height: Math.max(...ys) + half - y }];
+      const box = { x, y, width: Math.max(...xs) + half - x, height: Math.max(...ys) + half - y };
+      const meets = boxes.some((other) => overlap(other, box));
+      return meets && !this.hidden(view, at, ends[0][0], ends[0][1]) ? [box] : [];
     });
   }
 
   /** A name stands at its place, beside it where another label is there, or nowhere. */
   private putName({ label, element, at, size }: Placed, taken: Box[], muscles: Box[]): void {
-    const far = label.chosen ? reach.chosen : reach.other;
-    const place = placesAround(at, size, far).find(
+    const place = placesAround(at, size, farOf(label)).find(
       (one) => ![...taken, ...muscles].some((other) => overlap(other, boxAt(one, size))),
     );
     element.hidden = !place && !label.chosen;

@@ -42,7 +42,7 @@ export function rimOf(picture: Picture): number[][] {
 }
 
 /** The places of the annulus, mm. */
-function annulusOf(picture: Picture): number[][] {
+export function annulusOf(picture: Picture): number[][] {
   const topology = state.topologyOf(picture);
   return Array.from(topology?.annulus ?? [], (node) => point(picture.positions, node));
 }
