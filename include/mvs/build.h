@@ -53,7 +53,10 @@ typedef struct mvs_surface_desc {
 /* How to build. */
 typedef struct mvs_build_options {
   uint32_t struct_size;
-  mvs_leaflet_law leaflet_law; /* MVS_LEAFLET_LAW_*, default constants [bilinear] */
+  mvs_leaflet_law leaflet_law; /* MVS_LEAFLET_LAW_*, default constants [bilinear; if a closed
+                                  surface is given, that of bilinear, PROT and May-Newman and Yin
+                                  with which a fitted valve closes clearly nearest to it: finding
+                                  "tissue", whose value is the law] */
   double edge;                 /* m, length of the triangles' sides [as for 1,000 vertices] */
   double thickness;            /* m, where it is not known per point [0.8e-3] */
   double chord_factor;         /* on all rest lengths [1] */

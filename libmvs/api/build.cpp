@@ -84,7 +84,7 @@ BuildSettings read_options(const mvs_build_options *given) {
   settings.finds_leak = options.without_leak == 0;
   if (options.leaflet_law != 0) {
     settings.law = static_cast<LeafletLawId>(options.leaflet_law);
-    MVS_MUST(find_leaflet_law(settings.law) != nullptr, MVS_E_ARGUMENT, "options.leaflet_law",
+    MVS_MUST(find_leaflet_law(*settings.law) != nullptr, MVS_E_ARGUMENT, "options.leaflet_law",
              "options.leaflet_law is %u: it has to be one of MVS_LEAFLET_LAW_*, or 0",
              options.leaflet_law);
   }

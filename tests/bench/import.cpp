@@ -41,8 +41,8 @@ struct Case {
   PatientSurface surface;
 };
 
-const std::vector<std::string> stages = {"clean",  "mid",     "untangle", "leaflets",
-                                         "remesh", "chordae", "fit",      "leak"};
+const std::vector<std::string> stages = {"clean",  "mid",     "untangle", "leaflets", "remesh",
+                                         "tissue", "chordae", "fit",      "leak"};
 
 Case parametric(const char *name, uint32_t vertices) {
   mvs_parametric_desc desc = {};

@@ -120,6 +120,35 @@ class SurfaceImport(unittest.TestCase):
         self.assertEqual(rows["edge_error"]["values"], [0.6e-3])
         self.assertIn("0.6 mm farther out", rows["leak_interval"]["sentence"])
 
+    def test_a_tissue_that_is_given_is_a_finding_that_is_read_back(self):
+        given = self.imported("open.stl", "prot.h5", "--leaflet", "prot")
+        findings = self.dir / "prot.import.json"
+        again = self.imported("open.stl", "prot_again.h5", "--with", findings)
+        self.assertEqual(again["hash"], given["hash"])
+        rows = json.loads(findings.read_text())
+        tissue = next(row for row in rows["findings"] if row["name"] == "tissue")
+        self.assertEqual((tissue["source"], tissue["sentence"]), ("given", "prot, as given"))
+        for wrong in (2.5, 0, -1, 99, 1e300):
+            tissue["values"] = [wrong]
+            findings.write_text(json.dumps(rows))
+            self.fails(1, "the number of a law of leaflets, 1 to 6", "import", self.dir / "open.stl", "-o",
+                       self.dir / "wrong.h5", "--with", findings)
+        self.assertFalse((self.dir / "wrong.h5").exists())
+
+    def test_the_tissue_of_closed_leaflets_is_found(self):
+        """Closed with another tissue than the default; what is found gives the same bits if it is given."""
+        self.imported("open.stl", "soft.h5", "--leaflet", "may_newman_yin")
+        self.ok("close", self.dir / "soft.h5", "-o", self.dir / "soft.obj")
+        write_stl(self.dir / "soft.stl", *read_obj(self.dir / "soft.obj"))
+        found = self.imported("open.stl", "found.h5", "--closed", self.dir / "soft.stl")
+        rows = {row["name"]: row for row in found["findings"]}
+        # one of both exponential tissues, which differ by less than a fit does
+        self.assertRegex(rows["tissue"]["sentence"], "^(may_newman_yin|prot): ")
+        self.assertEqual(rows["tissue"]["source"], "guessed")
+        again = self.imported("open.stl", "found_again.h5", "--closed", self.dir / "soft.stl", "--with",
+                              self.dir / "found.import.json")
+        self.assertEqual(again["hash"], found["hash"])
+
     def test_an_anterior_point_on_the_posterior_leaflet_is_warned_of(self):
         found = {f["name"]: f for f in self.imported("open.stl", "as_is.h5")["findings"]}
         anterior = found["anterior"]["values"]

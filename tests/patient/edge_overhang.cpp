@@ -61,7 +61,7 @@ TEST_CASE("tissue_that_the_open_surface_lacks_is_found_on_the_closed_leaflets") 
   const uint32_t middle = g.rims.free_edge[g.rims.free_edge.size() / 4];
   Eaten seen = eaten_around(whole, g, middle);
   findings.clear();
-  extend_free_edge(seen.valve, seen.g, given, findings, {});
+  extend_free_edge(seen.valve, seen.g, given, {}, findings, {});
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].name == "edge_found");
   std::vector<double> left_in, left_out;
@@ -87,7 +87,7 @@ TEST_CASE("a_free_edge_that_the_closed_leaflets_end_at_stays") {
   const std::vector<Vec3> before = whole.rest.get();
   PatientGeometry same = g;
   findings.clear();
-  extend_free_edge(whole, same, given, findings, {});
+  extend_free_edge(whole, same, given, {}, findings, {});
   CHECK(findings.empty());
   CHECK(whole.rest.get() == before);
 }
@@ -105,7 +105,7 @@ TEST_CASE("a_softer_tissue_reaches_past_the_edge_and_the_finding_says_so") {
   given.points.resize(g.sheet.x.size());
   PatientGeometry moved = g;
   findings.clear();
-  extend_free_edge(stiff, moved, given, findings, {});
+  extend_free_edge(stiff, moved, given, {}, findings, {});
   REQUIRE(findings.size() == 1);
   const double most = findings[0].value[1];
   CHECK(most > 1 * mm);

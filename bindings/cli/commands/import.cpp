@@ -138,6 +138,9 @@ Input read_input(const ImportOptions &options, ImportOptions &with_known) {
   if (options.thickness_error == 0 && !known.thickness_error.empty()) {
     with_known.build.thickness_error = known.thickness_error[0];
   }
+  if (options.leaflet.empty() && !known.tissue.empty()) {
+    with_known.build.leaflet_law = law_of_finding(known.tissue[0], options.with);
+  }
   return input;
 }
 
@@ -287,7 +290,7 @@ void add_import(CLI::App &app, Console &console) {
   command->add_option("--chords", options->build.chords, "chord segments, about [100]")
       ->check(CLI::PositiveNumber);
   add_range_options(*command, *options);
-  add_law_option(*command, options->leaflet, "membrane");
+  add_law_option(*command, options->leaflet, "membrane; with --closed the nearest one");
   command->add_option("--with", options->with,
                       "findings of an earlier import, edited: what is given, guessed or assumed in "
                       "them is used");

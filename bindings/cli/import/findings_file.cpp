@@ -58,6 +58,7 @@ std::vector<double> *target_of(KnownValues &known, const std::string &name) {
   if (name == "edge_error") return &known.edge_error;
   if (name == "edge_lost") return &known.edge_lost;
   if (name == "thickness_error") return &known.thickness_error;
+  if (name == "tissue") return &known.tissue;
   return nullptr;
 }
 
@@ -116,13 +117,13 @@ KnownValues read_findings(const std::string &path) {
     const std::string source = row.value("source", "");
     if (!target || source == "measured") continue;
     *target = numbers_of(path, name, row);
-    const bool is_length = target != &known.annulus && target != &known.commissures &&
+    const bool is_number = target != &known.annulus && target != &known.commissures &&
                            target != &known.anterior && target != &known.papillary_tips;
-    if (target->empty() || target->size() % (is_length ? 1 : 3) != 0 ||
-        (is_length && target->size() != 1)) {
+    if (target->empty() || target->size() % (is_number ? 1 : 3) != 0 ||
+        (is_number && target->size() != 1)) {
       refuse_findings(path, name,
                       "the finding \"" + name + "\" has " + std::to_string(target->size()) +
-                          " values: points need x, y, z each, a length one");
+                          " values: points need x, y, z each, the others one");
     }
   }
   return known;

@@ -22,6 +22,7 @@ void write_findings(const std::string &path, const std::string &surface,
 struct KnownValues {
   std::vector<double> annulus, commissures, anterior, papillary_tips;  // points, x, y, z in turn, m
   std::vector<double> thickness, edge_error, edge_lost, thickness_error;  // one each, m
+  std::vector<double> tissue;                                             // one, MVS_LEAFLET_LAW_*
 };
 
 // The values of a file of findings that are given, guessed or assumed. Measured ones are left out,

@@ -60,6 +60,16 @@ mvs_leaflet_law law_of(const std::string &choice) {
   return static_cast<mvs_leaflet_law>(at) + 1;
 }
 
+mvs_leaflet_law law_of_finding(double number, const std::string &path) {
+  for (mvs_leaflet_law law = 1; law <= mvs_get_leaflet_law_count(); ++law) {
+    if (number == law) return law;
+  }
+  fail(MVS_E_FORMAT, "tissue",
+       path + text(": the finding \"tissue\" has the value %g: it has to be the number of a law of "
+                   "leaflets, 1 to %u",
+                   number, mvs_get_leaflet_law_count()));
+}
+
 void set_tissue(mvs::Simulator &sim, const std::string &choice) {
   if (choice == "file") return;
   const std::vector<std::string> laws = known_laws();

@@ -16,6 +16,9 @@ void add_tissue_option(CLI::App &command, std::string &choice);
 void add_law_option(CLI::App &command, std::string &choice, const std::string &fallback);
 mvs_leaflet_law law_of(const std::string &choice);
 
+// The law of the finding "tissue" in a file of findings. Fails if there is none of that number.
+mvs_leaflet_law law_of_finding(double number, const std::string &path);
+
 // Sets the law of the leaflets. "file" leaves it, "membrane" turns springs into the membrane of the
 // same stress-strain curve and leaves membranes, any other word is a law with its default
 // constants.

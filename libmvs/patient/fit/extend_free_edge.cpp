@@ -2,6 +2,7 @@
 #include "patient/fit/extend_free_edge.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "patient/coordinates.h"
@@ -19,11 +20,12 @@ constexpr double limit_share = 0.9;  // of most_overhang: few edges lack as much
 
 // The valve with the lengths of a search from one start, closed from open.
 ClosedValve closed_roughly(const Valve &valve, const ClosedSurface &given,
-                           const FitProgress &progress) {
+                           const GroupFactors &known, const FitProgress &progress) {
   FitSettings settings;
   settings.starts = 1;
   settings.one_by_one = false;
   settings.rounds = 3;
+  settings.known = known;
   Valve fitted = valve;
   Findings of_search;
   fit_over_levels(fitted, given, settings, of_search, progress);
@@ -33,19 +35,22 @@ ClosedValve closed_roughly(const Valve &valve, const ClosedSurface &given,
 
 }  // namespace
 
-void extend_free_edge(Valve &valve, PatientGeometry &g, const ClosedSurface &given,
-                      Findings &findings, const FitProgress &progress) {
-  const ClosedValve closed = closed_roughly(valve, given, progress);
+double extend_free_edge(Valve &valve, PatientGeometry &g, const ClosedSurface &given,
+                        const GroupFactors &known, Findings &findings,
+                        const FitProgress &progress) {
+  const ClosedValve closed = closed_roughly(valve, given, known, progress);
   const SurfaceMatcher matcher(given, *closed.model, closed.state.x);
   const std::vector<double> by =
       edge_overhang(g, closed, matcher.match(*closed.model, closed.state.x));
-  double sum = 0, most = 0;
+  double sum = 0, squares = 0, most = 0;
   for (const uint32_t i : g.rims.free_edge) {
     sum += by[i];
+    squares += by[i] * by[i];
     most = std::max(most, by[i]);
   }
-  const double mean = sum / static_cast<double>(g.rims.free_edge.size());
-  if (mean < least_mean) return;
+  const double nodes = static_cast<double>(g.rims.free_edge.size());
+  const double mean = sum / nodes;
+  if (mean < least_mean) return 0;
   valve = with_edge_moved(valve, g, by);
   std::copy_n(valve.rest.get().begin(), g.sheet.x.size(), g.sheet.x.begin());
   g.coordinates = sheet_coordinates(g.sheet, g.rims);
@@ -61,6 +66,7 @@ void extend_free_edge(Valve &valve, PatientGeometry &g, const ClosedSurface &giv
               mean * 1e3, most * 1e3, at_limit ? ", the limit" : ""),
        {mean, most},
        "m"});
+  return std::sqrt(squares / nodes);
 }
 
 }  // namespace mvs::core

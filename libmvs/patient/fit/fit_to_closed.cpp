@@ -110,13 +110,20 @@ Found search(const FitSearch &fit, const FitParameters &groups, const FitSetting
   return best;
 }
 
-// Starting factors: 1, then some from the prior.
+// Starting factors: those known, then some from the prior.
 std::vector<double> start_factors(const FitParameters &groups, const FitSettings &s,
                                   uint32_t start) {
   std::vector<double> factor = groups.mean;
+  if (start == 0) {
+    for (size_t k = 0; k < factor.size(); ++k) {
+      const auto known = s.known.find(groups.groups[k].name);
+      if (known != s.known.end()) factor[k] = known->second;
+    }
+    return factor;
+  }
   NormalNumbers random(start_seed + start);
   for (double &f : factor) {
-    if (start > 0) f = std::clamp(f + groups.deviation * random.next(), s.least, s.most);
+    f = std::clamp(f + groups.deviation * random.next(), s.least, s.most);
   }
   return factor;
 }
@@ -208,13 +215,13 @@ ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettin
   groups.mean.assign(groups.groups.size(), 1);
   const FitSearch fit(valve, matcher, s, solver, jacobian);
   ChordFit done;
+  done.rms_before = rms_distance(matcher.match(*model, first.state.x));
   std::vector<Found> found;
   size_t best = 0;
   for (uint32_t k = 0; k < std::max(1u, s.starts); ++k) {
     if (progress) progress(k);
-    FitTrial start = k == 0 ? fit.judged(groups, groups.mean, first)
-                            : fit.from_open(groups, start_factors(groups, s, k));
-    if (k == 0) done.rms_before = rms_distance(start.matches);
+    FitTrial start = k == 0 && s.known.empty() ? fit.judged(groups, groups.mean, first)
+                                               : fit.from_open(groups, start_factors(groups, s, k));
     found.push_back(search(fit, groups, s, std::move(start)));
     done.rounds += found.back().rounds;
     const auto loss = [](const Found &f) {  // a valve that is not at rest is the last choice

@@ -10,6 +10,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 
 #include "patient/chordae/chord_groups.h"
 #include "patient/fit/closure.h"
@@ -17,6 +19,9 @@
 #include "patient/leaflet_sheet.h"
 
 namespace mvs::core {
+
+// Factors on the lengths of groups, by name.
+using GroupFactors = std::map<std::string, double>;
 
 struct FitSettings {
   ChordGrouping grouping = ChordGrouping::halves;
@@ -27,7 +32,8 @@ struct FitSettings {
   double single_prior = 0.04;       // of a chord's factor around that of its group
   double noise = 0.5e-3;            // m, standard deviation of the given surface
   uint32_t rounds = 6;              // at most, of each search
-  uint32_t starts = 3;              // searches, the first from factors of 1
+  uint32_t starts = 3;              // searches, the first from `known`
+  GroupFactors known;               // of a fit on another mesh; 1 where there is none
 };
 
 // A factor is not determined by the surface if its deviation is at least this share of the prior's.

@@ -39,12 +39,22 @@ std::vector<double> point_areas(const ClosedSurface &surface) {
   return area;
 }
 
+double mean_square_from_valve(const ClosedSurface &given, const Model &model,
+                              const std::vector<Vec3> &x) {
+  return mean_square(given.points, point_areas(given), model.valve.triangles, x);
+}
+
 }  // namespace
+
+double distance_from_valve(const ClosedSurface &given, const Model &model,
+                           const std::vector<Vec3> &x) {
+  return std::sqrt(mean_square_from_valve(given, model, x));
+}
 
 double distance_between(const ClosedSurface &given, const Model &model,
                         const std::vector<Vec3> &x) {
   const double there = mean_square(x, model.vertex_area, given.triangles, given.points);
-  const double back = mean_square(given.points, point_areas(given), model.valve.triangles, x);
+  const double back = mean_square_from_valve(given, model, x);
   return std::sqrt(0.5 * (there + back));
 }
 

@@ -33,6 +33,9 @@ struct ShapeLeaks {
 // nearest to a point counts whichever way it faces: an edge that is rounded off in one surface has
 // its nearest tissue around the corner.
 double distance_between(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x);
+// That of the given surface from the valve alone.
+double distance_from_valve(const ClosedSurface &given, const Model &model,
+                           const std::vector<Vec3> &x);
 
 // The leak, m2, of the same shape with its free edge farther in by `by` (m at rest, along the
 // leaflets); where a leaflet is low, by a quarter of its height at most (free_edge_shift.h). The

@@ -13,6 +13,7 @@ pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 from label_images import NAMES, VOXEL, funnel, image_of  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
+from mvs.imaging.findings import read_known  # noqa: E402
 
 
 def test_spacing_in_metres_or_cm_and_other_files_are_refused(tmp_path):
@@ -180,3 +181,15 @@ def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
     assert "Interval: " in text and "farther out" in text
     assert main([str(tmp_path / "none.nrrd"), "-o", str(tmp_path / "c.h5"), "--quiet"]) == 1
     assert "no such file" in capsys.readouterr().err
+
+
+def test_the_law_in_a_file_of_findings_is_read(tmp_path):
+    path = tmp_path / "a.import.json"
+    for number in (5, 2.5, 0, 99):
+        path.write_text(json.dumps({"format": "libmvs import", "version": 1, "findings": [
+            {"name": "tissue", "source": "guessed", "values": [number]}]}))
+        if number == 5:
+            assert read_known(path) == {"tissue": mvs.LeafletLaw.PROT}
+            continue
+        with pytest.raises(mvs.FormatError, match="the number of a law of leaflets, 1 to 6"):
+            read_known(path)

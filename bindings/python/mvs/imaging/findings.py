@@ -13,7 +13,8 @@ import mvs
 
 POINTS = ("annulus", "commissures", "anterior", "papillary_tips")
 LENGTHS = ("thickness", "edge_error", "edge_lost", "thickness_error")
-"""Findings that are an input of a build; lengths are one number each, m."""
+LAW = "tissue"
+"""Findings that are an input of a build; lengths are one number each, m, the law is that of `mvs.LeafletLaw`."""
 
 
 def finding(name: str, source: mvs.FindingSource, confidence: float, sentence: str,
@@ -41,7 +42,7 @@ def write_findings(path: Union[str, "os.PathLike[str]"], source: str,
 
 
 def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
-    """The landmarks in a file of findings that are given, guessed or assumed (`--with`).
+    """The inputs of a build in a file of findings that are given, guessed or assumed (`--with`).
 
     Measured ones are left out: they are measured again. ArgumentError for another file.
     """
@@ -55,7 +56,7 @@ def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
         raise mvs.FormatError(f"{os.fspath(path)}: is no file of findings of this version", "with")
     known: dict[str, Any] = {}
     for row in rows:
-        if row["name"] not in POINTS + LENGTHS:
+        if row["name"] not in (*POINTS, *LENGTHS, LAW):
             continue
         if row["source"] == "measured":
             continue
@@ -63,6 +64,14 @@ def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
         if not len(values) or not np.isfinite(values).all():
             raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" needs numbers",
                                   row["name"])
-        known[row["name"]] = (float(values[0]) if row["name"] in LENGTHS
-                              else values.reshape(-1, 3).copy())
+        known[row["name"]] = (float(values[0]) if row["name"] in LENGTHS else _law(path, values[0])
+                              if row["name"] == LAW else values.reshape(-1, 3).copy())
     return known
+
+
+def _law(path: Union[str, "os.PathLike[str]"], number: float) -> mvs.LeafletLaw:
+    try:
+        return mvs.LeafletLaw(number)
+    except ValueError:
+        raise mvs.FormatError(f'{os.fspath(path)}: the finding "{LAW}" has the value {number:g}: it has to be the number '
+                              f"of a law of leaflets, 1 to {len(mvs.LeafletLaw)}", LAW) from None

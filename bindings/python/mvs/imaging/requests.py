@@ -9,8 +9,7 @@ import numpy as np
 
 import mvs
 from .console import Console
-from .findings import LENGTHS, finding, read_known
-from .fitted_tissue import CANDIDATES, LawFit, chosen_tissue, law_fit, search_edge, with_other_fits
+from .findings import LAW, LENGTHS, finding, read_known
 from .grid import spacing_of
 from .labels import ANTERIOR, POSTERIOR, UNKNOWN, Leaflets, LabelSettings, leaflets_in
 from .landmarks import read_part
@@ -28,8 +27,9 @@ def valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve
     """The valve that the arguments of `mvs-image build` ask for."""
     landmarks = read_known(chosen.known) if chosen.known else {}
     lengths = {name: landmarks.pop(name) for name in LENGTHS if name in landmarks}
+    law = {"leaflet": landmarks.pop(LAW)} if LAW in landmarks else {}
     landmarks.update(_landmarks(chosen, ""))
-    options = {**lengths, **_options(chosen)}
+    options = {**lengths, **law, **_options(chosen)}
     console.stage("reading images")
     image = _image(chosen.image)
     loaded = _image(chosen.loaded) if chosen.loaded else None
@@ -62,7 +62,6 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
     surface: Optional[Sheet] = None
     motion = Motion.none()
     found: list[mvs.Finding] = []
-    fits: dict[str, LawFit] = {}
     if loaded is not None:
         surface, found = closed_surface(loaded, segments, settings,
                                         lambda step: console.stage(f"closed leaflets: {step}"))
@@ -70,37 +69,14 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
                                      _landmarks(chosen, "loaded_"))
         surface.points = motion(surface.points)
         found.append(how)
-        if "leaflet" not in options:
-            fits = _fits(leaflets, landmarks, surface, options, console)
-            options["leaflet"], tissue = chosen_tissue(fits)
-            found.append(tissue)
     console.stage("building and closing the valve")
     made = build(leaflets, landmarks, surface, chosen.image.name.split(".")[0],
                  lambda done, _: console.share(done), findings=tuple(found), **options)
     made.findings = tuple(assumed.get(one.name, one) for one in made.findings)
-    made.findings = with_other_fits(made.findings, fits)
     if chosen.report:
         made.image = scanned(image)
         made.loaded_image = scanned(loaded, motion) if loaded is not None else None
     return made
-
-
-def _fits(leaflets: Leaflets, landmarks: dict[str, Any], loaded: Sheet, options: dict[str, Any],
-          console: Console) -> dict[str, LawFit]:
-    """A fit with each law of the leaflets on a coarse mesh, of those with a clean closure."""
-    coarse = {**options, "edge": search_edge(leaflets.sheet), "leak": False}
-    fits: dict[str, LawFit] = {}
-    for law in CANDIDATES:
-        console.stage(f"fitting chordae with the tissue {law}")
-
-        def fitted(law: str = law) -> ImageValve:
-            return build(leaflets, landmarks, loaded, progress=lambda done, _: console.share(done),
-                         **{**coarse, "leaflet": law})
-
-        fit = law_fit(fitted)
-        if fit is not None:
-            fits[law] = fit
-    return fits
 
 
 LEAST_LOST = 1.4e-3

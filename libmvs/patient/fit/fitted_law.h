@@ -1,0 +1,56 @@
+// The tissue law with which a valve, its chordae fitted, closes nearest to a given surface.
+//
+// An open surface does not show it, and fitted lengths make up for a wrong law in part only: a law
+// that is too stiff leaves the belly and the free edge a millimetre and more from the closed
+// leaflets, or asks for tissue past the free edge of the open ones. So a coarse valve is fitted
+// with each of three laws. Fung-type leaflets are left out: their fits take several times as long.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "patient/fit/fit_to_closed.h"
+#include "patient/leaflet_sheet.h"
+#include "patient/patient_geometry.h"
+
+namespace mvs::core {
+
+// The default first.
+inline constexpr std::array fitted_laws = {LeafletLawId::bilinear, LeafletLawId::prot,
+                                           LeafletLawId::may_newman_yin};
+// The mesh on which laws are compared has half of the default vertices, for a third of the time, and
+// each law one search: three chose the same laws in twice the time.
+inline constexpr double law_vertices = 500;
+
+// A coarse valve with one law, its chordae fitted and closed from open.
+struct LawFit {
+  LeafletLawId law = LeafletLawId::bilinear;
+  double distance = 0;  // m, RMS: of the given surface from the valve
+  double edge = 0;      // m, RMS: by which the free edge was moved out
+  double leak = 0;      // m2
+  GroupFactors factor;  // on the lengths of chordae
+};
+
+// Fits `valve`, on the sheet of `g`. Empty without a closure at rest and without crossings.
+//
+// The distance is that of the given surface from the valve, not the other way round: where the
+// surface lacks tissue, as along the free edge, a valve without error is far from it whatever its
+// tissue. `tell` is called before each of law_searches searches and may throw to end the fit.
+inline constexpr uint32_t law_searches = 2;
+std::optional<LawFit> fit_law(Valve valve, PatientGeometry g, const ClosedSurface &given,
+                              bool edge_is_exact, const FitProgress &tell);
+
+// Distance and moved edge together, m.
+double misfit_of(const LawFit &fit);
+
+struct LawChoice {
+  LeafletLawId law = fitted_laws[0];
+  GroupFactors factor;        // of the fit with it, if there is one
+  std::vector<double> leaks;  // m2, of the fits with all plausible laws: the surface hardly
+                              // determines the law, and a valve leaks more or less with another one
+};
+
+// From the fits that came to rest; adds the finding "tissue", whose value is the number of the law.
+LawChoice choose_law(const std::vector<LawFit> &fits, Findings &findings);
+
+}  // namespace mvs::core

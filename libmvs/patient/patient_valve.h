@@ -1,0 +1,22 @@
+// The valve of a patient on a mesh of a wanted size.
+#pragma once
+
+#include "model/model.h"
+#include "patient/chordae/papillary_tips.h"
+#include "patient/mid_sheet.h"
+#include "patient/patient_geometry.h"
+
+namespace mvs::core {
+
+// Sides of equilateral triangles, m, with which a sheet has a number of vertices.
+double edge_for(const LeafletSheet &sheet, double vertices);
+
+// The sheet with triangles of the sides `edge`, and its leaflets, whose commissures are among the
+// findings.
+PatientGeometry patient_geometry(const MidSheet &mid, double edge, Findings &findings);
+
+// Leaflets of one law with their thickness, and chordae to the tips.
+Valve patient_valve(const BuildSettings &settings, LeafletLawId law, const PatientGeometry &g,
+                    const PapillaryTips &tips, Findings &findings);
+
+}  // namespace mvs::core
