@@ -68,6 +68,10 @@ HEADINGS = {
 }
 
 
+SAID = ("tissue", "edge_found", "leak", "leak_interval", "edge_lost", "filled_holes", "free_edge", "holes")
+"""Findings whose sentences are printed for each case."""
+
+
 def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder: Path,
              unfitted: bool = True) -> Row:
     """Makes a phantom, recovers it from its files, compares; `unfitted`: also without the loaded image."""
@@ -87,7 +91,7 @@ def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder:
     row.cpu_recovery = time.process_time() - start
     compare(row, made, found)
     for one in found.findings:
-        if one.name in ("leak", "leak_interval", "edge_lost", "filled_holes", "free_edge", "holes"):
+        if one.name in SAID:
             print(f"    {one.name}: {one.sentence}", file=sys.stderr)
     if settings.kind == "ultrasound" and unfitted:
         low, high = leak_interval(recover(folder, settings.kind, loaded=False))

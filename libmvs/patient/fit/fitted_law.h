@@ -18,8 +18,8 @@ namespace mvs::core {
 // The default first.
 inline constexpr std::array fitted_laws = {LeafletLawId::bilinear, LeafletLawId::prot,
                                            LeafletLawId::may_newman_yin};
-// The mesh on which laws are compared has half of the default vertices, for a third of the time, and
-// each law one search: three chose the same laws in twice the time.
+// The mesh on which laws are compared has half of the default vertices, for a third of the time,
+// and each law one search: three chose the same laws in twice the time.
 inline constexpr double law_vertices = 500;
 
 // A coarse valve with one law, its chordae fitted and closed from open.
