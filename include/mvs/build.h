@@ -55,7 +55,7 @@ typedef struct mvs_build_options {
   uint32_t struct_size;
   mvs_leaflet_law leaflet_law; /* MVS_LEAFLET_LAW_*, default constants [bilinear; if a closed
                                   surface is given, that of bilinear, PROT and May-Newman and Yin
-                                  with which a fitted valve closes clearly nearest to it: finding
+                                  with which a fitted valve closes nearest to it: finding
                                   "tissue", whose value is the law] */
   double edge;                 /* m, length of the triangles' sides [as for 1,000 vertices] */
   double thickness;            /* m, where it is not known per point [0.8e-3] */

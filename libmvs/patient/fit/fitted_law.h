@@ -18,8 +18,9 @@ namespace mvs::core {
 // The default first.
 inline constexpr std::array fitted_laws = {LeafletLawId::bilinear, LeafletLawId::prot,
                                            LeafletLawId::may_newman_yin};
-// The mesh on which laws are compared has half of the default vertices, for a third of the time,
-// and each law one search: three chose the same laws in twice the time.
+// The mesh on which laws are compared has half of the default vertices, for a third of the time.
+// With one search for each law in the place of three, the assumed tips of one valve decided the
+// law.
 inline constexpr double law_vertices = 500;
 
 // A coarse valve with one law, its chordae fitted and closed from open.
@@ -28,29 +29,31 @@ struct LawFit {
   double distance = 0;  // m, RMS: of the given surface from the valve
   double edge = 0;      // m, RMS: by which the free edge was moved out
   double leak = 0;      // m2
+  double rms = 0;       // m: that of the fit (ChordFit)
   GroupFactors factor;  // on the lengths of chordae
+  bool at_rest = true;
 };
 
-// Fits `valve`, on the sheet of `g`. Empty without a closure at rest and without crossings.
+// Fits `valve`, on the sheet of `g`. Empty if it diverges or crosses itself.
 //
 // The distance is that of the given surface from the valve, not the other way round: where the
 // surface lacks tissue, as along the free edge, a valve without error is far from it whatever its
 // tissue. `tell` is called before each of law_searches searches and may throw to end the fit.
-inline constexpr uint32_t law_searches = 2;
+inline constexpr uint32_t law_searches = 4;
 std::optional<LawFit> fit_law(Valve valve, PatientGeometry g, const ClosedSurface &given,
                               bool edge_is_exact, const FitProgress &tell);
 
 // Distance and moved edge together, m.
 double misfit_of(const LawFit &fit);
 
-struct LawChoice {
-  LeafletLawId law = fitted_laws[0];
-  GroupFactors factor;        // of the fit with it, if there is one
-  std::vector<double> leaks;  // m2, of the fits with all plausible laws: the surface hardly
-                              // determines the law, and a valve leaks more or less with another one
-};
+// The nearest first, those that still creep last.
+std::vector<LawFit> in_order(std::vector<LawFit> fits);
 
-// From the fits that came to rest; adds the finding "tissue", whose value is the number of the law.
-LawChoice choose_law(const std::vector<LawFit> &fits, Findings &findings);
+// The laws that may be that of the patient, of fits in order: those up to a quarter farther away
+// than the first. The surface hardly determines the law among them.
+std::vector<LawFit> plausible_laws(const std::vector<LawFit> &fits);
+
+// The finding "tissue", whose value is the number of the law that is taken, of fits in order.
+Finding tissue_found(const std::vector<LawFit> &fits, LeafletLawId taken);
 
 }  // namespace mvs::core

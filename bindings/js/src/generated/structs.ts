@@ -1299,8 +1299,8 @@ export interface SurfaceDesc {
 export interface BuildOptions {
   /**
    * MVS_LEAFLET_LAW_*, default constants [bilinear; if a closed surface is given, that of bilinear,
-   * PROT and May-Newman and Yin with which a fitted valve closes clearly nearest to it: finding
-   * "tissue", whose value is the law]
+   * PROT and May-Newman and Yin with which a fitted valve closes nearest to it: finding "tissue",
+   * whose value is the law]
    */
   leaflet_law?: LeafletLaw | number;
   /** m, length of the triangles' sides [as for 1,000 vertices] */
