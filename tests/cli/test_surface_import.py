@@ -136,7 +136,7 @@ class SurfaceImport(unittest.TestCase):
         self.assertFalse((self.dir / "wrong.h5").exists())
 
     def test_the_tissue_of_closed_leaflets_is_found(self):
-        """Closed with another tissue than the default; what is found gives the same bits if it is given."""
+        """Closed with another tissue than the default; the finding gives the same bits as an input."""
         self.imported("open.stl", "soft.h5", "--leaflet", "may_newman_yin", edge=3.2)
         self.ok("close", self.dir / "soft.h5", "-o", self.dir / "soft.obj")
         write_stl(self.dir / "soft.stl", *read_obj(self.dir / "soft.obj"))

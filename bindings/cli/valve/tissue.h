@@ -16,7 +16,7 @@ void add_tissue_option(CLI::App &command, std::string &choice);
 void add_law_option(CLI::App &command, std::string &choice, const std::string &fallback);
 mvs_leaflet_law law_of(const std::string &choice);
 
-// The law of the finding "tissue" in a file of findings. Fails if there is none of that number.
+// The law of the finding "tissue" in a file of findings. Fails for a number that no law has.
 mvs_leaflet_law law_of_finding(double number, const std::string &path);
 
 // Sets the law of the leaflets. "file" leaves it, "membrane" turns springs into the membrane of the

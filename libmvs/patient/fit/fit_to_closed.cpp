@@ -215,13 +215,14 @@ ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettin
   groups.mean.assign(groups.groups.size(), 1);
   const FitSearch fit(valve, matcher, s, solver, jacobian);
   ChordFit done;
-  done.rms_before = rms_distance(matcher.match(*model, first.state.x));
+  const FitTrial as_it_is = fit.judged(groups, groups.mean, first);
+  done.rms_before = rms_distance(as_it_is.matches);
   std::vector<Found> found;
   size_t best = 0;
   for (uint32_t k = 0; k < std::max(1u, s.starts); ++k) {
     if (progress) progress(k);
-    FitTrial start = k == 0 && s.known.empty() ? fit.judged(groups, groups.mean, first)
-                                               : fit.from_open(groups, start_factors(groups, s, k));
+    FitTrial start =
+        k == 0 && s.known.empty() ? as_it_is : fit.from_open(groups, start_factors(groups, s, k));
     found.push_back(search(fit, groups, s, std::move(start)));
     done.rounds += found.back().rounds;
     const auto loss = [](const Found &f) {  // a valve that is not at rest is the last choice

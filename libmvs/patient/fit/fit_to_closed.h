@@ -33,7 +33,7 @@ struct FitSettings {
   double noise = 0.5e-3;            // m, standard deviation of the given surface
   uint32_t rounds = 6;              // at most, of each search
   uint32_t starts = 3;              // searches, the first from `known`
-  GroupFactors known;               // of a fit on another mesh; 1 where there is none
+  GroupFactors known;               // of a fit on another mesh; other groups begin at 1
 };
 
 // A factor is not determined by the surface if its deviation is at least this share of the prior's.

@@ -21,9 +21,8 @@ constexpr double clearly_nearer = 0.9;
 // contain the errors of the surface, and a law whose own error is three quarters of theirs has 1.25
 // times their misfit.
 constexpr double plausible = 1.25;
-// m, of the closed surface (that of FitSettings), and of the free edge of the open one as networks
-// draw it.
-constexpr double distance_error = 0.5e-3, edge_error = 1.4e-3;
+// m, of the free edge of the open surface as networks draw it.
+constexpr double edge_error = 1.4e-3;
 // Errors are independent over some 5 mm: 26 places along 130 mm of free edge, 60 on 1,500 mm2 of
 // leaflets, whose squares the distance averages.
 constexpr double edge_places = 26.0 / 60.0;
@@ -68,7 +67,7 @@ std::optional<LawFit> fit_law(Valve valve, PatientGeometry g, const ClosedSurfac
 }
 
 double misfit_of(const LawFit &fit) {
-  const double edge = fit.edge * distance_error / edge_error;
+  const double edge = fit.edge * FitSettings().noise / edge_error;
   return std::sqrt(fit.distance * fit.distance + edge_places * edge * edge);
 }
 
@@ -89,15 +88,6 @@ std::vector<LawFit> plausible_laws(const std::vector<LawFit> &fits) {
 }
 
 Finding tissue_found(const std::vector<LawFit> &fits, LeafletLawId taken) {
-  std::string words;
-  double own = 0, least = HUGE_VAL;
-  bool at_rest = false;
-  for (const LawFit &fit : fits) {
-    words += (words.empty() ? "" : ", ") + words_of(fit);
-    if (fit.law == taken) at_rest = fit.at_rest;
-    (fit.law == taken ? own : least) =
-        std::min(fit.law == taken ? HUGE_VAL : least, misfit_of(fit));
-  }
   if (fits.empty()) {
     return {"tissue",
             FindingSource::assumed,
@@ -108,11 +98,18 @@ Finding tissue_found(const std::vector<LawFit> &fits, LeafletLawId taken) {
             {static_cast<double>(taken)},
             ""};
   }
+  std::string words;
+  for (const LawFit &fit : fits) words += (words.empty() ? "" : ", ") + words_of(fit);
+  const LawFit &own =
+      *std::find_if(fits.begin(), fits.end(), [&](const LawFit &fit) { return fit.law == taken; });
+  const bool clear = std::all_of(fits.begin(), fits.end(), [&](const LawFit &fit) {
+    return fit.law == taken || misfit_of(own) <= clearly_nearer * misfit_of(fit);
+  });
   return {"tissue",
           FindingSource::guessed,
-          !at_rest                        ? 0.2
-          : own <= clearly_nearer * least ? 0.6
-                                          : 0.4,
+          !own.at_rest ? 0.2
+          : clear      ? 0.6
+                       : 0.4,
           format("%s, by distances (RMS) of the closed surface from coarse valves with fitted "
                  "chordae, and by how much their free edges had to be moved out: %s; give the law "
                  "if it is known",

@@ -33,7 +33,7 @@ struct ShapeLeaks {
 // nearest to a point counts whichever way it faces: an edge that is rounded off in one surface has
 // its nearest tissue around the corner.
 double distance_between(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x);
-// That of the given surface from the valve alone.
+// The distance of the given surface from the valve, m RMS.
 double distance_from_valve(const ClosedSurface &given, const Model &model,
                            const std::vector<Vec3> &x);
 
