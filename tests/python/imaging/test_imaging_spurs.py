@@ -1,4 +1,4 @@
-"""mvs.imaging: spurs of labels are cut off the mid-surface."""
+"""mvs.imaging: spurs of labels are cut off the mid-surface, and narrow bridges between open leaflets."""
 
 import mvs
 import numpy as np
@@ -89,3 +89,28 @@ def test_fingers_at_the_rims_of_closed_leaflets_are_cut_off():
     assert not [one for one in findings if one.name == "closed_spurs"]
     assert whole.max() < 0.7  # a voxel: a rim ends somewhere in its last one
     assert area == pytest.approx(whole_area, rel=0.02)
+
+
+def bridged(width):
+    """A funnel of two labels with a strand of a width, mm, between the leaflets, across the middle of the orifice."""
+    labels, at = funnel()
+    x, y, z = (at[..., k] for k in range(3))
+    strand = (np.abs(x) < width / 2) & (np.abs(z + 7) < 0.8) & (np.hypot(x, y) < 8.5) & (labels == 0)
+    labels[strand] = np.where(y > 0, 1, 2)[strand]
+    return imaging.leaflets_in(imaging.labels_of(image_of(labels), NAMES))
+
+
+def test_narrow_bridges_between_open_leaflets_are_cut_and_wide_ones_refused():
+    """Labels of open leaflets that touch: the orifice is in two parts, and such images were refused."""
+    found = bridged(width=1.6)
+    assert len(mesh.boundary_loops(found.sheet.triangles)) == 3
+    imaging.check_open_valve(found)
+    (cut,) = [one for one in found.findings if one.name == "bridges"]
+    assert cut.source == mvs.FindingSource.GUESSED and "near (0, 0, -7)" in cut.sentence
+    # 15 mm long, two or three voxels wide, but for stubs half as long as the widest bridge
+    assert 10e-6 < cut.values[0] < 15e-3 * 3 * 0.7e-3
+    annulus, edge = (mesh.loop_length(found.sheet.points, one) for one in mesh.loops_by_length(found.sheet))
+    assert annulus == pytest.approx(2 * np.pi * 16e-3, rel=0.05)
+    assert 2 * np.pi * 8e-3 < edge < 1.3 * 2 * np.pi * 8e-3  # both stubs lengthen it
+    with pytest.raises(mvs.ArgumentError, match="3 rims.*joins the leaflets"):
+        imaging.check_open_valve(bridged(width=6))

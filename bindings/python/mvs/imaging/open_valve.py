@@ -9,7 +9,7 @@ from mvs import ArgumentError, FindingSource
 from .findings import finding
 from .labels import Leaflets, LabelSettings
 from .mesh import areas, edges_with_triangles, loop_length, loops_by_length, spanned
-from .spurs import cut_spurs
+from .spurs import cut_bridges, cut_spurs
 
 
 LONG_HOLE_SHARE, LONG_HOLE_AREA, OTHER_LEAFLET = 0.4, 40e-6, 0.1
@@ -17,7 +17,8 @@ LONG_HOLE_SHARE, LONG_HOLE_AREA, OTHER_LEAFLET = 0.4, 40e-6, 0.1
 m2 that it spans, and the share of it with the label of the other leaflet."""
 
 def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings()) -> None:
-    """Fills small holes; ArgumentError unless the rest is an open valve, a ring of tissue with two rims.
+    """Fills small holes and cuts narrow bridges between the leaflets; ArgumentError unless the rest is an open valve,
+    a ring of tissue with two rims.
 
     Longer holes that are narrow and lie in one leaflet are left to the build, which fills them as well.
     """
@@ -28,12 +29,13 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
             f"the leaflets have {total * 1e4:.1f} cm2 (those of a mitral valve have 6 to 30): there is "
             "no whole valve in the image, or its spacing is wrong", "image")
     cut_spurs(found)
+    loops, length, rims = _rims(found, settings)
+    while len(rims) > 2 and _is_orifice(found, loops[rims[2]]):
+        if not cut_bridges(found, loops[rims[1]], loops[rims[2]]):
+            break
+        loops, length, rims = _rims(found, settings)
     sheet = found.sheet
-    loops = loops_by_length(sheet)
-    length = [loop_length(sheet.points, loop) for loop in loops]
-    small = [k for k, l in enumerate(length) if k >= 2 and l <= np.pi * settings.hole]
-    rims = [k for k in range(len(loops))
-            if k < 2 or k not in small and not _is_long_hole(found, loops[k], length[k], length[0])]
+    small = [k for k in range(2, len(loops)) if length[k] <= np.pi * settings.hole]
     if len(loops) < 2 or length[1] <= np.pi * settings.hole:
         raise ArgumentError(
             "the leaflets have one rim and no orifice: the valve is closed in this image, the label covers "
@@ -56,13 +58,30 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
             f"{len(holes)} holes with rims up to {1e3 * holes[0]:.1f} mm long were filled", holes, "m"))
 
 
+def _rims(found: Leaflets, settings: LabelSettings) -> tuple[list[NDArray[np.int64]], list[float], list[int]]:
+    """The boundary loops, longest first, their lengths, and which of them are no holes that can be filled."""
+    loops = loops_by_length(found.sheet)
+    length = [loop_length(found.sheet.points, loop) for loop in loops]
+    return loops, length, [k for k in range(len(loops)) if k < 2 or length[k] > np.pi * settings.hole
+                           and not _is_long_hole(found, loops[k], length[k], length[0])]
+
+
 def _is_long_hole(found: Leaflets, loop: NDArray[np.int64], length: float, longest: float) -> bool:
     """Whether a loop is narrow and lies in one leaflet: labels lose stretches above a strand of tissue."""
-    area = spanned(found.sheet.points, loop)
+    return bool(length < LONG_HOLE_SHARE * longest and spanned(found.sheet.points, loop) < LONG_HOLE_AREA
+                and not _faces_other_leaflet(found, loop))
+
+
+def _is_orifice(found: Leaflets, loop: NDArray[np.int64]) -> bool:
+    """Whether a loop is a part of the orifice, which the labels bridge: wide, with both leaflets along it."""
+    return bool(spanned(found.sheet.points, loop) >= LONG_HOLE_AREA and _faces_other_leaflet(found, loop))
+
+
+def _faces_other_leaflet(found: Leaflets, loop: NDArray[np.int64]) -> bool:
+    """Whether both leaflets have a part of a loop, as they have of the orifice."""
     at_rim = np.isin(found.sheet.triangles, loop).sum(axis=1) >= 2
     label = np.bincount(found.leaflet[at_rim], minlength=3)[1:]
-    return bool(length < LONG_HOLE_SHARE * longest and area < LONG_HOLE_AREA
-                and label.min() <= OTHER_LEAFLET * label.sum())
+    return bool(label.min() > OTHER_LEAFLET * label.sum())
 
 
 def fill_hole(found: Leaflets, loop: NDArray[np.int64]) -> None:

@@ -1,4 +1,4 @@
-"""Spurs of labels: ribbons of mid-surface that are narrower than any part of a leaflet, cut off.
+"""Spurs and bridges of labels: ribbons of mid-surface that are narrower than any part of a leaflet, cut off.
 
 An opening of the sheet: places farther from the rims than half a ribbon's width stay, and what is within that
 width of them.
@@ -19,6 +19,10 @@ SPUR_WIDTH = 1.5
 """Widths of the tissue: narrower ribbons of mid-surface are spurs. Fingers of labels are about as wide as
 thick, their mid-surface is narrower, and leaflets are ten times as wide."""
 
+BRIDGE_WIDTH = 3.0
+"""Widths of the tissue: narrower ribbons between two parts of the orifice, one leaflet on each side, are places where
+the labels of open leaflets touch. Wider ones are left to the reader of the image."""
+
 LEAST_PIECE = 0.05
 """Share of the area: a smaller part that only a ribbon joins to the rest goes with the ribbon."""
 
@@ -32,14 +36,37 @@ def cut_spurs(found: Leaflets) -> None:
     loops = loops_by_length(found.sheet)
     if len(loops) < 3:
         return
-    kept, cut = _without_ribbons(found.sheet, loops[2:])
+    half = _half(found.sheet, SPUR_WIDTH)
+    kept, cut = _without(found.sheet, *_ribbons(found.sheet, loops[2:], half))
     if not len(cut):
         return
     found.sheet, found.leaflet = found.sheet.part(kept), found.leaflet[kept]
     found.findings.append(finding(
         "spurs", FindingSource.GUESSED, 0.7,
-        f"{len(cut)} ribbons of tissue narrower than {2e3 * _half(found.sheet):.1f} mm that stand on the leaflets "
+        f"{len(cut)} ribbons of tissue narrower than {2e3 * half:.1f} mm that stand on the leaflets "
         f"beside a hole, {1e6 * cut.sum():.0f} mm2, were cut off as spurs of the labels", cut.tolist(), "m2"))
+
+
+def cut_bridges(found: Leaflets, orifice: NDArray[np.int64], other: NDArray[np.int64]) -> bool:
+    """Cuts ribbons that join the leaflets between two rims, which are parts of one orifice; whether there was one."""
+    sheet = found.sheet
+    half = _half(sheet, BRIDGE_WIDTH)
+    ribbons, piece, area = _ribbons(sheet, [orifice, other], half)
+    corners = sheet.triangles[ribbons]
+    touching = [np.unique(piece[np.isin(corners, rim).any(axis=1)]) for rim in (orifice, other)]
+    joins = np.isin(piece, np.intersect1d(*touching))
+    kept, cut = _without(sheet, ribbons[joins], piece[joins], area)
+    if not len(cut):
+        return False
+    place = np.round(sheet.points[sheet.triangles[~kept]].mean(axis=(0, 1)) * 1e3) + 0.0
+    found.sheet, found.leaflet = sheet.part(kept), found.leaflet[kept]
+    found.findings.append(finding(
+        "bridges", FindingSource.GUESSED, 0.5,
+        f"the leaflets were joined across the orifice by tissue narrower than {2e3 * half:.1f} mm, {1e6 * cut.sum():.0f} mm2 "
+        f"near ({place[0]:.0f}, {place[1]:.0f}, {place[2]:.0f}) mm in LPS. It was cut, "
+        "as labels of open leaflets touch by mistake; if a clip or a suture joins the leaflets there, apply it to the valve "
+        "as a repair", cut.tolist(), "m2"))
+    return True
 
 
 def without_spurs(sheet: Sheet, name: str, findings: list[Finding]) -> Sheet:
@@ -47,41 +74,49 @@ def without_spurs(sheet: Sheet, name: str, findings: list[Finding]) -> Sheet:
     loops = loops_by_length(sheet)
     if not loops:
         return sheet
-    kept, cut = _without_ribbons(sheet, loops)
+    half = _half(sheet, SPUR_WIDTH)
+    kept, cut = _without(sheet, *_ribbons(sheet, loops, half))
     if not len(cut):
         return sheet
     findings.append(finding(
         "closed_spurs", FindingSource.GUESSED, 0.7,
-        f"loaded image, {name}: {len(cut)} ribbons narrower than {2e3 * _half(sheet):.1f} mm, "
+        f"loaded image, {name}: {len(cut)} ribbons narrower than {2e3 * half:.1f} mm, "
         f"{1e6 * cut.sum():.0f} mm2, were cut off as spurs of the labels", cut.tolist(), "m2"))
     return sheet.part(kept)
 
 
-def _half(sheet: Sheet) -> float:
-    """Half of the width of the widest ribbon, m."""
-    return 0.5 * SPUR_WIDTH * float(np.median(sheet.values["thickness"]))
+def _half(sheet: Sheet, widths: float) -> float:
+    """Half of the width of the widest ribbon, m, from widths of the tissue."""
+    return 0.5 * widths * float(np.median(sheet.values["thickness"]))
 
 
-def _without_ribbons(sheet: Sheet, rims: list[NDArray[np.int64]]) -> tuple[NDArray[np.bool_], Points]:
-    """The triangles that stay where ribbons between some rims are cut off, and the areas of these, m2."""
-    half = _half(sheet)
+def _ribbons(sheet: Sheet, rims: list[NDArray[np.int64]],
+             half: float) -> tuple[NDArray[np.int64], NDArray[np.int64], Points]:
+    """The triangles of ribbons between some rims, the piece of each, and the areas of the pieces, m2."""
     edges, _ = unique_edges(sheet.triangles)
     size = areas(sheet.points, sheet.triangles)
-    every = np.ones(len(size), bool)
+    none = np.zeros(0, np.int64)
     core = _far_from(sheet.points, edges, np.unique(np.concatenate(rims)), half)
     inner = _large_pieces(sheet, core[sheet.triangles].all(axis=1), size)
     if not inner.any():
-        return every, np.zeros(0)
+        return none, none, np.zeros(0)
     # paths along edges are up to a sixth longer than straight ones (in regular triangles), and the first points
     # beyond a distance lie an edge beyond it
     edge = np.percentile(np.linalg.norm(sheet.points[edges[:, 0]] - sheet.points[edges[:, 1]], axis=1), 99)
     lost = _far_from(sheet.points, edges, np.unique(sheet.triangles[inner]), 7 / 6 * half + float(edge))
-    kept = _large_pieces(sheet, ~lost[sheet.triangles].any(axis=1), size)
-    ribbons = np.flatnonzero(~kept)
+    ribbons = np.flatnonzero(~_large_pieces(sheet, ~lost[sheet.triangles].any(axis=1), size))
     piece = pieces(sheet.triangles[ribbons], len(sheet.points))
     area = np.bincount(piece, size[ribbons])
-    kept[ribbons[area[piece] < half**2]] = True  # corners of a rim
-    return kept, area[area >= half**2]
+    large = area[piece] >= half**2  # others are corners of a rim
+    return ribbons[large], piece[large], area
+
+
+def _without(sheet: Sheet, ribbons: NDArray[np.int64], piece: NDArray[np.int64],
+             area: Points) -> tuple[NDArray[np.bool_], Points]:
+    """The triangles that stay without ribbons, and the areas of these, m2."""
+    kept = np.ones(len(sheet.triangles), bool)
+    kept[ribbons] = False
+    return kept, area[np.unique(piece)]
 
 
 def _large_pieces(sheet: Sheet, chosen: NDArray[np.bool_], size: Points) -> NDArray[np.bool_]:
