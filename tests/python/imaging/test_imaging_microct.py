@@ -171,7 +171,8 @@ def test_no_closure_is_spent_on_chordae_that_are_replaced_and_each_stage_is_told
     assert sum(one.startswith("closing the valve with the tissue") for one in stages) == 4
     last = stages[stages.index("lengths of chordae under load"):]
     assert [one.split(" with the tissue ")[0] for one in last] == [
-        "lengths of chordae under load", *["fitting the lengths of chordae"] * 3, "leak over the errors of the lengths"]
+        "lengths of chordae under load", "closing the valve with chordae that are not seen",
+        *["fitting the lengths of chordae"] * 3, "leak over the errors of the lengths"]
     # closures tell their share within each of these stages
     last = len(told) - 1 - told[::-1].index(stages[-1])
     assert len(told) - last > 3 and max(told[last + 1 :]) > 0
@@ -189,7 +190,7 @@ def test_a_loaded_volume_gives_places_and_lengths(run, volume):
                             edge=1.8e-3)
     assert made.converged and made.loaded is not None
     named = {one.name: one for one in made.findings}
-    assert {"registration", "head_motion", "annulus_motion", "loaded_chordae",
+    assert {"registration", "head_motion", "annulus_motion", "loaded_chordae", "unseen_chordae",
             "closed_distance", "leak_interval"} <= set(named)
     heads = np.asarray(made.opened.head_nodes)
     assert np.asarray(made.opened.node_loaded)[heads] * 1e3 == pytest.approx(MUSCLES, abs=1e-9)

@@ -53,7 +53,7 @@ def loaded_of(volume: Any, fixed: Any, landmarks: Mapping[str, Any], own: Mappin
         motion, found = motion_of_images(volume, fixed)
     else:
         motion, found = motion_between(how, dict(landmarks), dict(own))
-    run = pipeline.run({"image": volume, "tips": own.get("papillary_tips")},
+    run = pipeline.run({"image": volume, "tips": own.get("papillary_tips"), "loaded": True},
                        progress=lambda stage: console.stage(f"loaded image: {stage}"))
     sheet: Sheet = run["sheet"]
     places: Optional[Points] = None
@@ -87,16 +87,16 @@ def with_loaded_boundary(valve: mvs.Valve, network: ChordNetwork, loaded: Loaded
     elif len(loaded.tips):
         found.append(_with_nearest_tips(nodes, valve, network, loaded.tips))
     annulus = np.asarray(valve.annulus, np.int64)
-    loops = boundary_loops(loaded.surface.triangles)
-    if loops:
-        loop = max(loops, key=lambda one: loop_length(loaded.surface.points, one))
-        step = _onto_curve(nodes[annulus], loaded.surface.points[loop])
+    rims = [loaded.surface.points[loop] for loop in boundary_loops(loaded.surface.triangles)
+            if loop_length(loaded.surface.points, loop) > RIM]
+    if rims:
+        step = _onto_rims(nodes[annulus], rims)
         nodes[annulus] += step
         size = np.linalg.norm(step, axis=1)
         found.append(finding(
             "annulus_motion", mvs.FindingSource.MEASURED, 0.6,
             f"the annulus moves by {1e3 * size.mean():.1f} mm, at most {1e3 * size.max():.1f} mm, to the "
-            "rim in the loaded image, across its own line only"))
+            "rims in the loaded image, across its own line only"))
     valve.nodes_loaded = nodes
     return found
 
@@ -115,12 +115,44 @@ def _with_nearest_tips(nodes: Points, valve: mvs.Valve, network: ChordNetwork,
         "their places in the loaded image")
 
 
-def _onto_curve(points: Points, curve: Points) -> Points:
-    """Steps (n, 3) from a loop of points to their nearest points on a curve, averaged along the loop."""
-    dense = np.vstack([curve + share * (np.roll(curve, -1, 0) - curve) for share in (0, 0.25, 0.5, 0.75)])
+RIM = 20e-3
+"""m: shorter boundaries are holes. Where leaflets touch they are one sheet: annulus and free edge are then parts of one
+or several boundaries, of which no one is the annulus."""
+FARTHEST, USUAL = 6e-3, 1e-3
+"""m: a point of the annulus moves at most so far to a rim, and a millimetre beside the affine motion of the whole, or
+2.5 times as far as the median: others are where the loaded image lacks a part of a leaflet, or at a free edge"""
+ROUNDS = 20
+LONGEST_GAP = 0.35
+"""Share of the annulus over which the affine motion of the rest may stand in; nothing moves where a wider part is not seen"""
+
+
+def _onto_rims(points: Points, rims: list[Points]) -> Points:
+    """Steps (n, 3) from a loop of points to their nearest points on curves, averaged along the loop.
+
+    Where no curve belongs to them, the affine motion of the others.
+    """
+    dense = np.vstack([rim + share * (np.roll(rim, -1, 0) - rim) for rim in rims for share in (0, 0.25, 0.5, 0.75)])
     away, nearest = need("scipy.spatial").cKDTree(dense).query(points)
-    step = np.where((away < 6e-3)[:, None], dense[nearest] - points, 0)
+    step = dense[nearest] - points
+    # the constant is about as large as the coordinates
+    terms = np.column_stack([points - points.mean(axis=0), np.full(len(points), 1e-2)])
+    used, whole = away < FARTHEST, np.zeros_like(step)
+    for _ in range(ROUNDS):
+        if not used.any() or _longest_gap(used) > LONGEST_GAP:
+            return np.zeros_like(step)
+        whole = terms @ np.linalg.lstsq(terms[used], step[used], rcond=None)[0]
+        beside = np.linalg.norm(step - whole, axis=1)
+        before, used = used, (away < FARTHEST) & (beside < max(USUAL, 2.5 * float(np.median(beside[used]))))
+        if (used == before).all():
+            break
+    step = np.where(used[:, None], step, whole)
     return np.asarray(need("scipy.ndimage").gaussian_filter1d(step, 2, axis=0, mode="wrap"))
+
+
+def _longest_gap(used: NDArray[np.bool_]) -> float:
+    """The longest run of points of a loop that are not used, as a share of all."""
+    places = np.flatnonzero(used)
+    return float(np.diff(np.append(places, places[0] + len(used))).max() - 1) / len(used)
 
 
 Closure = tuple[mvs.Snapshot, mvs.Snapshot, mvs.Stats]

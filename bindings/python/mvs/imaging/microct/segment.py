@@ -140,7 +140,8 @@ def nearest_voxels(mask: Mask, voxels: NDArray[np.int64],
 
 def leaflets_of(results: Mapping[str, Any]) -> LeafletMask:
     """Flat tissue by second moments in a Gaussian window; webs of chordae, narrower than 3 mm, removed
-    by an opening within the sheet; the largest piece, grown to its rims.
+    by an opening within the sheet; the largest piece, grown to its rims. Under load ("loaded") all large pieces:
+    where both leaflets touch tissue is thick and may part them.
     """
     image = need("scipy.ndimage")
     tissue: Tissue = results["tissue"]
@@ -159,12 +160,22 @@ def leaflets_of(results: Mapping[str, Any]) -> LeafletMask:
         raise ArgumentError("no leaflet is seen in the image: no tissue is flat", "image")
     size = np.bincount(label.ravel())
     size[0] = 0
-    inner = label == size.argmax()
+    inner = np.isin(label, large_pieces(size) if results.get("loaded") else size.argmax())
     # back to what the opening took at the rims, and to the rims themselves
     inner = image.binary_dilation(inner, EVERYWHERE, iterations=int(np.ceil(1.2e-3 / cell)), mask=flat)
     seeds = thin & blown_up(inner, factor, thin.shape)
     grown = image.binary_dilation(seeds, EVERYWHERE, iterations=int(round(0.8e-3 / step)), mask=thin)
     return LeafletMask(grown, int((size > 0.05 * size.max()).sum()))
+
+
+LARGE_PIECE = 0.15
+"""A piece of the loaded leaflets has at least this share of the largest: a posterior leaflet that only its coaptation
+joins to the anterior one has a third of its area and more."""
+
+
+def large_pieces(size: NDArray[Any]) -> NDArray[np.int64]:
+    """The numbers of the pieces that have at least LARGE_PIECE of the size of the largest."""
+    return np.flatnonzero(size >= LARGE_PIECE * size.max())
 
 
 def opened(flat: Mask, radius: float) -> Mask:

@@ -24,6 +24,7 @@ from .loaded import Loaded, loaded_of, settled, with_loaded_boundary
 from .muscles import muscle_groups
 from .stages import PIPELINE
 from .tissue import with_tissue_of_image
+from .unseen import with_unseen_chords
 
 Points = NDArray[np.float64]
 MARGINAL, BASAL = 2.5e-3, 4e-3
@@ -89,7 +90,7 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     valve = mvs.valve_of(made.opened)
     vertex, moved = _vertices_of(made.opened, network)
     _set_chords(valve, made.opened, network, vertex)
-    found = [_chord_finding(network, moved, bare_edge(made.opened, vertex))]
+    found = [_chord_finding(network, moved, bare_edge(made.opened, vertex), loaded is not None)]
     if loaded is not None:
         found += with_loaded_boundary(valve, network, loaded)
     laws: list[mvs.LeafletLaw] = []
@@ -102,6 +103,11 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     if loaded is not None and closure[2].converged:
         console.stage("lengths of chordae under load")
         closure, measured = with_loaded_lengths(valve, closure[1], network, loaded, console)
+        unseen = with_unseen_chords(valve, made.opened, closure[1], loaded.surface)
+        if unseen:
+            measured += unseen
+            console.stage("closing the valve with chordae that are not seen")
+            closure = settled(valve, console)
         closure, fitted = with_fitted_lengths(valve, closure, laws, loaded.surface, console)
         measured += fitted
         replaced = {one.name for one in measured}
@@ -195,13 +201,14 @@ def bare_edge(opened: mvs.Snapshot, vertex: NDArray[np.int64]) -> float:
     return float(np.diff(np.append(places, places[0] + at[-1])).max())
 
 
-def _chord_finding(network: ChordNetwork, moved: Points, bare: float) -> mvs.Finding:
+def _chord_finding(network: ChordNetwork, moved: Points, bare: float, is_loaded: bool) -> mvs.Finding:
     lacks = bare > BARE_EDGE
     return finding(
         "chordae", mvs.FindingSource.MEASURED, 0.3 if lacks else 0.7,
         f"{network}; their ends moved by {1e3 * np.median(moved):.2f} mm in the median, at most "
         f"{1e3 * moved.max():.2f} mm, to vertices of the mesh; rest lengths are the lengths in the open "
         "image, slack arcs included"
-        + (f"; along {1e3 * bare:.0f} mm of the free edge none is seen: if the valve has chordae there, it leaks "
-           "too much, and labels of the leaflets (without chordae) give a better valve" if lacks else ""),
+        + (f"; along {1e3 * bare:.0f} mm of the free edge none is seen" if lacks else "")
+        + (": if the valve has chordae there, it leaks too much; give the loaded image, whose leaflets tell the lengths of "
+           "chordae that are not seen" if lacks and not is_loaded else ""),
         network.length, "m")
