@@ -102,15 +102,30 @@ def bridged(width):
 
 def test_narrow_bridges_between_open_leaflets_are_cut_and_wide_ones_refused():
     """Labels of open leaflets that touch: the orifice is in two parts, and such images were refused."""
-    found = bridged(width=1.6)
+    found = bridged(width=3)
     assert len(mesh.boundary_loops(found.sheet.triangles)) == 3
     imaging.check_open_valve(found)
     (cut,) = [one for one in found.findings if one.name == "bridges"]
     assert cut.source == mvs.FindingSource.GUESSED and "near (0, 0, -7)" in cut.sentence
-    # 15 mm long, two or three voxels wide, but for stubs half as long as the widest bridge
-    assert 10e-6 < cut.values[0] < 15e-3 * 3 * 0.7e-3
+    # 15 mm long, four or five voxels wide, but for stubs half as long as the widest bridge
+    assert 25e-6 < cut.values[0] < 15e-3 * 5 * 0.7e-3
     annulus, edge = (mesh.loop_length(found.sheet.points, one) for one in mesh.loops_by_length(found.sheet))
     assert annulus == pytest.approx(2 * np.pi * 16e-3, rel=0.05)
     assert 2 * np.pi * 8e-3 < edge < 1.3 * 2 * np.pi * 8e-3  # both stubs lengthen it
     with pytest.raises(mvs.ArgumentError, match="3 rims.*joins the leaflets"):
         imaging.check_open_valve(bridged(width=6))
+
+
+def test_fingers_at_the_free_edge_of_open_leaflets_are_cut_off():
+    """One that lay before the other leaflet passed for coaptation: the open valve was refused as a closed one."""
+    labels, at = funnel()
+    x, y, z = (at[..., k] for k in range(3))
+    labels[(np.hypot(x, y - 8) < 0.9) & (z < -7) & (z > -17)] = 1
+    found = imaging.leaflets_in(imaging.labels_of(image_of(labels), NAMES))
+    before = mesh.loop_length(found.sheet.points, mesh.loops_by_length(found.sheet)[1])
+    imaging.check_open_valve(found)
+    (cut,) = [one for one in found.findings if one.name == "spurs"]
+    assert "out of their rims" in cut.sentence and 5e-6 < cut.values.sum() < 17e-6
+    edge = mesh.loop_length(found.sheet.points, mesh.loops_by_length(found.sheet)[1])
+    # a finger of 9 mm has two sides of 9 mm; a stub half as long as wide stays
+    assert before - edge > 12e-3 and edge == pytest.approx(2 * np.pi * 8e-3, rel=0.1)

@@ -19,6 +19,9 @@ SPUR_WIDTH = 1.5
 """Widths of the tissue: narrower ribbons of mid-surface are spurs. Fingers of labels are about as wide as
 thick, their mid-surface is narrower, and leaflets are ten times as wide."""
 
+FIN_WIDTH = 2.5
+"""Widths of the tissue, of ribbons between holes: around a hole in a leaflet tissue is wider, or it is part of the rim too"""
+
 BRIDGE_WIDTH = 3.0
 """Widths of the tissue: narrower ribbons between two parts of the orifice, one leaflet on each side, are places where
 the labels of open leaflets touch. Wider ones are left to the reader of the image."""
@@ -28,23 +31,22 @@ LEAST_PIECE = 0.05
 
 
 def cut_spurs(found: Leaflets) -> None:
-    """Cuts ribbons off whose outline is a hole: a spur stands on the leaflet, and its mid-surface is a fin that
-    opens the sheet at its root. Its filling would lie on the fin and cross it.
-
-    Rims of holes without spurs stay as they are.
+    """Cuts ribbons off at all rims. One that stands on a leaflet is a fin whose outline is a hole: the filling would lie
+    on the fin and cross it. One at the free edge lies over tissue of the other leaflet, or lengthens the edge.
     """
-    loops = loops_by_length(found.sheet)
-    if len(loops) < 3:
-        return
-    half = _half(found.sheet, SPUR_WIDTH)
-    kept, cut = _without(found.sheet, *_ribbons(found.sheet, loops[2:], half))
-    if not len(cut):
-        return
-    found.sheet, found.leaflet = found.sheet.part(kept), found.leaflet[kept]
-    found.findings.append(finding(
-        "spurs", FindingSource.GUESSED, 0.7,
-        f"{len(cut)} ribbons of tissue narrower than {2e3 * half:.1f} mm that stand on the leaflets "
-        f"beside a hole, {1e6 * cut.sum():.0f} mm2, were cut off as spurs of the labels", cut.tolist(), "m2"))
+    widths, spurs = [], np.zeros(0)
+    for width, first in ((FIN_WIDTH, 2), (SPUR_WIDTH, 0)):
+        half = _half(found.sheet, width)
+        kept, cut = _without(found.sheet, *_ribbons(found.sheet, loops_by_length(found.sheet)[first:], half))
+        if len(cut):
+            found.sheet, found.leaflet = found.sheet.part(kept), found.leaflet[kept]
+            widths.append(2e3 * half)
+            spurs = np.append(spurs, cut)
+    if len(spurs):
+        found.findings.append(finding(
+            "spurs", FindingSource.GUESSED, 0.7,
+            f"{len(spurs)} ribbons of tissue narrower than {max(widths):.1f} mm that stand on the leaflets or out of their rims, "
+            f"{1e6 * spurs.sum():.0f} mm2, were cut off as spurs of the labels", spurs.tolist(), "m2"))
 
 
 def cut_bridges(found: Leaflets, orifice: NDArray[np.int64], other: NDArray[np.int64]) -> bool:
@@ -71,11 +73,8 @@ def cut_bridges(found: Leaflets, orifice: NDArray[np.int64], other: NDArray[np.i
 
 def without_spurs(sheet: Sheet, name: str, findings: list[Finding]) -> Sheet:
     """A closed leaflet without the ribbons at any of its rims; a target of a fit needs no whole rim."""
-    loops = loops_by_length(sheet)
-    if not loops:
-        return sheet
     half = _half(sheet, SPUR_WIDTH)
-    kept, cut = _without(sheet, *_ribbons(sheet, loops, half))
+    kept, cut = _without(sheet, *_ribbons(sheet, loops_by_length(sheet), half))
     if not len(cut):
         return sheet
     findings.append(finding(
@@ -93,9 +92,11 @@ def _half(sheet: Sheet, widths: float) -> float:
 def _ribbons(sheet: Sheet, rims: list[NDArray[np.int64]],
              half: float) -> tuple[NDArray[np.int64], NDArray[np.int64], Points]:
     """The triangles of ribbons between some rims, the piece of each, and the areas of the pieces, m2."""
+    none = np.zeros(0, np.int64)
+    if not rims:
+        return none, none, np.zeros(0)
     edges, _ = unique_edges(sheet.triangles)
     size = areas(sheet.points, sheet.triangles)
-    none = np.zeros(0, np.int64)
     core = _far_from(sheet.points, edges, np.unique(np.concatenate(rims)), half)
     inner = _large_pieces(sheet, core[sheet.triangles].all(axis=1), size)
     if not inner.any():
