@@ -29,7 +29,7 @@ struct FitSettings {
   double pressure = systolic_pressure;
   double least = 0.8, most = 1.25;  // factors
   double prior = 0.1;               // standard deviation of a group's factor
-  double single_prior = 0.04;       // of a chord's factor around that of its group
+  double single_prior = 0.1;        // of a chord's factor around that of its group
   double noise = 0.5e-3;            // m, standard deviation of the given surface
   uint32_t rounds = 6;              // at most, of each search
   uint32_t starts = 3;              // searches, the first from `known`
