@@ -33,11 +33,17 @@ LEAST_PIECE = 0.05
 def cut_spurs(found: Leaflets) -> None:
     """Cuts ribbons off at all rims. One that stands on a leaflet is a fin whose outline is a hole: the filling would lie
     on the fin and cross it. One at the free edge lies over tissue of the other leaflet, or lengthens the edge.
+
+    A ribbon between two rims is no spur: low tissue at a commissure, or a strand below a hole.
     """
     widths, spurs = [], np.zeros(0)
     for width, first in ((FIN_WIDTH, 2), (SPUR_WIDTH, 0)):
         half = _half(found.sheet, width)
-        kept, cut = _without(found.sheet, *_ribbons(found.sheet, loops_by_length(found.sheet)[first:], half))
+        loops = loops_by_length(found.sheet)
+        ribbons, piece, area = _ribbons(found.sheet, loops[first:], half)
+        touched = _touched(found.sheet.triangles[ribbons], piece, loops)
+        single = np.isin(piece, [one for one, rims in touched.items() if len(rims) == 1])
+        kept, cut = _without(found.sheet, ribbons[single], piece[single], area)
         if len(cut):
             found.sheet, found.leaflet = found.sheet.part(kept), found.leaflet[kept]
             widths.append(2e3 * half)
@@ -54,9 +60,8 @@ def cut_bridges(found: Leaflets, orifice: NDArray[np.int64], other: NDArray[np.i
     sheet = found.sheet
     half = _half(sheet, BRIDGE_WIDTH)
     ribbons, piece, area = _ribbons(sheet, [orifice, other], half)
-    corners = sheet.triangles[ribbons]
-    touching = [np.unique(piece[np.isin(corners, rim).any(axis=1)]) for rim in (orifice, other)]
-    joins = np.isin(piece, np.intersect1d(*touching))
+    touched = _touched(sheet.triangles[ribbons], piece, [orifice, other])
+    joins = np.isin(piece, [one for one, rims in touched.items() if len(rims) == 2])
     kept, cut = _without(sheet, ribbons[joins], piece[joins], area)
     if not len(cut):
         return False
@@ -110,6 +115,16 @@ def _ribbons(sheet: Sheet, rims: list[NDArray[np.int64]],
     area = np.bincount(piece, size[ribbons])
     large = area[piece] >= half**2  # others are corners of a rim
     return ribbons[large], piece[large], area
+
+
+def _touched(triangles: NDArray[np.int64], piece: NDArray[np.int64],
+             rims: list[NDArray[np.int64]]) -> dict[int, set[int]]:
+    """The numbers of the rims that each piece of some triangles touches."""
+    found: dict[int, set[int]] = {}
+    for k, rim in enumerate(rims):
+        for one in np.unique(piece[np.isin(triangles, rim).any(axis=1)]).tolist():
+            found.setdefault(one, set()).add(k)
+    return found
 
 
 def _without(sheet: Sheet, ribbons: NDArray[np.int64], piece: NDArray[np.int64],
