@@ -106,6 +106,18 @@ def test_slits_above_the_free_edge_are_closed_in_the_labels():
     assert np.sqrt((away**2).mean()) < 0.35  # half a voxel
 
 
+def test_a_ring_that_is_torn_from_annulus_to_free_edge_is_closed():
+    """Labels that lack a stretch at a commissure: the sheet had one rim, and the image was refused as a closed valve."""
+    labels, at = funnel()
+    labels[(np.abs(at[..., 0]) < 0.8) & (at[..., 1] < 0)] = 0  # two voxels
+    found = found_in(labels)
+    imaging.check_open_valve(found)
+    (gap,) = [one for one in found.findings if one.name == "closed_gaps"]
+    assert gap.source == mvs.FindingSource.GUESSED and "a tear" in gap.sentence
+    assert np.sqrt((away_from_cone(found.sheet.points) ** 2).mean()) < 0.35  # half a voxel
+    assert len(mesh.boundary_loops(found.sheet.triangles)) == 2
+
+
 def without_strip(found, leaflets):
     """The sheet without a strip 9 mm wide in the middle of one leaflet, or across a commissure."""
     x, y, z = 1e3 * found.sheet.points[found.sheet.triangles].mean(axis=1).T

@@ -225,21 +225,21 @@ def width_of(mask: NDArray[np.bool_], spacing: Points) -> float:
 
 def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
               findings: list[Finding], tell: Tell) -> tuple[Sheet, Grid]:
-    """The mid-surface; tissue is closed step by step until the sheet has no tunnel."""
+    """The mid-surface; tissue is closed step by step until the sheet has no tunnel and is a whole ring."""
     voxel = spacing_of(image)
     grid, tissue = tissue_on_grid(image, mask, grid_step(image, mask))
     first: Optional[tuple[Sheet, list[float], float]] = None  # without tunnels
     for attempt in range(4):
         radius = attempt * voxel
         if radius:
-            tell(f"gaps up to {2e3 * radius:.1f} mm closed, because of tunnels or ragged holes")
+            tell(f"gaps up to {2e3 * radius:.1f} mm closed, because of tunnels, ragged holes or a ring that is torn")
         sheet, smaller = largest_piece(
             fitted_sheet(grid, _closed(grid, tissue, radius), voxel, settings, tell))
         tunnels = handles(sheet)
         if tunnels:
             continue
         first = first or (sheet, smaller, radius)
-        if not _has_ragged_hole(sheet, settings.hole):
+        if not _is_torn(sheet) and not _has_ragged_hole(sheet, settings.hole):
             first = (sheet, smaller, radius)
             break
     if first is None:
@@ -250,7 +250,7 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
     if radius:
         findings.append(finding("closed_gaps", FindingSource.GUESSED, 0.6,
                                 f"gaps in the labels up to {2e3 * radius:.1f} mm were closed, because "
-                                "tunnels or ragged holes ran through the tissue", [2 * radius], "m"))
+                                "tunnels, ragged holes or a tear ran through the tissue", [2 * radius], "m"))
     whole = areas(sheet.points, sheet.triangles).sum()
     if smaller:
         findings.append(finding(
@@ -259,6 +259,16 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
             "were dropped"))
     report_thickness(sheet, findings)
     return sheet, grid
+
+
+LEAST_EDGE = 0.3
+"""The free edge is at least so long, as a share of the annulus: half as long and more in valves that were seen"""
+
+
+def _is_torn(sheet: Sheet) -> bool:
+    """Whether tissue is missing from the annulus to the free edge, so that both are one rim."""
+    length = [loop_length(sheet.points, loop) for loop in loops_by_length(sheet)]
+    return len(length) < 2 or length[1] < LEAST_EDGE * length[0]
 
 
 def _has_ragged_hole(sheet: Sheet, hole: float) -> bool:
