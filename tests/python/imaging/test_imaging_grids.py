@@ -12,7 +12,7 @@ pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 from mvs import imaging  # noqa: E402
 from mvs.imaging.console import Console  # noqa: E402
 from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid, width_of  # noqa: E402
-from mvs.imaging.mesh import edges_with_triangles, unique_edges  # noqa: E402
+from mvs.imaging.mesh import edges_with_triangles, two_sided, unique_edges  # noqa: E402
 from mvs.imaging.microct.segment import nearest_voxels  # noqa: E402
 
 
@@ -97,3 +97,33 @@ def test_progress_is_shown_where_no_terminal_is():
     console.stage("closing")
     console.share(0.5)
     assert silent.getvalue() == ""
+
+
+def test_strips_with_half_a_turn_are_opened_and_nothing_else():
+    """A sheet from labels had one: it was refused as a Moebius band."""
+    row, column = np.meshgrid(np.arange(9), np.arange(9), indexing="ij")
+    points = np.stack([row, column, 0 * row], -1).reshape(-1, 3).astype(float)
+    number = np.arange(81).reshape(9, 9)
+    cells = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], -1).reshape(-1, 4)
+    # a band from one side of the square to the other, joined there the wrong way round
+    beyond = 81 + np.arange(40).reshape(20, 2)
+    places = np.stack([np.full(40, 4.5), np.repeat(np.linspace(8, 0, 22)[1:-1], 2), np.tile([3.0, 4.0], 20)], -1)
+    ladder = np.vstack([number[4:6, 8], beyond, number[4:6, 0][::-1]])
+    band = np.column_stack([ladder[:-1, 0], ladder[1:, 0], ladder[1:, 1], ladder[:-1, 1]])
+    points = np.vstack([points, places])
+
+    def halved(quads):
+        return np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).astype(np.int64)
+
+    square, twisted = halved(cells), np.vstack([halved(cells), halved(band)])
+    assert np.array_equal(two_sided(square, points), square)
+    mended = two_sided(twisted, points)
+    assert 0 < len(twisted) - len(mended) <= 2
+    assert np.array_equal(mended[: len(square)], square)  # the band is opened, where the walks meet
+    assert np.array_equal(two_sided(mended, points), mended)
+    # a wide band is twisted as a whole: it is left to be refused
+    wide = np.arange(20 * 12).reshape(20, 12)
+    ring = np.vstack([wide, wide[0, ::-1][None]])
+    quads = np.stack([ring[:-1, :-1], ring[1:, :-1], ring[1:, 1:], ring[:-1, 1:]], -1).reshape(-1, 4)
+    moebius = halved(quads)
+    assert np.array_equal(two_sided(moebius, np.random.default_rng(3).normal(size=(240, 3))), moebius)

@@ -132,6 +132,55 @@ def manifold(triangles: Triangles, points: Points) -> Triangles:
     return triangles
 
 
+MOST_TWISTED = 8
+"""Triangles that go to make a sheet two-sided; one that needs more is twisted as a whole, and the build refuses it."""
+
+
+def two_sided(triangles: Triangles, points: Points) -> Triangles:
+    """Without the smallest triangles whose removal lets all be wound alike: strips of a few triangles with half a turn,
+    where tissue of one leaflet lies on that of the other."""
+    size, kept = areas(points, triangles), np.arange(len(triangles))
+    for _ in range(MOST_TWISTED):
+        pairs = _unlike_neighbours(triangles[kept])
+        if not len(pairs):
+            break
+        rows = kept[pairs]
+        kept = np.setdiff1d(kept, rows[np.arange(len(rows)), size[rows].argmin(axis=1)])
+    else:
+        return triangles
+    return triangles[kept] if len(triangles) - len(kept) <= MOST_TWISTED else triangles
+
+
+def _unlike_neighbours(triangles: Triangles) -> NDArray[np.int64]:
+    """Pairs (k, 2) of neighbours that a walk over the sheet, breadth first, would wind in two ways."""
+    edges, owner = edges_with_triangles(triangles)
+    number = edge_numbers(triangles)[0]
+    order = np.argsort(number, kind="stable")
+    first = order[:-1][number[order[:-1]] == number[order[1:]]]
+    second = order[1:][number[order[:-1]] == number[order[1:]]]
+    unlike = edges[first, 0] == edges[second, 0]  # both pass the edge the same way
+    if not unlike.any():
+        return np.zeros((0, 2), np.int64)
+    beside: list[list[tuple[int, bool]]] = [[] for _ in triangles]
+    pairs = np.column_stack([owner[first], owner[second]])
+    for (a, b), turn in zip(pairs.tolist(), unlike.tolist()):
+        beside[a].append((b, turn))
+        beside[b].append((a, turn))
+    turned: list[Optional[bool]] = [None] * len(triangles)
+    for start in range(len(triangles)):
+        if turned[start] is not None:
+            continue
+        turned[start] = False
+        front = [start]
+        for here in front:  # grows as it is walked
+            for other, turn in beside[here]:
+                if turned[other] is None:
+                    turned[other] = bool(turned[here]) != turn
+                    front.append(other)
+    way = np.array(turned, bool)
+    return pairs[(way[pairs[:, 0]] != way[pairs[:, 1]]) != unlike]
+
+
 def loop_length(points: Points, loop: NDArray[np.int64]) -> float:
     return float(np.linalg.norm(points[loop] - points[np.roll(loop, -1)], axis=1).sum())
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from mvs import ArgumentError
 from .grid import Grid, Points, Volume
-from .mesh import Sheet, Smoothing, manifold, normals, smooth_rims, unique_edges
+from .mesh import Sheet, Smoothing, manifold, normals, smooth_rims, two_sided, unique_edges
 from .needs import need
 from .orientation import directions, neighbour_pairs, orient
 
@@ -121,7 +121,7 @@ def _cut_at_rim(grid: Grid, sheet: Sheet, share: Volume, rim: float) -> Sheet:
     corners = np.sort(triangles[order], axis=1)
     first = order[np.r_[True, (corners[1:] != corners[:-1]).any(axis=1)]]
     points = np.asarray(mesh.points, float) * 1e-3
-    return Sheet(points, manifold(triangles[np.sort(first)], points))
+    return Sheet(points, two_sided(manifold(triangles[np.sort(first)], points), points))
 
 
 def between_sides(grid: Grid, tissue: Volume, sheet: Sheet, settings: SheetSettings) -> Sheet:
