@@ -14,13 +14,14 @@ from mvs.mesh import edges_of, shortest_paths
 from ..console import Console
 from ..findings import finding
 from ..labels import Leaflets, report_thickness
+from ..mesh import Sheet
 from ..open_valve import check_open_valve
 from ..pipeline import Pipeline, Run
 from ..valve import ImageValve, build, distance_from_image, scanned
 from .chords import ChordNetwork
 from .fitted import with_fitted_lengths
 from .lengths import with_loaded_lengths
-from .loaded import Loaded, loaded_of, settled, with_loaded_boundary
+from .loaded import Closure, Loaded, loaded_of, settled, with_loaded_boundary
 from .muscles import muscle_groups
 from .stages import PIPELINE
 from .tissue import with_tissue_of_image
@@ -103,12 +104,7 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     if loaded is not None and closure[2].converged:
         console.stage("lengths of chordae under load")
         closure, measured = with_loaded_lengths(valve, closure[1], network, loaded, console)
-        unseen = with_unseen_chords(valve, made.opened, closure[1], loaded.surface)
-        if unseen:
-            measured += unseen
-            console.stage("closing the valve with chordae that are not seen")
-            closure = settled(valve, console)
-        closure, fitted = with_fitted_lengths(valve, closure, laws, loaded.surface, console)
+        closure, fitted = _with_unseen_and_fitted(valve, made.opened, closure, laws, loaded.surface, console)
         measured += fitted
         replaced = {one.name for one in measured}
         found = [one for one in found if one.name not in replaced] + measured
@@ -120,6 +116,24 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     kept = [one for one in made.findings if one.name not in assumed]
     return dataclasses.replace(made, opened=opened, closed=closed, converged=stats.converged,
                                findings=(*kept, *found))
+
+
+def _with_unseen_and_fitted(valve: mvs.Valve, normal: mvs.Snapshot, closure: Closure, laws: list[mvs.LeafletLaw],
+                            loaded: Sheet, console: Console) -> tuple[Closure, list[mvs.Finding]]:
+    """Adds chordae that are not seen, and fits the lengths of all. Where no fit is nearer to the loaded image, those seen are
+    fitted alone, and the nearer valve is taken.
+    """
+    seen = dataclasses.replace(valve)
+    unseen = with_unseen_chords(valve, normal, closure[1], loaded)
+    if not unseen:
+        return with_fitted_lengths(valve, closure, laws, loaded, console)
+    console.stage("closing the valve with chordae that are not seen")
+    filled, fitted = with_fitted_lengths(valve, settled(valve, console), laws, loaded, console)
+    if len(fitted[0].values):
+        return filled, unseen + fitted
+    bare, of_bare = with_fitted_lengths(seen, closure, laws, loaded, console)
+    away = [float(distance_from_image(one[1], loaded).values[0]) for one in (bare, filled)]
+    return (bare, of_bare) if away[0] < away[1] else (filled, unseen + fitted)
 
 
 def _leaks(opened: mvs.Snapshot, console: Console) -> tuple[mvs.Finding, ...]:
