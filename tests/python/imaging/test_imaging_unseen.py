@@ -1,4 +1,4 @@
-"""mvs.imaging.microct: what a loaded image shows in part: chordae that are not seen, parted leaflets, rims of closed ones."""
+"""mvs.imaging.microct: chordae that no image shows, parted leaflets, rims of closed leaflets."""
 
 import mvs
 import numpy as np

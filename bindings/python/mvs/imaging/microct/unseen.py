@@ -22,7 +22,7 @@ EMPTY = 2e-3
 """m: places of normal anatomy with no insertion this near are empty. Insertions are 2 to 4 mm apart, those that are
 seen 1 mm off; with 1.5 mm five phantoms close as near, with 3 mm up to 0.3 mm farther (tests/validation/README.md)."""
 SYSTOLIC_STRAIN = 0.015
-"""Of chordae in the closed valve, as in libmvs/patient/chordae/patient_chordae.cpp"""
+"""Strain of chordae in the closed valve, as in libmvs/patient/chordae/patient_chordae.cpp"""
 
 
 def with_unseen_chords(valve: mvs.Valve, normal: mvs.Snapshot, closed: mvs.Snapshot,
