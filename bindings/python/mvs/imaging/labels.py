@@ -239,7 +239,8 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
         if tunnels:
             continue
         first = first or (sheet, smaller, radius)
-        if not _is_torn(sheet) and not _has_ragged_hole(sheet, settings.hole):
+        loops = loops_by_length(sheet)
+        if not _is_torn(sheet, loops) and not _has_ragged_hole(sheet, loops, settings.hole):
             first = (sheet, smaller, radius)
             break
     if first is None:
@@ -265,16 +266,16 @@ LEAST_EDGE = 0.3
 """The free edge is at least so long, as a share of the annulus: half as long and more in valves that were seen"""
 
 
-def _is_torn(sheet: Sheet) -> bool:
+def _is_torn(sheet: Sheet, loops: list[NDArray[np.int64]]) -> bool:
     """Whether tissue is missing from the annulus to the free edge, so that both are one rim."""
-    length = [loop_length(sheet.points, loop) for loop in loops_by_length(sheet)]
+    length = [loop_length(sheet.points, loop) for loop in loops[:2]]
     return len(length) < 2 or length[1] < LEAST_EDGE * length[0]
 
 
-def _has_ragged_hole(sheet: Sheet, hole: float) -> bool:
+def _has_ragged_hole(sheet: Sheet, loops: list[NDArray[np.int64]], hole: float) -> bool:
     """Whether a rim beside the two longest is long or crumpled: labels with shreds, or a strand of tissue
     below an eaten free edge."""
-    for loop in loops_by_length(sheet)[2:]:
+    for loop in loops[2:]:
         length = loop_length(sheet.points, loop)
         if length > np.pi * hole or length > hole and is_crumpled(sheet.points, loop, length):
             return True

@@ -36,57 +36,52 @@ def cut_spurs(found: Leaflets) -> None:
 
     A ribbon between two rims is no spur: low tissue at a commissure, or a strand below a hole.
     """
-    widths, spurs = [], np.zeros(0)
+    widths, spurs = [], []
     for width, first in ((FIN_WIDTH, 2), (SPUR_WIDTH, 0)):
         half = _half(found.sheet, width)
-        loops = loops_by_length(found.sheet)
-        ribbons, piece, area = _ribbons(found.sheet, loops[first:], half)
-        touched = _touched(found.sheet.triangles[ribbons], piece, loops)
-        single = np.isin(piece, [one for one, rims in touched.items() if len(rims) == 1])
-        kept, cut = _without(found.sheet, ribbons[single], piece[single], area)
-        if len(cut):
-            found.sheet, found.leaflet = found.sheet.part(kept), found.leaflet[kept]
+        rims = loops_by_length(found.sheet)
+        cut = [one for one in _ribbons(found.sheet, rims[first:], half) if _touched(found.sheet, one, rims) == 1]
+        if cut:
+            spurs += _cut(found, cut)
             widths.append(2e3 * half)
-            spurs = np.append(spurs, cut)
-    if len(spurs):
+    if spurs:
         found.findings.append(finding(
             "spurs", FindingSource.GUESSED, 0.7,
             f"{len(spurs)} ribbons of tissue narrower than {max(widths):.1f} mm that stand on the leaflets or out of their rims, "
-            f"{1e6 * spurs.sum():.0f} mm2, were cut off as spurs of the labels", spurs.tolist(), "m2"))
+            f"{1e6 * sum(spurs):.0f} mm2, were cut off as spurs of the labels", spurs, "m2"))
 
 
 def cut_bridges(found: Leaflets, orifice: NDArray[np.int64], other: NDArray[np.int64]) -> bool:
     """Cuts ribbons that join the leaflets between two rims, which are parts of one orifice; whether there was one."""
-    sheet = found.sheet
-    half = _half(sheet, BRIDGE_WIDTH)
-    ribbons, piece, area = _ribbons(sheet, [orifice, other], half)
-    touched = _touched(sheet.triangles[ribbons], piece, [orifice, other])
-    joins = np.isin(piece, [one for one, rims in touched.items() if len(rims) == 2])
-    kept, cut = _without(sheet, ribbons[joins], piece[joins], area)
-    if not len(cut):
+    half = _half(found.sheet, BRIDGE_WIDTH)
+    rims = [orifice, other]
+    cut = [one for one in _ribbons(found.sheet, rims, half) if _touched(found.sheet, one, rims) == 2]
+    if not cut:
         return False
-    place = np.round(sheet.points[sheet.triangles[~kept]].mean(axis=(0, 1)) * 1e3) + 0.0
-    found.sheet, found.leaflet = sheet.part(kept), found.leaflet[kept]
+    corners = found.sheet.points[found.sheet.triangles[np.sort(np.concatenate(cut))]]
+    place = np.round(corners.mean(axis=(0, 1)) * 1e3) + 0.0
+    bridges = _cut(found, cut)
     found.findings.append(finding(
         "bridges", FindingSource.GUESSED, 0.5,
-        f"the leaflets were joined across the orifice by tissue narrower than {2e3 * half:.1f} mm, {1e6 * cut.sum():.0f} mm2 "
+        f"the leaflets were joined across the orifice by tissue narrower than {2e3 * half:.1f} mm, {1e6 * sum(bridges):.0f} mm2 "
         f"near ({place[0]:.0f}, {place[1]:.0f}, {place[2]:.0f}) mm in LPS. It was cut, "
         "as labels of open leaflets touch by mistake; if a clip or a suture joins the leaflets there, apply it to the valve "
-        "as a repair", cut.tolist(), "m2"))
+        "as a repair", bridges, "m2"))
     return True
 
 
 def without_spurs(sheet: Sheet, name: str, findings: list[Finding]) -> Sheet:
     """A closed leaflet without the ribbons at any of its rims; a target of a fit needs no whole rim."""
     half = _half(sheet, SPUR_WIDTH)
-    kept, cut = _without(sheet, *_ribbons(sheet, loops_by_length(sheet), half))
-    if not len(cut):
+    cut = _ribbons(sheet, loops_by_length(sheet), half)
+    if not cut:
         return sheet
+    spurs = _areas_of(sheet, cut)
     findings.append(finding(
         "closed_spurs", FindingSource.GUESSED, 0.7,
         f"loaded image, {name}: {len(cut)} ribbons narrower than {2e3 * half:.1f} mm, "
-        f"{1e6 * cut.sum():.0f} mm2, were cut off as spurs of the labels", cut.tolist(), "m2"))
-    return sheet.part(kept)
+        f"{1e6 * sum(spurs):.0f} mm2, were cut off as spurs of the labels", spurs, "m2"))
+    return sheet.part(_left(sheet, cut))
 
 
 def _half(sheet: Sheet, widths: float) -> float:
@@ -94,18 +89,16 @@ def _half(sheet: Sheet, widths: float) -> float:
     return 0.5 * widths * float(np.median(sheet.values["thickness"]))
 
 
-def _ribbons(sheet: Sheet, rims: list[NDArray[np.int64]],
-             half: float) -> tuple[NDArray[np.int64], NDArray[np.int64], Points]:
-    """The triangles of ribbons between some rims, the piece of each, and the areas of the pieces, m2."""
-    none = np.zeros(0, np.int64)
+def _ribbons(sheet: Sheet, rims: list[NDArray[np.int64]], half: float) -> list[NDArray[np.int64]]:
+    """The triangles of each ribbon between some rims."""
     if not rims:
-        return none, none, np.zeros(0)
+        return []
     edges, _ = unique_edges(sheet.triangles)
     size = areas(sheet.points, sheet.triangles)
     core = _far_from(sheet.points, edges, np.unique(np.concatenate(rims)), half)
     inner = _large_pieces(sheet, core[sheet.triangles].all(axis=1), size)
     if not inner.any():
-        return none, none, np.zeros(0)
+        return []
     # paths along edges are up to a sixth longer than straight ones (in regular triangles), and the first points
     # beyond a distance lie an edge beyond it
     edge = np.percentile(np.linalg.norm(sheet.points[edges[:, 0]] - sheet.points[edges[:, 1]], axis=1), 99)
@@ -113,26 +106,31 @@ def _ribbons(sheet: Sheet, rims: list[NDArray[np.int64]],
     ribbons = np.flatnonzero(~_large_pieces(sheet, ~lost[sheet.triangles].any(axis=1), size))
     piece = pieces(sheet.triangles[ribbons], len(sheet.points))
     area = np.bincount(piece, size[ribbons])
-    large = area[piece] >= half**2  # others are corners of a rim
-    return ribbons[large], piece[large], area
+    return [ribbons[piece == k] for k in np.flatnonzero(area >= half**2)]  # smaller ones are corners of a rim
 
 
-def _touched(triangles: NDArray[np.int64], piece: NDArray[np.int64],
-             rims: list[NDArray[np.int64]]) -> dict[int, set[int]]:
-    """The numbers of the rims that each piece of some triangles touches."""
-    found: dict[int, set[int]] = {}
-    for k, rim in enumerate(rims):
-        for one in np.unique(piece[np.isin(triangles, rim).any(axis=1)]).tolist():
-            found.setdefault(one, set()).add(k)
-    return found
+def _touched(sheet: Sheet, ribbon: NDArray[np.int64], rims: list[NDArray[np.int64]]) -> int:
+    """How many of the rims a ribbon touches."""
+    return sum(bool(np.isin(sheet.triangles[ribbon], rim).any()) for rim in rims)
 
 
-def _without(sheet: Sheet, ribbons: NDArray[np.int64], piece: NDArray[np.int64],
-             area: Points) -> tuple[NDArray[np.bool_], Points]:
-    """The triangles that stay without ribbons, and the areas of these, m2."""
+def _areas_of(sheet: Sheet, ribbons: list[NDArray[np.int64]]) -> list[float]:
+    """m2"""
+    return [float(areas(sheet.points, sheet.triangles[one]).sum()) for one in ribbons]
+
+
+def _left(sheet: Sheet, ribbons: list[NDArray[np.int64]]) -> NDArray[np.bool_]:
+    """The triangles that stay without the ribbons."""
     kept = np.ones(len(sheet.triangles), bool)
-    kept[ribbons] = False
-    return kept, area[np.unique(piece)]
+    kept[np.concatenate(ribbons)] = False
+    return kept
+
+
+def _cut(found: Leaflets, ribbons: list[NDArray[np.int64]]) -> list[float]:
+    """Takes ribbons off the leaflets; their areas, m2."""
+    size, kept = _areas_of(found.sheet, ribbons), _left(found.sheet, ribbons)
+    found.sheet, found.leaflet = found.sheet.part(kept), found.leaflet[kept]
+    return size
 
 
 def _large_pieces(sheet: Sheet, chosen: NDArray[np.bool_], size: Points) -> NDArray[np.bool_]:

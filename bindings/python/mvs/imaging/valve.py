@@ -131,12 +131,16 @@ def leaflet_mesh(snapshot: mvs.Snapshot) -> tuple[Points, NDArray[np.int64]]:
     return (np.asarray(snapshot.node_position), np.asarray(snapshot.triangle_nodes, np.int64))
 
 
+def nearest_on(points: Points, surface_points: Points, triangles: NDArray[np.int64]) -> Points:
+    """The nearest points (n, 3) of a triangle surface."""
+    surface = need("pyvista").PolyData.from_regular_faces(surface_points * 1e3, triangles)
+    _, closest = surface.find_closest_cell(np.atleast_2d(points) * 1e3, return_closest_point=True)
+    return np.atleast_2d(closest) * 1e-3
+
+
 def distances(points: Points, surface_points: Points, triangles: NDArray[np.int64]) -> Points:
     """The distance (n,) of points from a triangle surface."""
-    pyvista = need("pyvista")
-    surface = pyvista.PolyData.from_regular_faces(surface_points * 1e3, triangles)
-    _, closest = surface.find_closest_cell(points * 1e3, return_closest_point=True)
-    return np.asarray(np.linalg.norm(points - closest * 1e-3, axis=1))
+    return np.asarray(np.linalg.norm(points - nearest_on(points, surface_points, triangles), axis=1))
 
 
 def _distance_of_meshes(opened: mvs.Snapshot, sheet: Sheet) -> mvs.Finding:

@@ -15,6 +15,7 @@ import mvs
 from ..findings import finding
 from ..mesh import Sheet
 from ..needs import need
+from ..valve import nearest_on
 from .muscles import SAME_MUSCLE
 
 Points = NDArray[np.float64]
@@ -38,7 +39,7 @@ def with_unseen_chords(valve: mvs.Valve, normal: mvs.Snapshot, closed: mvs.Snaps
     if not len(leaves):
         return []
     ends = places[leaves, 1]
-    wanted = _nearest_on(loaded, np.asarray(closed.node_position)[ends])
+    wanted = nearest_on(np.asarray(closed.node_position)[ends], loaded.points, loaded.triangles)
     head, length = _heads_for(valve, np.asarray(normal.node_rest)[_roots(places, leaves)], wanted)
     kept = head >= 0
     leaves, ends, head, length = leaves[kept], ends[kept], head[kept], length[kept]
@@ -71,12 +72,6 @@ def _roots(places: NDArray[np.int64], leaves: NDArray[np.int64]) -> NDArray[np.i
             node = before[node]
         roots.append(node)
     return np.array(roots, np.int64)
-
-
-def _nearest_on(surface: Sheet, points: Points) -> Points:
-    mesh = need("pyvista").PolyData.from_regular_faces(surface.points * 1e3, surface.triangles)
-    _, closest = mesh.find_closest_cell(np.atleast_2d(points) * 1e3, return_closest_point=True)
-    return np.atleast_2d(closest) * 1e-3
 
 
 def _heads_for(valve: mvs.Valve, muscle: Points, wanted: Points) -> tuple[NDArray[np.int64], Points]:
