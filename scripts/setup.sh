@@ -74,8 +74,8 @@ python_packages=(python3 python3-dev python3-venv libgl1 libegl1 libxrender1)
 test_packages=(libsuitesparse-dev abigail-tools doctest-dev libtinyobjloader-dev libccd-dev libspnav0
   libglfw3-dev locales xvfb xauth xdotool clang clang-format clang-tidy git)
 
-# How many files are compiled as one (cmake/unity.cmake): one by one unless scripts/demo or the short
-# gate sets it.
+# How many files are compiled as one (cmake/unity.cmake): one by one unless scripts/demo, the short gate or a
+# sanitizer sets it.
 files_as_one=
 # CMake options of every build_preset of a script: a tree configured another way compiles again.
 options_of_all=()
@@ -95,7 +95,7 @@ configure_preset() {
 }
 
 # Configures and builds a preset of CMakePresets.json: build_preset NAME [CMAKE OPTION ...] [-- BUILD
-# OPTION ...]. The short gate and the demo compile files together with precompiled headers,
+# OPTION ...]. The short gate, the demo and sanitizers compile files together with precompiled headers,
 # everything else compiles them one by one, with ccache where it is installed.
 build_preset() {
   local preset=$1 launcher=(-DMVS_PRECOMPILED= -DMVS_UNITY=) options=()
