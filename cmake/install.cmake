@@ -1,4 +1,4 @@
-# What `cmake --install` puts where: the library, its headers, mvsConfig.cmake and mvs.pc.
+# Files that `cmake --install` installs, and their folders: the library, its headers, mvsConfig.cmake and mvs.pc.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS mvs EXPORT mvsTargets
@@ -12,7 +12,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/include/mvs-api.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/mvs COMPONENT mvs_development)
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
   COMPONENT mvs_runtime)
-# what a C programmer or the author of a driver reads and copies
+# documents and examples for C programmers and authors of drivers
 install(FILES README.md CHANGELOG.md formats/FORMAT.md libmvs/surgery/OPERATIONS.md
   libmvs/measure/DEFINITIONS.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT mvs_development)
 install(FILES examples/hello.c examples/close.c examples/repair.c

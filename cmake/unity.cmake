@@ -1,7 +1,8 @@
-# Files of a target that are compiled as one, MVS_UNITY of them at a time: what they all include and
-# instantiate is compiled once. scripts/demo and the short gate of scripts/test ask for it. What one
-# file forgot another may bring, as with precompiled headers: the long gate compiles each file by
-# itself. Off by default: a change to one file would compile its neighbours again.
+# Files of a target that are compiled as one, MVS_UNITY of them at a time: their common headers and
+# instantiations are compiled once. scripts/demo, the short gate of scripts/test and its sanitizers ask
+# for it. A forgotten include may come from another file of the group, as with precompiled headers: the
+# long gate compiles each file by itself with gcc and clang. Off by default: a change to one file would
+# compile its neighbours again.
 set(MVS_UNITY "" CACHE STRING "How many files of a target are compiled as one; empty for none")
 if(MVS_UNITY)
   set(CMAKE_UNITY_BUILD ON)

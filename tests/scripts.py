@@ -16,7 +16,7 @@ def run(script, *words):
 
 
 def faults_of(script):
-    """What is wrong with one script, as sentences."""
+    """The faults of one script, as sentences."""
     usage = run(script, "--help")
     if usage.returncode != 0 or "usage: " not in usage.stdout.lower() or script.name not in usage.stdout:
         yield f"{script.name} --help prints no usage: {usage.stdout!r} {usage.stderr!r}"

@@ -15,7 +15,7 @@ struct Device {
   double mass, drag;                // kg, N s/m: moved with the hand
   unsigned delay;                   // samples from writing a force to its effect
   unsigned freedoms_in;
-  // Of a device with motors for torque: N m, N m/rad, N m s/rad; 0: unknown.
+  // Limits of the torque of a device with motors for it: N m, N m/rad, N m s/rad; 0: unknown.
   double torque = 0, angular_stiffness = 0, angular_damping = 0;
   double inertia = 5e-5, turn_drag = 0;  // kg m2, N m s/rad: turned with the hand
   double turn_resolution = 0;            // rad, of its encoders

@@ -56,7 +56,7 @@ Quaternion Wrist::encoded(double resolution) const {
 
 void Wrist::move(double begin, double length, const Vector &torque) {
   const Vector before = vector_of(orientation_);
-  // a device that nobody turns keeps its orientation to the bit
+  // without spin, torque and planned rotation the orientation stays bit for bit
   if (is_zero(before) && is_zero(spin_) && is_zero(torque) && is_zero(rotation_.amplitude)) return;
   if (length != length_) step_ = step(rotation_.oscillator, length);
   length_ = length;

@@ -94,8 +94,8 @@ typedef struct mvs_driver_info {
    * y up, z towards the user: p = frame[:, :3] p_device + frame[:, 3]. All zero: identity. */
   double frame[12];
   char model[64], serial[64], firmware[64];
-  /* Of a device with freedoms_out 6; 0 is unknown, as above. Unknown values follow from those of
-   * the force with the lever peak_torque / peak_force. */
+  /* Limits of the torque of a device with freedoms_out 6; 0 is unknown, as above. Unknown values
+   * follow from those of the force with the lever peak_torque / peak_force. */
   double continuous_torque;     /* N m, sustained without time limit */
   double max_angular_stiffness; /* N m/rad, largest stable stiffness of a rotation */
   double max_angular_damping;   /* N m s/rad, likewise */

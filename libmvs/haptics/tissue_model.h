@@ -46,7 +46,7 @@ struct TissueModel {
   Vec3 normal = Vec3::Zero();     // of a plane, towards the hand
   double gap = 0;                 // m, from the hand to the plane
 
-  // Of a tool with a torque; the rest is unused if `turns` is 0.
+  // Torque model of a tool that has one; the members below are unused if `turns` is 0.
   uint32_t turns = 0;
   double lever = 0;        // m, length at which a torque counts as much as a force
   double most_torque = 0;  // N m, largest one of the tool's springs

@@ -20,7 +20,7 @@ class Subtrees {
   const uint32_t *end(uint32_t group) const { return member_.data() + start_[group + 1]; }
   // The supernodes above all subtrees, ascending.
   const std::vector<uint32_t> &top() const { return top_; }
-  // Of a supernode in a subtree: where its rows in the top begin, into Supernodes::row.
+  // Index into Supernodes::row of the first row of a subtree's supernode that lies in the top.
   size_t outer_rows(uint32_t supernode) const { return outer_rows_[supernode]; }
 
  private:

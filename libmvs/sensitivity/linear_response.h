@@ -8,7 +8,7 @@
 
 namespace mvs::core {
 
-// What is differentiated, at which equilibrium.
+// The quantities to differentiate, and the equilibrium.
 struct SensitivityRequest {
   const Model &model;
   const State &state;

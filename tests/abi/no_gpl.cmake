@@ -1,4 +1,4 @@
-# Fails if LIBRARY links a GPL library, directly or through another one; prints what it links.
+# Fails if LIBRARY links a GPL library, directly or through another one; prints the libraries that it links.
 file(GET_RUNTIME_DEPENDENCIES LIBRARIES ${LIBRARY} RESOLVED_DEPENDENCIES_VAR found
   UNRESOLVED_DEPENDENCIES_VAR missing)
 if(NOT found)

@@ -8,7 +8,7 @@
 
 static char path[64]; /* path of the open journal */
 
-/* What a session with a journal does; the hash after each of its calls that count. */
+/* The calls of a session with a journal; `after` receives the hash after each recorded call. */
 enum { session_length = 9 };
 static void session(mvs_sim *sim, int steps, hash128 *after) {
   for (int k = 0; k < steps; ++k) {

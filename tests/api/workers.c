@@ -254,7 +254,7 @@ static void impossible_workers_are_refused(void) {
   CHECK(sim == NULL);
 }
 
-/* What a caller does not know is not read. */
+/* Fields beyond the caller's struct size are not read. */
 static void a_caller_of_before_has_no_workers(void) {
   mvs_sim *sim = NULL;
   mvs_sim_desc desc = {.struct_size = offsetof(mvs_sim_desc, workers), .workers = UINT32_MAX};

@@ -1,5 +1,5 @@
 // Loops on worker threads: each chunk once, failures, loops inside loops, and pools of hosts that
-// do not do what they are asked to.
+// break their contract.
 #include "base/workers.h"
 
 #include <doctest/doctest.h>

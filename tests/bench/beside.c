@@ -1,4 +1,4 @@
-/* Closes one valve from a file and prints what it cost and what came out, for tests/bench/beside,
+/* Closes one valve from a file and prints its cost and its results, for tests/bench/beside,
  * which compiles it against two versions of the library.
  *
  * Usage: beside_closing VALVE LAW RESIDUAL PRESSURE POSITIONS

@@ -7,7 +7,7 @@
 #include <map>
 #include <string>
 
-// Sets the named numbers; prints a line about each word that is none of them.
+// Sets the named numbers; prints a line about each unknown word.
 inline void take_environment(const char *variable,
                              const std::map<std::string, std::atomic<long> *> &keys) {
   const char *const given = std::getenv(variable);

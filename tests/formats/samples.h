@@ -40,7 +40,7 @@ void write_golden(const std::string &path, Make make) {
   if (std::getenv("MVS_WRITE_GOLDEN")) std::ofstream(path, std::ios::binary) << make();
 }
 
-// What make_model makes of a file's content.
+// Model and state of a file's content.
 inline Pair complete(const Loaded &loaded) {
   return {*make_model(loaded.valve), loaded.state};
 }

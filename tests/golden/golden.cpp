@@ -46,7 +46,7 @@ std::string digest_of_array(const mvs_snapshot *snapshot, uint32_t which) {
   return digest(view.data, view.count * view.components * width);
 }
 
-// Digest of the figures up to at_rest: what was added later is not pinned.
+// Digest of the figures up to at_rest; figures added later are not pinned.
 std::string digest_of_measures(const mvs_snapshot *snapshot) {
   constexpr size_t figures = offsetof(mvs_measures, at_rest);
   mvs_measures m = {};

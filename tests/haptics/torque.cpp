@@ -152,7 +152,7 @@ TEST_CASE("a torque model with NaN latches, and never reaches the motors") {
 
 namespace {
 
-// A servo without a driver: what it writes for a sample.
+// A servo without a driver, which returns the output for a sample.
 class Bare {
  public:
   Bare(uint32_t freedoms_in, uint32_t freedoms_out) {

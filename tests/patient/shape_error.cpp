@@ -17,7 +17,7 @@ namespace {
 
 constexpr double mm = 1e-3, mm2 = 1e-6;
 
-// A flat ring 16 mm wide with a hole, sealed up to 0.6 mm, and what a build knows of it.
+// A flat ring 16 mm wide with a hole, sealed up to 0.6 mm, and the data that a build has of it.
 struct Disc {
   explicit Disc(double hole) {
     mvs::core::test::Sheet sheet = disc(16 * mm, hole, [](double, double) { return 0.0; });

@@ -21,7 +21,7 @@ namespace {
 struct NotAtRest {};
 
 constexpr double rest_force = 1e-10;  // N; settles end far below it, because Newton converges
-// What the issue on derivatives asks for; a displacement of 5e-8 m leaves rounding of about 1e-6.
+// The tolerance wanted of derivatives; a displacement of 5e-8 m leaves rounding of about 1e-6.
 constexpr double most_error = 1e-4;
 
 State settled(const Model &model, State state) {

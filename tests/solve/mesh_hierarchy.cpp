@@ -176,7 +176,7 @@ TEST_CASE("a_few_crossings_of_a_finer_mesh_are_untangled") {
   State start = to_fine(map, *coarse, *fine, closed);
   const auto &triangles = fine->valve.triangles;
   REQUIRE(find_intersections(start.x, triangles).empty());
-  // pushes a free node of one leaflet, here and there, through what it touches
+  // pushes some free nodes of one leaflet through the tissue that they touch
   const double thickness = fine->valve.contact_thickness;
   uint32_t tried = 0;
   for (uint32_t i = 0; i < start.x.size() && tried < 6; i += 5) {

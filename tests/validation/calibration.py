@@ -39,7 +39,7 @@ import numpy as np  # noqa: E402
 
 REACH, LEVEL = 3.0, 0.9
 DRAWS, CLOSED = 39, 19
-"""Of parameters, and of these that are closed: 90 % of the ranks are a whole number in both."""
+"""Numbers of drawn and of closed parameters: 90 % of the ranks are a whole number in both."""
 SHOWN = 50
 """Cases after which the table so far is printed."""
 REST = 1e-6
@@ -143,7 +143,7 @@ def run_case(job: tuple[int, str, int, float, float, bool]) -> Optional[Case]:
 
 def rank_lengths(start: mvs.Snapshot, of_truth: mvs.Snapshot, z: np.ndarray, drawn: np.ndarray,
                  random: np.random.Generator) -> dict[str, tuple[int, int]]:
-    """Of the mean of each zone, and of one chord if both valves have the same."""
+    """Ranks of the mean of each zone, and of one chord if both valves have the same."""
     mine, theirs = zones(start), zones(of_truth)
     ranks = {name: rank(z[theirs[name]].mean(), drawn[:, rows].mean(axis=1))
              for name, rows in mine.items() if name in theirs}

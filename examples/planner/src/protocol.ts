@@ -71,7 +71,7 @@ export interface Chord {
   strainLimit: number;
   tensionLimit: number;
   over: boolean;
-  /** Of a modulus that only sutures have. */
+  /** Whether its modulus is one that only sutures have. */
   artificial: boolean;
 }
 
@@ -243,7 +243,7 @@ export interface Hand {
 }
 
 export interface Cost {
-  /** Of the closed valve that was opened: it may have changed while the question was on its way. */
+  /** Hash of the closed valve that was opened: it may have changed while the question was on its way. */
   hash: string;
   openArea: number;
   anteriorLength: number;
@@ -254,7 +254,7 @@ export interface Cost {
   resistance: number;
 }
 
-/** What a session holds beside the plan. */
+/** Contents of a session beside the plan. */
 export interface SessionContents {
   title: string;
   notes: string;
@@ -288,7 +288,7 @@ export type Range = [number, number];
 
 /** Ranges of figures over closures that came to rest; those of measures without a number are left out. */
 export interface Spread {
-  /** Of the closed valve that was closed again. */
+  /** Hash of the closed valve that was closed again. */
   hash: string;
   members: number;
   converged: number;
@@ -308,7 +308,7 @@ export type SurfaceKind = '' | 'mid' | 'atrial' | 'skin';
 /** Units in which a file may have its lengths. */
 export type FileUnit = 'mm' | 'cm' | 'm' | 'inch';
 
-/** What shows in a surface before anything on it is clicked; lengths in mm. */
+/** Findings on a surface before anything on it is clicked; lengths in mm. */
 export interface SurfaceShape {
   /** The middle of the annulus, or of the whole surface without a boundary. */
   middle: [number, number, number];
@@ -325,7 +325,7 @@ export interface SurfaceShape {
 export interface Surface {
   points: Float32Array;
   triangles: Uint32Array;
-  /** Of the points, unit length. */
+  /** Normals of the points, unit length. */
   normals: Float32Array;
   format: string;
   unit: FileUnit;
@@ -337,7 +337,7 @@ export interface Surface {
 }
 
 export interface BuildRequest {
-  /** What the surface is of the leaflets; '' leaves it to the library. */
+  /** Layer of the leaflets that the surface describes; '' leaves it to the library. */
   kind: SurfaceKind;
   annulus: number[][];
   tips: number[][];

@@ -21,8 +21,8 @@ const style = readFileSync(join(source, 'style.css'), 'utf8');
 const apart = 10;
 
 /**
- * What meets in the picture and is told apart by colour. Not in the list, as nobody tells them by colour: both leaflets (seams
- * and names do), a white ring before the pale background, the annulus and the ring over it (size does).
+ * Parts that meet in the picture and are distinguished by colour. Not in the list, as colour does not distinguish them: both
+ * leaflets (seams and names do), a white ring before the pale background, the annulus and the ring over it (size does).
  */
 const neighbours = {
   atrialAnterior: ['ventricularAnterior', 'annulus', 'ring', 'orifice', 'cut', 'edge', 'hand'],
@@ -134,7 +134,7 @@ describe('planner colours', () => {
       wrong.push(...near(a, b, least).map((vision) => `${what}: ${vision}`));
     for (const [name, map] of Object.entries(maps)) {
       const colours = steps(map);
-      // quarters of the scale are told apart at once
+      // colours a quarter of the scale apart are distinct
       for (let k = 16; k <= 64; k += 16) tell(`${name}, a quarter at ${k}`, colours[k - 16], colours[k]);
       tell(`${name}, ends`, colours[0], colours.at(-1), 40);
       // above the plane is another colour than the same height below it, from a quarter of the scale on

@@ -1,4 +1,4 @@
-// What a surgeon does beyond the first steps: drawing a resection, sliding a clip, a measured
+// Tasks of a surgeon beyond the first steps: drawing a resection, sliding a clip, a measured
 // ring, the gradient of a flow, devices, a file that follows the plan, the way back to a plan that was left.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';

@@ -20,7 +20,7 @@ const skip = existsSync(firefox)
 /** ms until a browser that other work on the machine slows down has started. */
 const patience = 180_000;
 
-/** What a person does in either browser; returns the hashes of the valve on the way. */
+/** Carries out one repair in either browser; returns the hashes of the valve on the way. */
 async function repair(page) {
   const hashes = [(await figures(page)).hash];
   const note = async () => hashes.push((await figures(page)).hash);

@@ -1,4 +1,4 @@
-// The picture and its labels: before and after, names beside what they name, views of a surface, the printed report.
+// The picture and its labels: before and after, names beside their parts, views of a surface, the printed report.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { closed, sharePlanner, temporaryFile } from './fixtures/browser.mjs';

@@ -1,4 +1,4 @@
-// What the page keeps of previews is bounded, and what it shows stays whole.
+// The page keeps a bounded number of previews, and its picture stays whole.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { closed, figures, withPlanner } from './fixtures/browser.mjs';
@@ -47,7 +47,7 @@ describe('planner memory', () => {
         );
       });
       assert.deepEqual(whole, [true, true, true]);
-      // the worker sends what was forgotten once more
+      // the worker sends dropped arrays once more
       await openPanel(page, 'Plan');
       await page.getByRole('button', { name: 'Return to it' }).click();
       await answered(page, 200);

@@ -31,7 +31,7 @@ async function flail(page) {
   await press(page, page.getByRole('tab', { name: 'Repair' }));
 }
 
-/** What the form has: the head by its name, and the length that the preview's chord has without pull, mm. */
+/** Values of the form: the head by its name, and the length that the preview's chord has without pull, mm. */
 function formOf(page) {
   return page.evaluate(() => {
     const { state } = window.planner;
@@ -59,7 +59,7 @@ function corners(page) {
 
 /**
  * The artificial chord of the valve of the plan: names of its ends, and the corners that are no neighbours of its end,
- * which lies in the triangle of the corners if there are none.
+ * which lies in the triangle of the corners if no such vertex exists.
  */
 function tied(page, of = []) {
   return page.evaluate((names) => {

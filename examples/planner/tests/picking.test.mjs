@@ -1,5 +1,5 @@
-// A click chooses what is drawn under it: the pixels of the picture are the reference, not the code that picks. What is chosen is
-// dragged where it is drawn.
+// A click chooses the part drawn under it: the pixels of the picture are the reference, not the code that picks. The chosen part
+// is dragged where it is drawn.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { withPlanner } from './fixtures/browser.mjs';

@@ -233,7 +233,7 @@ describe('planner', () => {
       .getByTestId('status')
       .getByText(/^Preview: Sealed/)
       .waitFor();
-    // the next one applies what is seen
+    // the next press applies the preview in the picture
     await page.locator('#f-factor').focus();
     await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });

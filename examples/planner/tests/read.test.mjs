@@ -1,4 +1,4 @@
-// What is read and moved: the spread over foldings beside its figures, the map of what a repair moved, the pull under the pointer,
+// Read-outs and drags: the spread over foldings beside its figures, the map of the motion by a repair, the pull under the pointer,
 // a section plane that is dragged.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';

@@ -297,7 +297,7 @@ describe('sessions', () => {
     await becomes(names, ['Plan 1', 'Plan 2']);
     await rename('Plan 1', 'Clip and ring');
     await becomes(names, ['Clip and ring', 'Plan 2']);
-    // a name that another one has is refused, and so is none
+    // the name of another plan is refused, and an empty name as well
     await rename('Plan 2', 'Clip and ring');
     await page
       .getByTestId('notice')

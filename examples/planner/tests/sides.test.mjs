@@ -1,5 +1,5 @@
 // Left and right: whatever slides along the line of closure goes the same way as the valve in the surgeon's view, and the ends of
-// its slider are named. A section cuts away what is before its plane, and the bar beside the keys of the colours has a true length.
+// its slider are named. A section cuts away the parts before its plane, and the bar beside the keys of the colours has a true length.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { closed, sharePlanner } from './fixtures/browser.mjs';
@@ -22,7 +22,7 @@ describe('planner sides', () => {
     await page.mouse.click(x + share * width, y + height / 2);
     await answered(page, 300);
   };
-  /** What the ends of a slider say. */
+  /** The words at the ends of a slider. */
   const endsOf = async (slider) =>
     (await slider.locator('xpath=..').locator('.ends').innerText()).replace(/\s+/g, ' ');
   const label = async (text) => {

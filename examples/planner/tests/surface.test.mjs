@@ -143,7 +143,7 @@ describe('surface', () => {
       const [undo, clear] = ['Undo point', 'Clear'].map((name) =>
         page.getByRole('button', { name: `${name}: commissures` }),
       );
-      // the panel scrolls to what is clicked
+      // the panel scrolls to the clicked control
       await page.getByRole('button', { name: 'Papillary tips', exact: true }).scrollIntoViewIfNeeded();
       const place = await clear.boundingBox();
       await markCommissures(page);

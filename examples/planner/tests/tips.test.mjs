@@ -28,7 +28,7 @@ function controls(page, within = 'body') {
 const names = /\b[AP][123](?:[-–/][AP]?\d+)?\b|\b(?:AL|PM)\d\b|\([^()]*\)$/g;
 const units = /^\s*(?:mm²?|cm²|mN|N|MPa|mmHg|ml\/s|ml|%|°)(?![\w])/;
 
-/** What is wrong with a tooltip, in words; empty if nothing is. */
+/** The fault of a tooltip, in words; empty for a good one. */
 function fault({ name, tip }) {
   const words = tip.replace(/\s*\([^()]*\)$/, '');
   if (words.length < 8 || words === name) return `“${name}” has the tooltip “${tip}”`;

@@ -7,7 +7,7 @@ import { closed, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
 import { repeated } from './fixtures/native.mjs';
 import { answered, apply, open, openPanel, save, startAfresh, tabTo } from './fixtures/person.mjs';
 
-/** What the native command says of a saved session, which it repeats. */
+/** Output of the native command for a saved session, which it repeats. */
 function nativeOf(session) {
   const { json } = repeated(session);
   return {

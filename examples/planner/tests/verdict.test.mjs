@@ -44,7 +44,7 @@ describe('planner verdict', () => {
     await openPanel(page, 'Plan');
     await page.getByRole('button', { name: 'Report' }).click();
     const report = page.locator('dialog [data-testid=report]');
-    // of both valves, although nobody asked for that of the valve before
+    // of both valves, although only the opening of the repaired one was requested
     await report.locator('tr', { hasText: /Open area in diastole\s*[\d.]+\scm²\s*[\d.]+\scm²/ }).waitFor();
     const text = flat(await report.getByTestId('report-verdict').innerText());
     const all = flat(await report.innerText());

@@ -11,7 +11,7 @@ namespace mvs::core::orifice {
 
 // A point of the sheet, with the directions in which tissue counts as opposite: within 60 degrees
 // of the normal, to either side, and for a point of a rim also of the direction out of the sheet.
-// That excludes the neighbourhood of the point itself.
+// The directions exclude the neighbourhood of the point itself.
 struct OppositeQuery {
   Vec3 p, normal, out = Vec3::Zero();
 };

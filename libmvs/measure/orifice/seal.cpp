@@ -31,7 +31,7 @@ struct Link {
 class LinkTable {
  public:
   explicit LinkTable(size_t most) : slot_(std::bit_ceil(2 * most + 2), none) {}
-  // Returns the link with these ends, after adding it if there is none.
+  // Returns the link with these ends, and adds it if the table lacks it.
   std::pair<uint32_t, bool> find_or_add(const Link &link) {
     const uint64_t key = uint64_t{link.p} << 32 | link.q;
     size_t at = (key * 0x9e3779b97f4a7c15u) >> 32;

@@ -8,8 +8,9 @@ namespace mvs::core {
 namespace {
 
 constexpr double exact_edge = 10e-6;  // m: a free edge with a smaller error is exact
-// Of the mean depth of filled notches: they are filled to the straight line over their mouth, and
-// what is missing beyond it or in a wide dip is not seen.
+// Share of the mean depth of filled notches that counts as uncertain: notches are filled to the
+// straight line over their mouth, so tissue missing beyond that line or in a wide dip is not
+// detected.
 constexpr double lost_share = 0.5;
 
 }  // namespace

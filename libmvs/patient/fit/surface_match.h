@@ -27,7 +27,7 @@ struct SurfaceMatch {
     const Vec3 y = weight[0] * x[nodes[0]] + weight[1] * x[nodes[1]] + weight[2] * x[nodes[2]];
     return direction.dot(y - target);
   }
-  // Of the residual, by displacements of the nodes.
+  // Derivative of the residual along displacements of the nodes.
   double derivative(const std::vector<Vec3> &dx) const {
     return direction.dot(weight[0] * dx[nodes[0]] + weight[1] * dx[nodes[1]] +
                          weight[2] * dx[nodes[2]]);

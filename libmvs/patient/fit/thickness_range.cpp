@@ -8,7 +8,7 @@
 namespace mvs::core {
 namespace {
 
-// Of the mean edge: two vertices beside each other are farther apart than the contact reaches.
+// Contact thickness per mean edge length: adjacent vertices lie outside the range of contact.
 constexpr double contact_per_edge = 0.6;
 
 }  // namespace

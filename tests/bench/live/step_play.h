@@ -19,7 +19,7 @@ struct Phase {
   std::function<Done(mvs::Simulator &, int step, double share)> during = {};
 };
 
-// What pushes P2: a ball, or a convex tool of 200 vertices on the same sphere.
+// The tool that pushes P2: a ball, or a convex tool of 200 vertices on the same sphere.
 enum class Pusher { ball, convex };
 inline constexpr const char *push_phase = "push P2";
 

@@ -12,7 +12,7 @@ NOISE = 0.3e-3  # m
 
 
 def test_tracked_points_determine_taut_chords(start, truth, found):
-    # the data have no noise: what is left is the pull of the prior, well within the stated 0.1 mm
+    # the data have no noise: the remaining error is the pull of the prior, well within the stated 0.1 mm
     assert found.rms < 0.05e-3
     # a chord that is slack in the data has any length above its own
     sure = (found.determined > 0.95) & (truth.chord_strain > 0.005) & (found.closed.chord_strain > 0.005)
@@ -62,7 +62,7 @@ def test_a_surface_and_a_head(start):
     assert found.rms < np.sqrt(np.mean(found.residuals_before**2)) / 3
     wanted = truth.node_position[truth.head_nodes[0]]
     deviation = np.sqrt(np.diag(found.covariance))[:3]
-    # noise-free data: within the posterior of the noise that the fit was told
+    # noise-free data: within the posterior of the noise that the fit assumes
     assert (np.abs(found.values[:3] - wanted) < 3 * deviation + 1e-5).all()
 
 

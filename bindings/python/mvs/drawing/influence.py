@@ -1,4 +1,4 @@
-"""Influence map: chordae coloured by what a change of their rest length does to a quantity."""
+"""Influence map: chordae coloured by the effect of their rest length on a quantity."""
 
 from __future__ import annotations
 

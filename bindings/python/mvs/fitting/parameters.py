@@ -1,4 +1,4 @@
-"""Free parameters of a fit: what they change in a valve, their priors and bounds.
+"""Free parameters of a fit: their effect on a valve, their priors and bounds.
 
 A parameter is measured in standard deviations z of its prior from its value at the start, so that all
 have one scale: z = 0 is the start, the prior is the unit normal distribution.

@@ -42,7 +42,7 @@ export class Client {
   private open = new Map<number, Open>();
   private listeners = new Map<number, (motion: Motion) => void>();
 
-  /** `pictured` takes every picture that comes, also one that nobody waits for any more: its connectivity comes once. */
+  /** `pictured` takes every picture that comes, also one whose request was dropped: its connectivity comes once. */
   constructor(
     private readonly broken: (sentence: string) => void,
     private readonly pictured: (picture: Picture) => void,

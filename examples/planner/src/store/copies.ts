@@ -15,7 +15,7 @@ export interface Copy {
   /** When it was written, ISO 8601. */
   saved: string;
   bytes: Uint8Array;
-  /** Of a surface that is being imported: `title` is the name of its file, `bytes` are those of the file. */
+  /** A surface that is being imported: `title` is the name of its file, `bytes` are those of the file. */
   surface?: { unit: FileUnit } & Pick<Imported, 'kind' | 'points'>;
 }
 

@@ -1,4 +1,4 @@
-// What a valve of the tour is compared with: its healthy original, and a repair of it.
+// Valves that a valve of the tour is compared with: its healthy original, and a repair of it.
 import { shippedVertices } from '../shipped';
 import type { FoundingResult } from '../protocol';
 import { fail, request } from './requests';
@@ -7,7 +7,7 @@ import * as state from './state';
 /** The healthy valve of the tour, the same for all its valves: known from the first moment of the second one. */
 let healthyValve: FoundingResult['healthy'] | null = null;
 
-/** What is known of the founding study at once. */
+/** The part of the founding study that is known without a computation. */
 export const knownFounding = (): FoundingResult | null => (healthyValve ? { healthy: healthyValve } : null);
 
 function learn(number: number, founding: FoundingResult): void {

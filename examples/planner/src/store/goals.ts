@@ -1,4 +1,4 @@
-// The goals of a valve of the tour: what they ask for, which are reached, and which faults of a sealed valve they name.
+// The goals of a valve of the tour: their limits, which are reached, and which faults of a sealed valve they name.
 import { computed } from '@preact/signals';
 import { edgeHeights } from '../flail';
 import { percentOfLimit } from '../notable';
@@ -12,7 +12,7 @@ export type Goal = 'sealed' | 'chords' | 'open' | 'edge' | 'coaptation';
 /** The scallop that is flail in a valve of the tour. */
 export const flailOf = (number: number): string | undefined => ({ 4: 'P2' })[number];
 
-/** mm of the free edge of the tour's flail scallop above the annulus; null where there is none. */
+/** Height of the free edge of the tour's flail scallop above the annulus, mm; null in a valve without a flail scallop. */
 export function flailHeight(shown: Shown | null): number | null {
   const scallop = flailOf(state.tour.value?.number ?? 0);
   const topology = shown && state.topologyOf(shown.picture);

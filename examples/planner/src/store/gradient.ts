@@ -1,4 +1,4 @@
-// The mean gradient of the flow that the user gives; without one there is none, for the flow of a patient is not known here.
+// The mean gradient of the flow that the user gives; without a flow no gradient is shown, for the flow of a patient is not known here.
 import type { Cost } from '../protocol';
 import * as state from './state';
 

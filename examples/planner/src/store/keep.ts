@@ -17,7 +17,7 @@ export function download(bytes: Uint8Array | string, name: string, type: string)
   setTimeout(() => URL.revokeObjectURL(url), 60_000);
 }
 
-/** Says what was saved, to the eye and to a screen reader; an offered way back stays. */
+/** Names the saved file, to the eye and to a screen reader; an offered way back stays. */
 function announce(text: string): void {
   const offer = state.notice.value?.action && state.notice.value;
   state.notice.value = {

@@ -26,13 +26,13 @@ export function keepLeakRange(hash: string, range: Range | null): void {
 /** The range of the valve with which the plan begins, if that was built from an image. */
 export const leakRange = (): Range | null => ranges.value.get(state.first.value?.figures.hash ?? '') ?? null;
 
-/** What stands beside the leak of a valve as it was built; empty for others. */
+/** Remark beside the leak of a valve as it was built; empty for others. */
 export const ofLeakRange = ({ hash }: Figures): string[] => {
   const range = ranges.value.get(hash);
   return range ? [verdictTexts.leakKnown(...range)] : [];
 };
 
-/** What stands beside a valve after operations; empty where the leak before is known. */
+/** Remark beside a valve after operations; empty where the leak before is known. */
 export function leakBefore({ hash }: Figures): string {
   const range = leakRange();
   return range && !ranges.value.has(hash) ? verdictTexts.leakBefore(...range) : '';

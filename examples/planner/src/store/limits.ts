@@ -1,4 +1,4 @@
-// What a valve is judged by: how far it opens, where that was measured, and the load of chordae that is allowed.
+// Limits that a valve is judged by: its opening, the place where that was measured, and the allowed load of chordae.
 import { signal } from '@preact/signals';
 import { percentOfLimit } from '../notable';
 import type { Cost, Shown } from '../protocol';

@@ -1,4 +1,4 @@
-// Recovery: copies of the plan and of a surface with clicked points, and what was left by a crash or a closed tab. Storage of
+// Recovery: copies of the plan and of a surface with clicked points, and copies left by a crash or a closed tab. Storage of
 // a page from disk is shared by every page from disk, so copies are made only where the user allows it.
 import { batch, effect, signal, untracked } from '@preact/signals';
 import {

@@ -82,7 +82,7 @@ export function complete(shown: Shown): void {
   });
 }
 
-/** What the status line calls a change. */
+/** Name of a change in the status line. */
 const doneBy = { undo: t.undone, redo: t.repeated, restore: t.returned };
 
 /** Runs a request that changes the valve of the plan, and shows it in stages. */

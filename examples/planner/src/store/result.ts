@@ -1,4 +1,4 @@
-// The polite status line: what was done, and the verdict on the valve that it gave.
+// The polite status line: the last change, and the verdict on the valve after it.
 import { effect, untracked } from '@preact/signals';
 import { t, verdictTexts } from '../text/texts';
 import type { Figures } from '../protocol';
@@ -7,7 +7,7 @@ import { leakBefore } from './leak_range';
 import { measuresItself, unmeasurable } from './limits';
 import { headline, relieved, verdictOf } from './verdict';
 
-/** What the present valve comes from. */
+/** The change that led to the present valve. */
 let done = '';
 
 /** A result that is said once the opening of its valve is measured, so that it is said once. */
@@ -28,7 +28,7 @@ function speak(now: Figures): void {
 const waits = (now: Figures): boolean =>
   verdictOf(now).unmeasured && measuresItself(state.main.value!) && unmeasurable.value !== now.hash;
 
-/** Says the result for the valve of the plan; `what` names what was done, which later figures of the valve belong to as well. */
+/** Says the result for the valve of the plan; `what` names the change, which later figures of the valve belong to as well. */
 export function sayResult(now: Figures, what = done): void {
   done = what;
   held = null;

@@ -1,4 +1,4 @@
-// What a session holds beside the plan that the worker has.
+// Contents of a session beside the plan that the worker has.
 import type { Calls } from '../calls';
 import { leakRange } from './leak_range';
 import * as state from './state';

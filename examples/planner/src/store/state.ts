@@ -203,13 +203,13 @@ export const added = computed(() => {
   const old = new Set(main.value?.figures.chords.map((chord) => chord.id));
   return preview.value?.figures.chords.find((chord) => chord.kind !== suture && !old.has(chord.id)) ?? null;
 });
-/** What is shown belongs to an older form than the present one: its shape is still to come. */
+/** Whether the picture belongs to an older form than the present one, whose shape is still to come. */
 export const outdated = computed(() => pending.value && previewed.value !== draft.value);
 export const picture = computed<Picture | null>(() => motion.value?.picture ?? shown.value?.picture ?? null);
 export const canUndo = computed(() => main.value?.figures.history.some((entry) => !entry.undone) ?? false);
 export const canRedo = computed(() => main.value?.figures.history.some((entry) => entry.undone) ?? false);
 
-/** What the user does to the present valve: later figures of a valve, and a preview that comes late, are none of it. */
+/** Changes by the user of the present valve; later figures of a valve, and a preview that comes late, do not count. */
 const doings = computed(() => [
   plan.value,
   main.value?.figures.hash,

@@ -19,7 +19,7 @@ export interface Verdict {
   /** 0 sealed to 4; null where the figures are not final. */
   level: number | null;
   word: string;
-  /** What is wrong beside the leak, the opening first. */
+  /** Faults beside the leak, the opening first. */
   but: string[];
   /** An operation may have narrowed the valve, and how far it opens is not known. */
   unmeasured: boolean;

@@ -49,7 +49,7 @@ function loadWords(percent: number, artificial: boolean): string {
   return artificial ? `${share} a native limit` : `far beyond its limit (${share})`;
 }
 
-/** A verdict in one sentence: the grade of the leak, its place, what is wrong beside it. */
+/** A verdict in one sentence: the grade of the leak, its place, the faults beside it. */
 export function headlineOf(word: string, place: string, but: string[]): string {
   const begin = place ? `${word} at ${place}` : word;
   return but.length ? `${begin}${place ? '; ' : ', but '}${but.join('; ')}` : begin;
@@ -311,12 +311,12 @@ export const t = {
 
 export const kinds = ['Other', 'Marginal', 'Rough zone', 'Strut', 'Basal', 'Commissural', 'Trunk', 'Suture'];
 
-/** What a chord is, beside its name. */
+/** Kind of a chord, beside its name. */
 export const kindOf = ({ kind, artificial }: { kind: number; artificial: boolean }): string =>
   artificial && kind !== suture ? 'Artificial' : kinds[kind];
 export { number as figure };
 
-/** What is reached of a goal, where it is known. */
+/** The present value of a goal's figure, where it is known. */
 const nowIs = (is: string): string => (is ? ` (now ${is})` : '');
 
 export const tourTexts = {
@@ -324,7 +324,7 @@ export const tourTexts = {
   hint: 'A hint',
   goal: (number: number) => `Goals of valve ${number}`,
   afterOperation: 'after this operation',
-  /** Of a goal, for those who do not see its sign; null: not known yet. */
+  /** Verdict on a goal, for those who do not see its sign; null: not known yet. */
   judged: (done: boolean | null) => (done === null ? 'not known yet' : done ? 'reached' : 'missed'),
   repair: 'Repair this valve',
   repairOn: 'Go on repairing it',
@@ -413,7 +413,7 @@ export const tourTexts = {
       return `Open area ${wanted} cm² or more${nowIs(is)}`;
     },
   },
-  /** Why a goal asks for so much, and what it does not say. */
+  /** The reason for a goal's limit, and the limits of its meaning. */
   goalHelp: {
     coaptation:
       '90 % of the length before the illness. Surgeons aim at 8 mm at A2–P2, which this valve did not have when it was healthy.',
@@ -502,7 +502,7 @@ export const importTexts = {
   clear: (of: string) => `Clear: ${of}`,
   undoTip: 'Takes the point back that was set last',
   clearTip: 'Forgets these points; they are guessed again',
-  /** What the points are of, on the buttons that take them back. */
+  /** Parts of the valve that points belong to, on the buttons that take them back. */
   of: { commissures: 'commissures', anterior: 'anterior leaflet', annulus: 'annulus', tips: 'tips' },
   beside: 'That click was beside the surface: nothing was marked.',
   build: 'Build the valve',
@@ -811,7 +811,7 @@ export const valveTexts = {
       ? ` Leak ${number(low)} mm² each time.`
       : ` Leak ${number(low)} to ${number(high)} mm².`,
   certainty: 'How certain it is',
-  /** What the eight closures test, and what they do not. */
+  /** Uncertainties that the eight closures test, and those that they do not. */
   certaintyHint:
     'The leaflets can fold in more than one way: closed from eight different folds, the figures show how much that changes them.',
   outflow:
@@ -877,7 +877,7 @@ export const deviceTexts = {
     neochord: 'Artificial chord',
     suture: 'Suture',
   },
-  /** What it is, and its name unless the library gave it: "clip" and "clip2" are Clip and Clip 2. */
+  /** Its kind, and its name unless the library gave it: "clip" and "clip2" are Clip and Clip 2. */
   named: (kind: string, name: string) => {
     const given = /^(?:ring|band|clip)(\d*)$/.exec(name);
     return given ? `${kind} ${given[1]}`.trimEnd() : `${kind} ${name}`;
@@ -915,7 +915,7 @@ export const formTexts = {
   narrower: (size: number, annulus: number, largest: boolean) =>
     `${largest ? `The largest ring, ${number(size, 0)} mm,` : `A ring of ${number(size, 0)} mm`} is ${number(annulus - size)} mm (${number((100 * (annulus - size)) / annulus, 0)} %) narrower than this annulus.`,
   ringSizes: (low: number, high: number) => `Rings are made in sizes of ${low} to ${high} mm. `,
-  /** Of a number that its slider does not reach. */
+  /** Sentence about a number that its slider does not reach. */
   beyond: (value: number, low: number, high: number, unit: string) => {
     const [all, from, to] = [value, low, high].map((one) => +one.toPrecision(4));
     return `${all} ${unit} is beyond the slider, which goes from ${from} to ${to} ${unit}.`;
@@ -946,7 +946,7 @@ export const formTexts = {
       ? 'in the middle of the scallop'
       : `${number(100 * Math.abs(value), 0)} % of the way to the ${sides[value > 0 ? 0 : 1]} end`,
   heightTip: 'From annulus to free edge',
-  /** What the left and the right end of the sliders of a shift stand for. */
+  /** Meaning of the left and the right end of the sliders of a shift. */
   axisEnds: [
     ['posterior', 'anterior'],
     ['anterolateral', 'posteromedial'],
@@ -987,7 +987,7 @@ export const openingTexts = {
     word === 'narrow'
       ? 'Narrow: a mean flow of 200 ml/s loses more than 5 mmHg.'
       : `${word[0].toUpperCase()}${word.slice(1)}: in adults 1.5 cm² or less is severe, 1.0 cm² or less very severe (ACC/AHA 2014).`,
-  /** What is asked beside the figure; a press shows the answer. */
+  /** Question beside the figure; a press shows the answer. */
   why: (word: string, less: boolean) =>
     [word && `${word[0].toUpperCase()}${word.slice(1)}`, less ? 'Why so much less?' : 'Why?']
       .filter(Boolean)
@@ -1193,7 +1193,7 @@ interface Meaning {
   measured: string;
 }
 
-/** What the figures mean: each figure of the page, and the names of the scallops. */
+/** Meaning of each figure of the page and of the names of the scallops. */
 export const figureHelp: {
   title: string;
   intro: string;
@@ -1417,7 +1417,7 @@ export const choiceWords: Record<string, string> = {
   leaflet: 'at the leaflet',
 };
 
-/** What an operation is for, on its card. */
+/** Purpose of an operation, on its card. */
 export const operationTips: Record<string, string> = {
   ring: 'A rigid ring brings the annulus to a chosen width and form, so that the leaflets meet over a greater height.',
   band: 'A flexible band shortens the posterior annulus; the anterior annulus and its movement stay free.',
@@ -1438,7 +1438,7 @@ const nameTip = 'Its name in lists, in the history and in the report';
 const fromMuscle = 'The papillary muscle from which it comes; or click it in the picture';
 const onLeaflet = 'Where it is tied to the leaflet; or click the place in the picture';
 
-/** What a field of an operation decides, in a surgeon's words. */
+/** Effect of a field of an operation, in a surgeon's words. */
 export const fieldTips: Record<string, Record<string, string>> = {
   ring: {
     size: 'Width of the ring from commissure to commissure. A smaller ring brings the leaflets nearer, and the valve opens less.',

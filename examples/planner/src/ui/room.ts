@@ -1,4 +1,4 @@
-// Room above the foot of a form, which stays at the lower end of the panel and grows with what it says: the first field of a form
+// Room above the foot of a form, which stays at the lower end of the panel and grows with its text: the first field of a form
 // that opens, and the field that has the focus, are wholly above it.
 import type { RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';

@@ -20,7 +20,7 @@ export interface BorderLine {
 /** Rounds of smoothing: after fewer the zigzag of an irregular mesh is still seen, after more short borders lean to their ends. */
 const rounds = 4;
 
-/** Sides of the triangles, `ends` in pairs, with cotangent weights: a smoothed linear function stays what it is on a flat irregular mesh. */
+/** Sides of the triangles, `ends` in pairs, with cotangent weights: a linear function stays unchanged by smoothing on a flat irregular mesh. */
 function weighted(
   { nodes, triangles }: Topology,
   x: Float32Array,

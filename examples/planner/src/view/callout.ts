@@ -1,4 +1,4 @@
-// The place of a label beside what it names: on a circle around it, where it covers the fewest lines and other labels.
+// The place of a label beside its part: on a circle around it, where it covers the fewest lines and other labels.
 
 /** A line on the screen: x and y of both ends. */
 export type Line = readonly [number, number, number, number];

@@ -76,7 +76,7 @@ export function chordae(topology: Topology, picture: Picture, options: SceneOpti
 /** Opacity of a chord beyond its limit where other parts hide it. */
 const behind = 0.7;
 
-/** Chordae beyond their limit once more, through the chordae and heads that hide them from below; null where there are none. */
+/** Chordae beyond their limit once more, through the chordae and heads that hide them from below; null if all are within their limits. */
 export function beyondAll(
   topology: Topology,
   picture: Picture,

@@ -37,7 +37,7 @@ function markImport(view: Viewport, imported: state.Imported, p: Place): void {
 /** Pixels beside the surface at which a click still means its rim. */
 const besideRim = 10;
 
-/** A place of the surface beside a pixel; null where there is none within reach. */
+/** A place of the surface beside a pixel; null if the surface is out of reach. */
 function nearby(p: Place, placeAt: (x: number, y: number) => number[] | null): number[] | null {
   for (let k = 0; k < 8; ++k) {
     const [x, y] = [Math.cos((k * Math.PI) / 4), Math.sin((k * Math.PI) / 4)];
@@ -64,7 +64,7 @@ function choiceOf(hit: Hit, topology: Topology): state.Choice | null {
   return { kind: 'scallop', id: topology.scallops[topology.triangleScallop[hit.surface.triangle]].id };
 }
 
-/** Chooses a part; the panel "Repair" says what can be done with it. */
+/** Chooses a part; the panel "Repair" lists the operations on it. */
 function choose(choice: state.Choice | null): void {
   state.choice.value = choice;
   if (choice && state.panel.value !== 'import') state.panel.value = 'repair';
@@ -83,7 +83,7 @@ export function click(view: Viewport, p: Place, hit: Hit | null): void {
   choose(choiceOf(hit, topology));
 }
 
-/** What of the hit belongs to a field of one of these types that the form of the moment requires. */
+/** The hit part that fits a field of one of these types that the form of the moment requires. */
 function answerOf(hit: Hit, topology: Topology, asks: FieldInfo[]): { field: FieldInfo; id: string } | null {
   const take = (type: string, parts: { id: string }[], index: number) => {
     const field = asks.find((candidate) => candidate.type === type);

@@ -63,7 +63,7 @@ function chosenAt(view: Viewport, p: Place, reach: number): Drag | null {
     : null;
 }
 
-/** What a press at a place drags: a part under the pointer, or the camera. */
+/** The object that a press at a place drags: a part under the pointer, or the camera. */
 export function dragAt(view: Viewport, p: Place, reach: number, hit: Hit | null): Drag {
   if (state.sectionOn.value && isNear(view, view.handle(), p, reach)) return { kind: 'handle' };
   const clip = clipPlace();

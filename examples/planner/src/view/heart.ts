@@ -55,7 +55,7 @@ export interface Tube {
   points: number[][];
   closed: boolean;
   radius: number;
-  /** Of its polygon. */
+  /** Number of sides of its polygon. */
   sides: number;
   colour: Colour;
 }

@@ -1,4 +1,4 @@
-// What the picture depends on, as lists whose items are compared by identity.
+// Inputs of the picture, as lists whose items are compared by identity.
 import * as state from '../store/state';
 
 /** Whatever the scene is made of: it is built anew where one of these changes. */
@@ -15,7 +15,7 @@ export function sceneInputs(): unknown[] {
     state.map.value === 'distance' ? state.compared.value : null,
     state.map.value === 'distance' ? state.main.value : null,
     state.choice.value,
-    // what a preview removes is drawn faintly until it is applied
+    // parts that a preview removes are drawn faintly until it is applied
     !!state.preview.value,
     state.added.value?.id,
     state.chordsOn.value,

@@ -32,7 +32,7 @@ function askedType(): string {
   return info?.fields.find((field) => field.name === state.picking.value)?.type ?? '';
 }
 
-/** The name of what a click would take, or of what else is there. */
+/** The name of the part that a click would take, or of another part there. */
 function nameUnder(hit: Hit, topology: Topology, type: string): string {
   const chord = hit.chord >= 0 ? topology.chords[hit.chord].name : '';
   const head = hit.head >= 0 ? topology.heads[hit.head].name : '';
@@ -123,7 +123,7 @@ export class KeyPointer {
     this.view.moved();
   }
 
-  /** Says what is under the cross, for those who cannot see it. */
+  /** Names the part under the cross, for those who cannot see it. */
   private say(): void {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);

@@ -193,7 +193,7 @@ export class Labels {
     for (const one of of('head')) one.element.hidden = !names.includes(one);
     const wished = [...taken, ...names.map(({ at, size }) => boxAt(at, size))];
     for (const one of of('chord')) taken.push(this.callOut(view, one.element, one.at, wished));
-    // what is chosen stays where it is; the others give way to it
+    // the label of the chosen part stays in its place; the others give way to it
     names.sort((a, b) => rank(a.label) - rank(b.label));
     const scallops = names.filter(({ label }) => label.kind === 'scallop');
     const muscles = this.musclesUnder(view, scallops);

@@ -31,8 +31,8 @@ export function orifice(picture: Picture): Mesh {
   };
 }
 
-/** The radius of a jet's shaft, mm: its section is a twentieth of the part of the orifice, within what is seen and what hides
- *  no leaflet. */
+/** The radius of a jet's shaft, mm: its section is a twentieth of the part of the orifice, between a radius that is
+ *  visible and one that would hide leaflets. */
 const jetRadius = (area: number): number => Math.min(1.2, Math.max(0.3, Math.sqrt((0.05 * area) / Math.PI)));
 
 /** An arrow along the jet of each part of the orifice, thicker and longer for larger parts. */

@@ -19,14 +19,14 @@ export interface SurfaceHit {
 
 export interface Hit {
   surface: SurfaceHit | null;
-  /** The chord and the papillary head within reach that are nearest on the screen, -1 if there is none. */
+  /** The chord and the papillary head within reach that are nearest on the screen, -1 if both are out of reach. */
   chord: number;
   head: number;
-  /** What the pointer means where nothing special is asked for. */
+  /** The part that the pointer means where the form does not ask for a type. */
   part: 'chord' | 'head' | 'surface' | null;
 }
 
-/** What can be picked, as it is drawn. */
+/** Parts that can be picked, as they are drawn. */
 export interface Pickable {
   camera: Camera;
   topology: Topology;
@@ -218,7 +218,7 @@ function nearest(all: Candidate[], reach: number, surfaceAt: (p: Pixel) => Surfa
 }
 
 /**
- * What the pointer means: the head where it is drawn, unless a chord is drawn in front of it there; beside the heads
+ * The part that the pointer means: the head where it is drawn, unless a chord is drawn in front of it there; beside the heads
  * a chord within reach, which is thin and has to be meant from beside it; then a head within reach; then the leaflet.
  */
 function meant(head: Candidate, chord: Candidate, surface: SurfaceHit | null): Hit['part'] {

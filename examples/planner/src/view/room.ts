@@ -20,7 +20,7 @@ export function lowestFree(host: HTMLElement): (x: number) => number {
   };
 }
 
-/** The outline of what a view shows: the annulus, and a box around each papillary head as it is drawn, mm. */
+/** The outline of the parts in a view: the annulus, and a box around each papillary head as it is drawn, mm. */
 export function outlineOf(picture: Picture, frame: number[]): number[][] {
   const topology = state.topologyOf(picture);
   const up = frame.slice(9, 12);

@@ -256,7 +256,7 @@ export class Viewport {
     const picture = state.picture.value;
     const topology = picture && state.topologyOf(picture);
     const plane = this.plane();
-    // a section shows what is behind its plane as it is: devices do not shine through the cut leaflets
+    // behind the plane of a section devices do not shine through the cut leaflets
     const above = this.eyeHeight() > 0.2;
     const meshes = this.meshes.filter(
       (mesh) => !(plane && mesh.cut && mesh.overlay) && !(above && mesh.fromBelow),

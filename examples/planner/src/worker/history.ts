@@ -21,7 +21,7 @@ export function ofRepair(history: HistoryEntry[], before: number, forgotten: boo
   return forgotten ? done : [...done, ...history.filter(({ undone }) => undone)];
 }
 
-/** A step of a plan that sets a clip (formats/FORMAT.md); what has its default is left out. */
+/** A step of a plan that sets a clip (formats/FORMAT.md); fields with their default are left out. */
 interface ClipStep {
   do?: string;
   width_m?: number;

@@ -48,7 +48,7 @@ export class Planner {
   healthy: Snapshot | null = null;
   /** The closed valve before the first operation. */
   private first: Snapshot | null = null;
-  /** Operations that made the valve what it was before the repair; the page neither lists nor undoes them. */
+  /** Number of operations that made the diseased valve; the page neither lists nor undoes them. */
   before = 0;
   /** Operations that had been undone before the repair, while they could be repeated: until the first of the repair. */
   private forgotten = false;

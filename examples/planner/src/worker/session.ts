@@ -20,7 +20,7 @@ interface Description {
   hash: string;
   saved: string;
   checkpoints: { name: string; plan: string }[];
-  /** How many operations of the plan made the valve what it was before the repair; none where it is left out. */
+  /** Number of operations at the start of the plan that made the diseased valve; 0 if left out. */
   before?: number;
   leak_range_mm2?: Range;
   flow_ml_s?: number;
