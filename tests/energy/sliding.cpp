@@ -190,7 +190,7 @@ TEST_CASE("a_notch_counts_at_least_once") {
   const double strength = 0.5 * 20e3 * sheet.model.vertex_area[sheet.probe];
   Random random(7);
   for (int k = 0; k < 200; ++k) {
-    const Vec3 p(random(-1e-3, 8e-3), random(-6e-3, 6e-3), random(0.5e-3, 1.5e-3));
+    const Vec3 p{random(-1e-3, 8e-3), random(-6e-3, 6e-3), random(0.5e-3, 1.5e-3)};
     double d2 = 1;
     for (const Tri &t : sheet.model.valve.triangles) {
       if (t[0] >= sheet.probe) continue;

@@ -134,7 +134,7 @@ struct Pair {
   Pair(Random &random, int which)
       : body(random, which),
         pose{random.vector(2e-3),
-             Eigen::Quaterniond(random(-1, 1), random(-1, 1), random(-1, 1), random(-1, 1))
+             Eigen::Quaterniond{random(-1, 1), random(-1, 1), random(-1, 1), random(-1, 1)}
                  .normalized()},
         placed(body, pose),
         part(random.vectors(random(0, 1) < 0.3 ? 2 : 3, 3e-3)) {

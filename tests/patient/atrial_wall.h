@@ -60,7 +60,7 @@ inline std::vector<Vec3> annulus_points(const WalledValve &valve, size_t step, d
   std::vector<Vec3> points;
   uint64_t state = 5;
   for (size_t k = 0; k < valve.annulus.size(); k += step) {
-    const Vec3 off(next_share(state), next_share(state), next_share(state));
+    const Vec3 off{next_share(state), next_share(state), next_share(state)};
     points.emplace_back(valve.annulus[k] + error * off);
   }
   for (size_t k = points.size(); k > 1; --k) {

@@ -73,7 +73,7 @@ TEST_CASE("clean_surface_welds_soup_with_rounded_points_back_to_the_sheet") {
   // coordinates differ by the rounding of text with three digits, 0.5 um
   Surface rough = soup(surface_of(p.sheet));
   uint64_t seed = 5;
-  for (Vec3 &x : rough.x) x += 0.5e-6 * Vec3(next_share(seed), next_share(seed), next_share(seed));
+  for (Vec3 &x : rough.x) x += 0.5e-6 * Vec3{next_share(seed), next_share(seed), next_share(seed)};
   CHECK(cleaned(rough).x.size() == p.sheet.x.size());
 }
 

@@ -50,7 +50,7 @@ TEST_CASE("mid_of_skin_survives_noise_and_coarse_triangles") {
       uint64_t state = seed;
       // uniform, 0.1 mm rms
       for (Vec3 &x : s.x) {
-        x += 0.173e-3 * Vec3(next_share(state), next_share(state), next_share(state));
+        x += 0.173e-3 * Vec3{next_share(state), next_share(state), next_share(state)};
       }
       Findings findings;
       const LeafletSheet mid = mid_of(s, findings);
@@ -167,7 +167,7 @@ TEST_CASE("noise_of_a_thick_skin_with_flat_rims_takes_no_area") {
     Surface s = skin_of(tissue, 1, thick);
     uint64_t state = seed;
     for (Vec3 &x : s.x) {
-      x += 0.2e-3 * Vec3(next_share(state), next_share(state), next_share(state));
+      x += 0.2e-3 * Vec3{next_share(state), next_share(state), next_share(state)};
     }
     Findings findings;
     const LeafletSheet mid = mid_of(s, findings);

@@ -104,7 +104,7 @@ TEST_CASE("find_rims_survives_noise_of_an_image") {
     uint64_t state = seed;
     // uniform, 0.2 mm rms: half width 0.2 sqrt(3)
     for (Vec3 &x : s.x) {
-      x += 0.346e-3 * Vec3(next_share(state), next_share(state), next_share(state));
+      x += 0.346e-3 * Vec3{next_share(state), next_share(state), next_share(state)};
     }
     Findings findings;
     const SheetRims rims = rims_of(s, {}, findings);
