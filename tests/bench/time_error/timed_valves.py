@@ -11,7 +11,7 @@ import mvs
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "validation"))
 import convergence  # noqa: E402
-import febio  # noqa: E402
+import febio_case as febio  # noqa: E402
 
 ELEMENTS = ("spring", "bilinear")
 
