@@ -1,4 +1,4 @@
-"""Fields of operations: the forms in which values may be given, points, and what is refused."""
+"""Fields of operations: forms of values, points, refusals."""
 
 import mvs
 import numpy as np
