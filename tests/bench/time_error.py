@@ -30,18 +30,17 @@ import sys
 import tempfile
 import time
 import warnings
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterator, Optional
+from typing import Iterator, Optional
 
 import mvs
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "validation"))
-import convergence  # noqa: E402
-import febio  # noqa: E402
+sys.path.insert(0, str(Path(__file__).resolve().parent / "time_error"))
+from error_picture import draw  # noqa: E402
+from timed_valves import LEVELS, SUBJECTS, Subject  # noqa: E402
 
-ELEMENTS = ("spring", "bilinear")
 SOLVERS = ("newton", "implicit")
 BASELINES = ("explicit", "viscous", "kinetic")
 TOLERANCES = (1e-1, 1e-3, 1e-5)
@@ -53,110 +52,6 @@ COLUMNS = ("valve", "element", "solver", "vertices", "tolerance_N", "converged",
            "other_max_mm", "crossings", "settings")
 
 PROGRAM = Path(__file__).resolve().parents[2] / "build" / "release" / "bin" / "bench_baseline"
-
-
-@dataclass
-class Subject:
-    """A valve, how it is made at each level, and the reference for its closed shape."""
-
-    name: str
-    elements: tuple[str, ...]
-    prepare: Callable[[str, int], Callable[[mvs.Simulator], None]]
-    levels: int
-    pressure_pa: float
-    finest: dict[str, mvs.Snapshot]
-    other: Optional[mvs.Snapshot]
-
-
-def refined(
-    make: Callable[[mvs.Simulator], None], law: str, level: int
-) -> Callable[[mvs.Simulator], None]:
-    """Prepares a valve, its law and its level."""
-
-    def prepare(sim: mvs.Simulator) -> None:
-        make(sim)
-        if law != "spring":
-            sim.set_leaflet(law=law)
-        sim.refine(level)
-
-    return prepare
-
-
-def finest_of(make: Callable[[mvs.Simulator], None], levels: int,
-              elements: tuple[str, ...] = ELEMENTS) -> dict[str, mvs.Snapshot]:
-    """The closed finest level of each element: one finer than those that are timed."""
-    found = {}
-    for law in elements:
-        closed = convergence.close_levels(refined(make, law, 0), levels + 1)
-        if not closed[-1].stats.converged:
-            print(f"the finest level of {law} is not at rest: {closed[-1].stats.residual:.1e} N")
-        found[law] = closed[-1].closed
-    return found
-
-
-def shipped(levels: int) -> Subject:
-    """The founding valve: 432 vertices, and refined."""
-    def make(sim: mvs.Simulator) -> None:
-        sim.generate(shape="founding")
-
-    finest = finest_of(make, levels)
-    return Subject("shipped", ELEMENTS, lambda law, k: refined(make, law, k), levels,
-                   mvs.SYSTOLE_PA, finest, finest["bilinear"])
-
-
-def healthy(levels: int) -> Subject:
-    """The default parametric valve, a membrane: 432 vertices, and refined."""
-    def make(sim: mvs.Simulator) -> None:
-        sim.generate()
-
-    finest = finest_of(make, levels, ("bilinear",))
-    return Subject("healthy", ("bilinear",), lambda law, k: refined(make, law, k), levels,
-                   mvs.SYSTOLE_PA, finest, finest["bilinear"])
-
-
-def febio_case(levels: int) -> Subject:
-    """The case that FEBio closed (tests/validation/febio.py): 468 vertices, and refined."""
-    theirs = febio.Theirs(febio.data_file())
-    springs = replace(febio.BASE, law=mvs.LeafletLaw.SPRING)
-
-    def make(sim: mvs.Simulator) -> None:
-        sim.set_valve(febio.read(theirs, springs))
-
-    with mvs.Simulator() as sim:
-        valve = febio.read(theirs, springs)
-        valve.nodes_now = theirs.closed
-        sim.set_valve(valve)
-        other = sim.snapshot()
-    return Subject("febio", ELEMENTS, lambda law, k: refined(make, law, k), levels,
-                   mvs.SYSTOLE_PA, finest_of(make, levels), other)
-
-
-TEXAS_VERTICES = (800, 1500, 4000, None)
-
-
-def texas_case(levels: int) -> Subject:
-    """The Texas valve (tests/validation/texas.py), coarsened, with its own law; and Abaqus's."""
-    import texas
-
-    folder = texas.data_folder()
-
-    def prepare(law: str, level: int) -> Callable[[mvs.Simulator], None]:
-        return lambda sim: sim.restore(texas.open_valve(folder, TEXAS_VERTICES[level]))
-
-    with mvs.Simulator() as sim:
-        frame = texas.read_frame(folder)
-        valve = mvs.valve_of(texas.open_valve(folder))
-        valve.nodes_now = valve.nodes.copy()
-        valve.nodes_now[: len(frame.points)] = frame.points
-        sim.set_valve(valve)
-        other = sim.snapshot()
-    return Subject("texas", ("fung",), prepare, min(levels + 1, len(TEXAS_VERTICES)),
-                   texas.PRESSURE, {}, other)
-
-
-# levels that are timed, without --long; FEBio's case folds in many ways and takes longer
-LEVELS = {"shipped": 2, "healthy": 1, "febio": 1, "texas": 1}
-SUBJECTS = {"shipped": shipped, "healthy": healthy, "febio": febio_case, "texas": texas_case}
 
 
 @dataclass
@@ -258,74 +153,6 @@ def write(rows: list[dict], path: Path) -> None:
         for row in rows:
             writer.writerow({k: f"{v:.4g}" if isinstance(v, float) else v
                              for k, v in row.items()})
-
-
-COLOURS = {"newton": "#1b6ca8", "implicit": "#e08e0b", "explicit": "#b3262e",
-           "viscous": "#3f8f4a", "kinetic": "#8b5fb0"}
-NAMES = {"viscous": "relaxation, viscous", "kinetic": "relaxation, kinetic"}
-MARKERS = {"spring": "o", "bilinear": "s", "fung": "D"}
-
-
-def draw(rows: list[dict], path: Path) -> None:
-    """Error over time, a panel a valve; larger markers are finer meshes, hollow ones crossed, and
-    a cross is not at a stable rest."""
-    import matplotlib
-
-    matplotlib.use("Agg")
-    import matplotlib.pyplot as plt
-
-    valves = list(dict.fromkeys(row["valve"] for row in rows))
-    columns = len(valves) if len(valves) < 4 else 2
-    lines = -(-len(valves) // columns)
-    figure, axes = plt.subplots(lines, columns, figsize=(6 * columns, 0.8 + 4.8 * lines),
-                                squeeze=False)
-    for ax, valve in zip(axes.flat, valves):
-        _draw_valve(ax, valve, [r for r in rows
-                                if r["valve"] == valve and r["converged"] != "diverged"])
-    handles = [plt.Line2D([], [], color=c, marker="o", ls="", label=NAMES.get(s, s))
-               for s, c in COLOURS.items() if any(r["solver"] == s for r in rows)]
-    handles += [plt.Line2D([], [], color="#555555", marker=MARKERS[e], ls="", label=name)
-                for e, name in (("spring", "springs"), ("bilinear", "membrane"), ("fung", "Fung"))
-                if any(r["element"] == e for r in rows)]
-    handles.append(plt.Line2D([], [], color="#555555", marker="o", ls="", mfc="none",
-                              label="crosses itself"))
-    if any(row["converged"] == "no" for row in rows):
-        handles.append(plt.Line2D([], [], color="#555555", marker="x", ls="",
-                                  label="not at a stable rest"))
-    rows_of_keys = 3 if columns == 1 else 2
-    figure.legend(handles=handles, loc="lower center", ncols=-(-len(handles) // rows_of_keys),
-                  frameon=False)
-    figure.tight_layout(rect=(0, (0.3 + 0.25 * rows_of_keys) / figure.get_figheight(), 1, 1))
-    figure.savefig(path, dpi=130)
-    plt.close(figure)
-
-
-def _draw_valve(ax: Any, name: str, rows: list[dict]) -> None:
-    """The runs of one valve that did not diverge."""
-    from matplotlib.ticker import LogLocator
-
-    own = any(row["error_rms_mm"] for row in rows)
-    sizes = sorted({row["vertices"] for row in rows})
-    for row in rows:
-        colour = COLOURS[row["solver"]]
-        place = row["cpu_s"], row["error_rms_mm" if own else "other_rms_mm"]
-        size = 40 + 90 * sizes.index(row["vertices"])
-        if row["converged"] == "no":
-            ax.scatter(*place, s=size, marker="x", linewidths=1.4, color=colour, alpha=0.75)
-            continue
-        ax.scatter(*place, s=size, marker=MARKERS[row["element"]], linewidths=1.4,
-                   edgecolors=colour, alpha=0.75,
-                   facecolors="none" if row["crossings"] else colour)
-    goal = "its finest level" if own else "Abaqus"
-    ax.set(xscale="log", yscale="log", xlabel="CPU time to close, s",
-           ylabel=f"distance from {goal}, RMS, mm",
-           title=f"{name}: {' and '.join(f'{size:,}' for size in sizes)} vertices")
-    for axis in (ax.xaxis, ax.yaxis):
-        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.set_major_formatter("{x:g}")
-        axis.set_minor_formatter("")
-    ax.grid(True, which="both", alpha=0.25)
-    ax.spines[["top", "right"]].set_visible(False)
 
 
 def main() -> None:

@@ -1,7 +1,7 @@
 """`mvs chords`: the table of chordae."""
 import re
 
-from test_cli import Shell, mvs
+from command import Shell, mvs
 
 
 class Chords(Shell):

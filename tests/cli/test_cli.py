@@ -1,14 +1,10 @@
 """The command `mvs` for scripts: its output on stdout and stderr, its files, its exit codes."""
 import json
 import math
-import os
-import pathlib
 import re
-import subprocess
-import tempfile
 import unittest
 
-MVS = os.environ["MVS_COMMAND"]
+from command import Command
 
 # Keys of the JSON object of `close`, on which scripts rely.
 CLOSE_KEYS = {"converged", "iterations", "wall_s", "residual_N", "vertices", "faces", "chords",
@@ -17,53 +13,6 @@ MEASURES_KEYS = {
     "regurgitant_orifice_area_mm2", "coaptation_area_mm2", "coaptation_length_mean_mm",
     "coaptation_length_max_mm", "tenting_height_mm", "billow_height_mm", "annulus_ap_mm",
     "annulus_cc_mm", "annulus_area_mm2", "max_chord_strain", "max_leaflet_strain"}
-
-
-def mvs(*arguments, cwd):
-    return subprocess.run([MVS, *map(str, arguments)], cwd=cwd, capture_output=True, text=True,
-                          timeout=300)
-
-
-class Shell(unittest.TestCase):
-    """Runs commands in a temporary folder."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.dir = pathlib.Path(cls.folder.name)
-
-    @classmethod
-    def ok(cls, *arguments):
-        done = mvs(*arguments, cwd=cls.dir)
-        assert done.returncode == 0, done.stderr
-        return done
-
-    @classmethod
-    def json(cls, *arguments):
-        return json.loads(cls.ok(*arguments, "--json").stdout)
-
-
-class Command(Shell):
-    @classmethod
-    def setUpClass(cls):
-        super().setUpClass()
-        cls.ok("generate", "--shape", "founding", "-o", "v.obj")
-        cls.closed = cls.json("close", "v.obj", "-o", "closed.obj")
-
-    def fails(self, *arguments):
-        """Runs a command that must fail and leave the folder unchanged."""
-        before = {p.name: p.read_bytes() for p in self.dir.iterdir()}
-        done = mvs(*arguments, cwd=self.dir)
-        self.assertEqual(done.returncode, 1, done.stderr)
-        self.assertEqual({p.name: p.read_bytes() for p in self.dir.iterdir()}, before)
-        return done
-
-    def misused(self, *arguments):
-        done = mvs(*arguments, cwd=self.dir)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stdout, "")
-        return done.stderr
 
 
 class Json(Command):
@@ -88,141 +37,6 @@ class Json(Command):
         done = self.ok("close", "v.obj", "--json", "--progress")
         json.loads(done.stdout)
         self.assertRegex(done.stderr, r"out-of-balance")
-
-
-class Close(Command):
-    def test_shipped_valve_is_sealed(self):
-        self.assertTrue(self.closed["converged"])
-        self.assertEqual(self.closed["intersections"], 0)
-        self.assertEqual(self.closed["measures"]["regurgitant_orifice_area_mm2"], 0)
-
-    def test_dilated_annulus_leaks(self):
-        # annulus dilated by 15 %, one strut chord longer by 25 %
-        self.ok("generate", "--shape", "founding", "-o", "dilated.obj", "--annulus-scale", 1.15,
-                "--chord-factor", "A2/7=1.25")
-        leaking = self.json("close", "dilated.obj")
-        self.assertTrue(leaking["converged"])
-        self.assertEqual(leaking["intersections"], 0)
-        # the requirement for this lesion
-        self.assertGreater(leaking["measures"]["regurgitant_orifice_area_mm2"], 10)
-
-    def test_residual_is_below_the_requested_one(self):
-        self.assertLessEqual(self.json("close", "v.obj", "--residual", 1e-3)["residual_N"], 1e-3)
-
-    def test_workers_change_no_bit_of_the_result(self):
-        self.ok("close", "v.obj", "-o", "alone.obj")
-        self.ok("close", "v.obj", "-o", "shared.obj", "--workers", 2)
-        alone, shared = ((self.dir / name).read_bytes() for name in ("alone.obj", "shared.obj"))
-        self.assertEqual(alone, shared)
-        self.assertIn("--workers", self.misused("close", "v.obj", "--workers", 0))
-
-    def test_a_valve_that_is_not_at_rest_is_written_marked_and_ends_with_1(self):
-        early = ["close", "v.obj", "--json", "--max-iterations", 2, "-o", "early.obj"]
-        done = mvs(*early, cwd=self.dir)
-        self.assertEqual(done.returncode, 1)
-        self.assertFalse(json.loads(done.stdout)["converged"])
-        self.assertIn("not converged", done.stderr)
-        found = self.json("measure", "early.obj")["measures"]
-        self.assertEqual((found["at_rest"], found["under_load"]), (False, True))
-        self.assertIn("(no grade: not at rest)", self.ok("measure", "early.obj").stdout)
-        self.ok(*early, "--allow-unsettled")
-
-    def test_measure_prints_only_the_groups_asked_for(self):
-        whole = self.json("measure", "closed.obj")
-        some = self.json("measure", "closed.obj", "--only", "orifice,coaptation")
-        keys = {key for key in whole["measures"] if key.startswith(("coaptation", "regurgitant"))}
-        self.assertEqual(set(some["measures"]), keys | {"at_rest", "under_load"})
-        self.assertTrue(all(some["measures"][key] == whole["measures"][key] for key in keys))
-        self.assertNotIn("intersections", some)
-        self.assertEqual(self.json("measure", "closed.obj", "--only", "crossings")["intersections"], 0)
-        shown = self.ok("measure", "closed.obj", "--only", "annulus").stdout
-        self.assertIn("Annulus AP diameter", shown)
-        self.assertNotIn("sealed", shown)
-        self.assertIn("'leaks' is unknown; choose from: crossings, orifice,",
-                      self.misused("measure", "closed.obj", "--only", "annulus,leaks"))
-
-    def test_only_a_valve_at_rest_under_load_is_graded(self):
-        self.assertIn("(no grade: no load)", self.ok("measure", "v.obj").stdout)
-        self.assertIn("(sealed)", self.ok("measure", "closed.obj").stdout)
-        self.ok("op", "closed.obj", "ring", "--size", 30, "-o", "ringed.obj")
-        self.assertIn("(no grade: not at rest)", self.ok("measure", "ringed.obj").stdout)
-
-    def test_tissue_that_cannot_bear_the_pressure_is_named(self):
-        done = self.fails("close", "v.obj", "--leaflet", "neo_hookean", "--pressure", 1500)
-        self.assertIn("yields without end", done.stderr)
-        self.ok("close", "v.obj", "--leaflet", "neo_hookean")
-
-    def test_same_command_gives_the_same_bits(self):
-        self.assertEqual(self.json("close", "v.obj")["hash"], self.closed["hash"])
-
-    def test_measure_of_the_written_file_is_that_of_close(self):
-        written = self.json("measure", "closed.obj")
-        self.assertEqual(written["measures"], self.closed["measures"])
-        self.assertEqual(written["pressure_mmHg"], 120)
-
-    def test_without_pressure_the_leaflets_stay_apart(self):
-        still = self.json("close", "v.obj", "--pressure", 0)
-        self.assertLess(still["measures"]["max_leaflet_strain"],
-                        self.closed["measures"]["max_leaflet_strain"])
-
-
-class Generate(Command):
-    def test_defaults_in_the_help_are_those_of_the_library(self):
-        help_text = self.ok("generate", "--help").stdout
-        defaults = re.findall(r"^\s+(--[\w-]+)[^\n\[]*(?:\n\s+[^\n\[-]*)?"
-                              r"\[([\d.]+)(?:; +founding\s+([\d.]+))?\]", help_text, re.M)
-        self.assertEqual(len(defaults), 16)
-        healthy = [word for option, value, _ in defaults for word in (option, value)]
-        founding = [word for option, value, other in defaults for word in (option, other or value)]
-        self.assertEqual(self.json("generate", "-o", "explicit.obj", *healthy)["hash"],
-                         self.json("generate", "-o", "default.obj")["hash"])
-        self.assertEqual(
-            self.json("generate", "--shape", "founding", "-o", "explicit.obj", *founding)["hash"],
-            self.json("info", "v.obj")["hash"])
-
-    def test_the_membrane_is_the_tissue_of_the_default_valve(self):
-        def tissue(*words):
-            self.json("generate", "-o", "tissue.obj", "--vertices", 200, *words)
-            return self.json("close", "tissue.obj", "--pressure", 0)["leaflet"]
-        self.assertEqual(tissue(), "bilinear")
-        self.assertEqual(tissue("--leaflet", "membrane"), "bilinear")
-        self.assertEqual(tissue("--leaflet", "spring"), "spring")
-        self.assertEqual(tissue("--shape", "founding"), "spring")
-        self.assertEqual(tissue("--shape", "founding", "--leaflet", "fung"), "fung")
-
-    def test_a_factor_of_one_on_a_chord_changes_no_bit(self):
-        name = "P2/1"
-        same = self.json("generate", "--shape", "founding", "-o", "same.obj", "--chord-factor", name + "=1")
-        self.assertEqual(same["hash"], self.json("info", "v.obj")["hash"])
-
-    def test_a_longer_chord_is_the_only_difference(self):
-        def lines(file):
-            return (self.dir / file).read_text().splitlines()
-        self.ok("generate", "--shape", "founding", "-o", "longer.obj", "--chord-factor", "P2/1=1.25")
-        changed = [(a, b) for a, b in zip(lines("v.obj"), lines("longer.obj")) if a != b]
-        self.assertEqual(len(lines("v.obj")), len(lines("longer.obj")))
-        self.assertEqual(len(changed), 1, changed)
-
-    def test_dimensions_reach_the_valve(self):
-        self.ok("generate", "--shape", "founding", "-o", "big.obj", "--annulus-ap", 30, "--annulus-cc", 38,
-                "--vertices", 1000)
-        info = self.json("info", "big.obj")
-        # 1000 is approximate: the mesh has whole rows and columns
-        self.assertTrue(800 < info["vertices"] < 1200, info["vertices"])
-        # the annulus is a polygon in a smooth curve: under 1 % shorter at this size
-        self.assertAlmostEqual(info["annulus_ap_mm"], 30, delta=0.3)
-        self.assertAlmostEqual(info["annulus_cc_mm"], 38, delta=0.38)
-
-    def test_an_impossible_valve_is_refused_with_its_range(self):
-        self.assertIn("annulus_ap", self.fails("generate", "--shape", "founding", "-o", "x.obj", "--annulus-ap",
-                                               500).stderr)
-
-    def test_an_unknown_chord_is_refused_by_name(self):
-        self.assertIn("P9/1", self.fails("generate", "--shape", "founding", "-o", "x.obj", "--chord-factor",
-                                         "P9/1=2").stderr)
-
-    def test_a_missing_folder_is_reported(self):
-        self.assertIn("no/such", self.fails("generate", "--shape", "founding", "-o", "no/such/folder/v.obj").stderr)
 
 
 class Info(Command):

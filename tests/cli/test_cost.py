@@ -2,7 +2,7 @@
 import csv
 import unittest
 
-from test_cli import Shell, mvs
+from command import Shell, mvs
 
 
 class Cost(Shell):

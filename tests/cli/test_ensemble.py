@@ -1,7 +1,7 @@
 """`mvs close --members`: the JSON object and the text of an ensemble of closures."""
 import unittest
 
-from test_cli import Shell, mvs
+from command import Shell, mvs
 
 MEMBERS = 4
 

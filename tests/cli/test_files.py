@@ -1,7 +1,7 @@
 """Commands that compare, convert and remesh files."""
 import unittest
 
-from test_cli import Command
+from command import Command
 
 
 class Compare(Command):

@@ -1,5 +1,5 @@
 """`mvs leak`: where a valve leaks."""
-from test_cli import Shell
+from command import Shell
 
 
 class Leak(Shell):

@@ -2,7 +2,7 @@
 import re
 import unittest
 
-from test_cli import Command
+from command import Command
 
 # Operations of each kind, with options of every type.
 EXAMPLES = {

@@ -3,7 +3,7 @@ import json
 import re
 import unittest
 
-from test_cli import Command
+from command import Command
 
 
 class Plans(Command):

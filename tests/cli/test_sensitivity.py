@@ -1,7 +1,7 @@
 """`mvs sensitivity`: derivatives of measures, sorted by influence."""
 import unittest
 
-from test_cli import Shell, mvs
+from command import Shell, mvs
 
 
 class Sensitivity(Shell):

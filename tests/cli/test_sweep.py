@@ -4,7 +4,7 @@ import itertools
 import json
 import math
 
-from test_cli import Shell, mvs
+from command import Shell, mvs
 
 ORIFICE = "regurgitant_orifice_area_mm2"
 # Six combinations of a small valve: one chord and the annulus.

@@ -36,10 +36,11 @@ def test_levels_converge(levels):
 def test_a_run_has_its_row_and_its_place_in_the_picture(levels, tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "tests" / "bench"))
     import time_error
+    from timed_valves import refined
 
     subject = time_error.Subject(
         "shipped", ("bilinear",),
-        lambda law, k: time_error.refined(founding, law, k),
+        lambda law, k: refined(founding, law, k),
         1, mvs.SYSTOLE_PA, {"bilinear": levels[-1].closed}, None,
     )
     rows = [time_error.run(subject, "bilinear", solver, 0, 1e-3)
@@ -67,12 +68,13 @@ def test_a_baseline_that_does_not_rest_has_its_row_and_its_cross(tmp_path, monke
     """A program stands in for bench_baseline: it returns the open valve."""
     monkeypatch.syspath_prepend(str(ROOT / "tests" / "bench"))
     import time_error
+    from timed_valves import refined
 
     program = tmp_path / "baseline"
     program.write_text(BASELINE.format(python=sys.executable))
     program.chmod(0o755)
     subject = time_error.Subject("shipped", ("bilinear",),
-                                 lambda law, k: time_error.refined(founding, law, k),
+                                 lambda law, k: refined(founding, law, k),
                                  1, mvs.SYSTOLE_PA, {}, None)
     rows = [time_error.run(subject, "bilinear", "newton", 0, 1e-3),
             time_error.run(subject, "bilinear", "viscous", 0, 1e-3, program)]

@@ -8,12 +8,12 @@ import pytest
 
 @pytest.fixture(scope="module")
 def theirs(real_valves):
-    import febio
+    import febio_case
 
-    path = real_valves / febio.FILE
+    path = real_valves / febio_case.FILE
     if not path.is_file():
         pytest.skip(f"no {path}")
-    return febio.Theirs(path)
+    return febio_case.Theirs(path)
 
 
 @pytest.fixture(scope="module")

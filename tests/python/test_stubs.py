@@ -26,7 +26,7 @@ def test_stubs_match_the_module(tmp_path):
     found = subprocess.run(
         [sys.executable, "-m", "mypy.stubtest", "--allowlist", str(allowed), "--concise",
          "--ignore-unused-allowlist", "mvs._core", "mvs.arrays", "mvs.editing", "mvs.errors",
-         "mvs.haptics", "mvs.kinds", "mvs.plans", "mvs.values"],
+         "mvs.haptics", "mvs.kinds", "mvs.measures", "mvs.outcomes", "mvs.plans", "mvs.values"],
         capture_output=True,
         text=True,
     )

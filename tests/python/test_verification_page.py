@@ -23,6 +23,7 @@ ROWS = """case,x,level,value,exact,relative_error,observed_order
 @pytest.fixture(scope="module")
 def report():
     path = pathlib.Path(__file__).parents[1] / "verification" / "report.py"
+    sys.path.insert(0, str(path.parent))
     spec = importlib.util.spec_from_file_location("verification_report", path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module  # dataclasses look up their module
@@ -46,7 +47,9 @@ def test_tables_are_read_unchanged(studies):
 
 
 def test_the_page_is_self_contained_and_shows_every_row(report, studies):
-    png = report.convergence_picture(studies)
+    from report_pictures import convergence_picture
+
+    png = convergence_picture(studies)
     text = report.page(studies, [("convergence", "errors", png)])
     assert text.count("data:image/png;base64,") == 1
     assert not re.search(r'(src|href)="(?!data:|#)', text)

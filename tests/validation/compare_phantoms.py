@@ -14,7 +14,7 @@ import json
 import sys
 from pathlib import Path
 
-from phantoms import Row, coverage, is_inside
+from phantom_rows import Row, coverage, is_inside
 
 
 def read_rows(path: Path) -> list[Row]:

@@ -96,7 +96,7 @@ class Case:
     """FEBio's shape with the nodes that touch another leaflet, and the annulus, held."""
 
     def __init__(self, theirs) -> None:
-        from febio import normals
+        from febio_case import normals
 
         self.theirs, self.count = theirs, len(theirs.opened) - len(theirs.heads)
         self.shape = theirs.closed[: self.count]

@@ -24,7 +24,8 @@ test("cases in Chromium", { skip: existsSync(executable) ? false : `no ${executa
     packed: gzipSync(readFileSync(join(dist, "mvs.wasm")), { level: 9 }).toString("base64"),
   });
   try {
-    const messages = await page.run({ groups: rounds > 0 ? ["life", "work", "soak"] : ["life", "work"], rounds });
+    const groups = ["life", "operations", "work", ...(rounds > 0 ? ["soak"] : [])];
+    const messages = await page.run({ groups, rounds });
     const last = messages.pop();
     assert.equal(last.failure, undefined);
     assert.ok(messages.length > 25, `${messages.length} cases ran`);

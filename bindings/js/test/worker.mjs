@@ -1,9 +1,10 @@
 // The cases in a browser's worker: answers a job { groups, rounds } with one message for each case.
 import { life } from "./cases/life.mjs";
+import { operations } from "./cases/operations.mjs";
 import { soak } from "./cases/soak.mjs";
 import { work } from "./cases/work.mjs";
 
-const groups = { life, work, soak };
+const groups = { life, operations, work, soak };
 
 onmessage = async ({ data: { packed, job } }) => {
   const { libmvs } = globalThis;

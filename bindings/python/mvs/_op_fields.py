@@ -5,11 +5,12 @@ from __future__ import annotations
 import dataclasses
 import operator
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, NoReturn, Optional, Union
+from typing import TYPE_CHECKING, Any, NoReturn, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ._op_sites import Site, site_of_text, site_of_tuple
 from .errors import ArgumentError
 from .kinds import PartKind
 from .values import Part
@@ -54,39 +55,6 @@ _WANTED = {
     FieldType.POINTS: "points, an array of shape (n, 3)",
     FieldType.TEXT: "text without a zero character",
 }
-
-
-@dataclasses.dataclass(frozen=True)
-class Site:
-    """A site on a leaflet: a node, a point of a triangle, or a point of a scallop.
-
-    node: index
-    triangle: index; ``barycentric`` are its coordinates, with sum 1
-    scallop: name or id; ``along``: 0 at its end towards the negative CC axis, 1 at the other;
-        ``height``: 0 at the annulus, 1 at the free edge
-    """
-
-    node: Optional[int] = None
-    triangle: Optional[int] = None
-    barycentric: tuple[float, ...] = ()
-    scallop: Union[str, int, None] = None
-    along: float = 0.5
-    height: float = 1.0
-
-    def __repr__(self) -> str:
-        if self.node is not None:
-            return f"mvs.Site(node={self.node})"
-        if self.triangle is not None:
-            return f"mvs.Site(triangle={self.triangle}, barycentric={self.barycentric})"
-        return f"mvs.Site(scallop={self.scallop!r}, along={self.along}, height={self.height})"
-
-    def __post_init__(self) -> None:
-        given = [x is not None for x in (self.node, self.triangle, self.scallop)]
-        if sum(given) != 1 or (self.triangle is not None) != (len(self.barycentric) == 3):
-            raise ArgumentError(
-                "a site is a node, or a triangle with three barycentric coordinates, or a scallop",
-                "site",
-            )
 
 
 @dataclasses.dataclass(frozen=True)
@@ -203,9 +171,9 @@ def _part(field: OpField, value: Any) -> Union[str, int]:
 
 def _site(field: OpField, value: Any) -> Site:
     if isinstance(value, str):
-        value = _site_of_text(value)
+        value = site_of_text(value)
     if isinstance(value, (tuple, list)):
-        value = _site_of_tuple(*value)
+        value = site_of_tuple(*value)
     elif not isinstance(value, Site):
         value = Site(node=_index(value, 2**32 - 1))
     return Site(
@@ -216,24 +184,6 @@ def _site(field: OpField, value: Any) -> Site:
         along=_number(field, value.along),
         height=_number(field, value.height),
     )
-
-
-def _site_of_text(text: str) -> Site:
-    """Reads the command's text: P2:0.5:0.9, node:17, or triangle:12:0.3:0.3:0.4."""
-    first, *rest = text.split(":")
-    if first == "node" and len(rest) == 1:
-        return Site(node=int(rest[0]))
-    if first == "triangle" and len(rest) == 4:
-        return Site(triangle=int(rest[0]), barycentric=tuple(map(float, rest[1:])))
-    along, height = map(float, rest)
-    return Site(scallop=first, along=along, height=height)
-
-
-def _site_of_tuple(first: Any, *rest: Any) -> Site:
-    if len(rest) == 1:
-        return Site(triangle=first, barycentric=tuple(rest[0]))
-    along, height = rest
-    return Site(scallop=first, along=along, height=height)
 
 
 def _scallop_of_site(value: Any) -> Union[str, int]:

@@ -88,7 +88,7 @@ def test_intervals_and_report(found, truth, tmp_path):
 
 
 def test_lengths_that_act_solve_the_complementarity_problem():
-    from mvs.fitting.posterior import SOFTEST, Linear
+    from mvs.fitting.linear import SOFTEST, Linear
 
     random = np.random.default_rng(3)
     root = random.normal(size=(6, 4))
@@ -114,7 +114,7 @@ def test_lengths_that_act_solve_the_complementarity_problem():
 
 
 def test_errors_of_the_linearisation_are_noise_of_their_covariance():
-    from mvs.fitting.posterior import Linear
+    from mvs.fitting.linear import Linear
 
     random = np.random.default_rng(4)
     jacobian, residual, errors = (random.normal(size=s) for s in ((40, 5), 40, (8, 40)))

@@ -44,7 +44,7 @@ def slack_tree():
 
 def test_slack_chordae_of_a_branch_point_are_known_to_pull_when_short(slack_tree):
     from mvs.fitting.fit import Problem
-    from mvs.fitting.posterior import SLACK, linearised
+    from mvs.fitting.linear import SLACK, linearised
 
     start, rows = slack_tree
     nodes = np.unique(start.triangle_nodes)
@@ -83,7 +83,8 @@ def test_lengths_at_which_a_slack_branch_point_pulls_are_in_balance(slack_tree):
 
 
 def test_a_tilt_gives_the_mean_of_a_curved_posterior():
-    from mvs.fitting.posterior import Linear, _chain
+    from mvs.fitting.linear import Linear
+    from mvs.fitting.posterior import _chain
 
     # residual and slope grow together: the mean of the posterior is not where a linearisation has it
     residual, slope = (lambda z: 1.5 * (z - 0.4) + 0.2 * (z - 0.4) ** 2), (lambda z: 1.5 + 0.4 * (z - 0.4))
@@ -107,7 +108,7 @@ def test_a_tilt_gives_the_mean_of_a_curved_posterior():
 
 
 def test_a_tilt_of_nothing_but_chance_is_none():
-    from mvs.fitting.posterior import Linear
+    from mvs.fitting.linear import Linear
 
     random = np.random.default_rng(2)
     linear = Linear(np.zeros(4), np.eye(4), np.zeros(4), np.zeros(0, np.int64), np.zeros(0), np.zeros((0, 4)),

@@ -11,9 +11,9 @@ pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 
 from mvs import imaging  # noqa: E402
 from mvs.imaging.console import Console  # noqa: E402
-from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid, width_of  # noqa: E402
 from mvs.imaging.mesh import edges_with_triangles, two_sided, unique_edges  # noqa: E402
 from mvs.imaging.microct.segment import nearest_voxels  # noqa: E402
+from mvs.imaging.tissue_sheet import fitted_sheet, grid_step, tissue_on_grid, width_of  # noqa: E402
 
 
 def shell(voxel, thickness=1.4, radius=12.0):

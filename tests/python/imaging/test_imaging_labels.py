@@ -13,9 +13,9 @@ pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 from label_images import NAMES, VOXEL, funnel, image_of  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging import mesh  # noqa: E402
-from mvs.imaging.labels import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
 from mvs.imaging.page import distance_histogram  # noqa: E402
 from mvs.imaging.requests import edge_of_labels, thickness_of_labels  # noqa: E402
+from mvs.imaging.tissue_sheet import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
 from mvs.imaging.valve import check_closed, distance_from_image  # noqa: E402
 
 def away_from_cone(points):

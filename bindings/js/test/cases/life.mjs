@@ -9,6 +9,8 @@ export const closed = (mvs, vertices = 425) => {
   return sim;
 };
 
+export const hashOf = (sim) => sim.read((snapshot) => snapshot.hash);
+
 // Takes all memory but about `kept` bytes, in one piece; below 0: all memory.
 function fill(heap, kept) {
   const blocks = kept > 0 ? [heap.allocate(kept)] : [];

@@ -19,7 +19,7 @@ from ..editing import valve_of
 from ..errors import ArgumentError
 from ..kinds import PartKind
 from ..laws import leaflet_law
-from ..sensitivities import AXES, PARAMETER
+from ..sensitivity_rows import AXES, PARAMETER
 from ..words import did_you_mean, listed
 
 Array = NDArray[np.float64]

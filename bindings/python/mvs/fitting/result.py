@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from .. import _core
 from ..errors import ArgumentError
-from ..sensitivities import NO_TEST, SHORT, measure_names
+from ..sensitivities import NO_TEST
+from ..sensitivity_rows import SHORT, measure_names
 from ..tables import Table
 from ..values import Measures, unit_of
 from ..words import did_you_mean, listed, shown
@@ -22,7 +23,7 @@ from .parameters import Free
 from .targets import Target
 
 if TYPE_CHECKING:
-    from .posterior import Linear
+    from .linear import Linear
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ Volumes are SimpleITK.Image in LPS and mm; points, surfaces and everything else 
 not import this package.
 """
 
-from .labels import Leaflets, LabelSettings, leaflets_in, sheet_of_image
+from .labels import Leaflets, leaflets_in
 from .landmarks import read_part
 from .loaded import Motion, closed_surface, motion_of_images, motion_of_landmarks
 from .mesh import Sheet
@@ -16,6 +16,7 @@ from .open_valve import check_open_valve
 from .pipeline import Pipeline, Run
 from .reading import LabelMap, labels_of, read_labels, read_volume
 from .sheet import SheetSettings, mid_surface
+from .tissue_sheet import LabelSettings, sheet_of_image
 from .valve import ImageValve, build
 
 __all__ = [

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Points, spacing_of
-from .labels import (ANTERIOR, POSTERIOR, LabelSettings, Tell, choose_segments, fitted_sheet,
-                     grid_step, silent, tissue_on_grid)
+from .labels import ANTERIOR, POSTERIOR, choose_segments
 from .mesh import Sheet, areas, largest_piece
 from .needs import need
 from .reading import LabelMap
 from .spurs import without_spurs
+from .tissue_sheet import LabelSettings, Tell, fitted_sheet, grid_step, silent, tissue_on_grid
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

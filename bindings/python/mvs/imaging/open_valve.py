@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from mvs import ArgumentError, FindingSource
 from .findings import finding
-from .labels import Leaflets, LabelSettings
+from .labels import Leaflets
 from .mesh import areas, edges_with_triangles, loop_length, loops_by_length, spanned
 from .spurs import cut_bridges, cut_spurs
+from .tissue_sheet import LabelSettings
 
 
 LONG_HOLE_SHARE, LONG_HOLE_AREA, OTHER_LEAFLET = 0.4, 40e-6, 0.1

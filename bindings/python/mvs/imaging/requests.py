@@ -11,12 +11,13 @@ import mvs
 from .console import Console
 from .findings import LAW, LENGTHS, finding, read_known
 from .grid import spacing_of
-from .labels import ANTERIOR, POSTERIOR, UNKNOWN, Leaflets, LabelSettings, leaflets_in
+from .labels import ANTERIOR, POSTERIOR, UNKNOWN, Leaflets, leaflets_in
 from .landmarks import read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
 from .open_valve import check_open_valve
 from .reading import LabelMap, is_label_map, labels_of, read_labels, read_volume
+from .tissue_sheet import LabelSettings
 from .valve import ImageValve, build, scanned
 
 PARTS = {"annulus": "annulus", "commissures": "commissures", "anterior": "anterior",
