@@ -61,8 +61,8 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
     valve = std::move(fitted.valve);
     g = std::move(fitted.g);
     findings = std::move(fitted.findings);
-    Findings reported = findings;  // by the fit
-    unknowns.edge = find_edge_range(settings.edge_error, settings.edge_lost, g, reported);
+    Findings unused = findings;  // the fit has reported the range
+    unknowns.edge = find_edge_range(settings.edge_error, settings.edge_lost, g, unused);
     unknowns.lengths = range_after(fitted.fit);
     unknowns.shape = {&closed, &g};
     leaks = fitted.leaks;

@@ -15,7 +15,7 @@ namespace mvs::core {
 namespace {
 
 // A fine valve whose distance from the closed surface is this many times that of the coarse one
-// lies in another fold: meshes of one fold differ by a tenth (fit_over_levels.cpp).
+// lies in another fold: meshes of one fold differ by a tenth (as_good_as).
 constexpr double other_fold = 1.2;
 
 // Fits of the coarse valve with each of some laws.
@@ -41,7 +41,8 @@ std::vector<LawFit> fits_of_laws(const std::vector<LeafletLawId> &laws, const Pa
   return fits;
 }
 
-// Coarse fits in order, of the law that is given, so that the fine fit begins alike, or of three.
+// Coarse fits, the nearest first: with the given law, so that its fine fit begins at the same
+// factors, or with each of three.
 std::vector<LawFit> coarse_fits(const Patient &patient, const BuildSettings &settings,
                                 const Findings &findings, const std::function<void(double)> &tell) {
   begin_stage(settings, "tissue");
@@ -51,7 +52,7 @@ std::vector<LawFit> coarse_fits(const Patient &patient, const BuildSettings &set
     return in_order(fits_of_laws(laws, patient, settings, findings, tell));
   } catch (const Error &error) {
     // a sheet that has no coarse mesh, or a closed surface that the fine fit refuses
-    if (error.code == MVS_E_CANCELLED) throw;
+    if (error.code != MVS_E_ARGUMENT && error.code != MVS_E_OP) throw;
     return {};
   }
 }
@@ -94,10 +95,8 @@ FittedValve fit_with_laws(const Patient &patient, const BuildSettings &settings,
       tell((static_cast<double>(k) + share) / static_cast<double>(laws.size()));
     });
     const bool same_fold = made.fit.rms <= other_fold * laws[k].rms;
-    const bool better =
-        !best ||
-        (made.fit.at_rest != best->fit.at_rest ? made.fit.at_rest : made.fit.rms < best->fit.rms);
-    if (better) best = std::move(made);
+    const auto loss = [](const ChordFit &fit) { return loss_of(fit.rms, fit.at_rest); };
+    if (!best || loss(made.fit) < loss(best->fit)) best = std::move(made);
     if (same_fold) break;
   }
   return std::move(*best);
@@ -126,7 +125,8 @@ FittedValve fitted_valve(const Patient &patient, const BuildSettings &settings,
   for (const LawFit &fit : plausible_laws(fits)) {
     if (fit.at_rest) made.leaks.push_back(fit.leak);
   }
-  made.leaks.insert(made.leaks.end(), made.fit.leaks.begin(), made.fit.leaks.end());
+  if (made.fit.at_rest) made.leaks.push_back(made.fit.leak);
+  made.leaks.insert(made.leaks.end(), made.fit.other_leaks.begin(), made.fit.other_leaks.end());
   return made;
 }
 

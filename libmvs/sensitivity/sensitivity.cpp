@@ -220,12 +220,16 @@ Sensitivity differentiate_at(const Model &model, const State &state,
   return found;
 }
 
-}  // namespace
-
-State with_slack_branches(const Model &model, const State &state, double slack) {
+void must_be_at_rest(const State &state) {
   MVS_MUST(state.is_at_rest(), MVS_E_STATE, "snapshot",
            "the snapshot is not at rest under its load: settle the valve, then take its "
            "sensitivity");
+}
+
+}  // namespace
+
+State with_slack_branches(const Model &model, const State &state, double slack) {
+  must_be_at_rest(state);
   State moved = state;
   const double margin = std::max(set::idle_margin, 10 * slack);
   const double tension = set::idle_share * state.rest_tolerance;
@@ -258,9 +262,7 @@ Sensitivity differentiate(const Model &model, const State &state,
                           const std::vector<Quantity> &quantities,
                           const std::vector<Parameter> &parameters,
                           const SensitivityOptions &options) {
-  MVS_MUST(state.is_at_rest(), MVS_E_STATE, "snapshot",
-           "the snapshot is not at rest under its load: settle the valve, then take its "
-           "sensitivity");
+  must_be_at_rest(state);
   for (size_t q = 0; q < quantities.size(); ++q) check_quantity(model, quantities[q], q);
   for (size_t p = 0; p < parameters.size(); ++p) check_parameter(model, parameters[p], p);
   const uint32_t extra = tool_points(state.tools);

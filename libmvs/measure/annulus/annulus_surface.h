@@ -9,7 +9,8 @@ namespace mvs::core {
 
 // Height above the annulus plane that solves the Laplace equation over the projected annulus with
 // the annulus as boundary values; linear finite elements on rings that shrink towards the centre.
-// The projection must be star-shaped about the origin of the frame, which holds for any annulus.
+// The projection should be star-shaped about the origin of the frame, as that of an annulus is;
+// where it is not, the first sector that holds a point counts.
 class AnnulusSurface {
  public:
   AnnulusSurface(const Frame &frame, const std::vector<Vec3> &rim);

@@ -13,8 +13,8 @@ namespace mvs::core::orifice {
 namespace {
 
 // Spacing over contact thickness: with three quarters a ball of that diameter cannot pass between
-// the samples (see smallest_cut.cpp), and the width at which an opening counts as closed is right
-// to a tenth.
+// the samples (see smallest_cut.cpp). An opening counts as closed up to that diameter, and some do
+// up to 1.3 times as wide (METHOD.md, Limits).
 constexpr double grain_of_seal = 0.75;
 // Finest spacing over the length of the rims and over the root of the sheet area: limits the work
 // for a tiny contact thickness or a torn sheet. A quarter of a millimetre for a mitral valve.

@@ -51,7 +51,7 @@ class EdgeLength {
     origin_ = at(0.5 * (g.arcs.from + g.arcs.to));
   }
 
-  // m, the length of the edge from the A point to a foot, along the way of length |w| there.
+  // m along the free edge from the A point to a foot, on the side of that muscle.
   double from_a(double foot, bool medial) const {
     const double s = at(foot) - origin_, total = length_.back();
     return medial ? wrapped(-s, total) : wrapped(s, total);

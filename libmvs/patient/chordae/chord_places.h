@@ -18,9 +18,9 @@ struct ChordPlan {
 
 // Rows along the free edge, in the rough zone, of struts and of basal chordae, evenly along their
 // own length; each muscle serves its half of both leaflets, from the A point over its commissure to
-// the P point. About `segments` chord segments, 20 to 400, a trunk with its leaves counting one
-// each; fewer where the free edge has not three vertices for two marginal chordae. Each place goes
-// to the nearest free vertex.
+// the P point. About `segments` chord segments, 20 to 400, trunks and leaves alike; fewer where the
+// free edge has not three vertices for two marginal chordae. Each place goes to the nearest free
+// vertex.
 ChordPlan plan_chords(const PatientGeometry &g, uint32_t segments);
 
 }  // namespace mvs::core

@@ -143,7 +143,8 @@ Line line_of(const std::vector<Opposite> &opposite, const AnnulusFrame &frame, d
   return line;
 }
 
-// Place of a vertex `height` from the annulus: along the sagging way to the line, then down.
+// Place of a vertex `run`, m, from the annulus along the closed leaflet: along the sagging way to
+// the line, then down.
 Vec3 closed_place(const Vec3 &base, const Vec3 &line, double run) {
   const double reach = (line - base).norm();
   if (run >= reach) return line - Vec3(0, 0, run - reach);

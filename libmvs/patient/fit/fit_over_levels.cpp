@@ -15,8 +15,6 @@ namespace mvs::core {
 namespace {
 
 constexpr double finer = 1.5;  // share of the coarse vertices from which levels pay
-// As close as on the coarse mesh: the limits of fits that are as good (fit_to_closed.cpp).
-constexpr double alike_share = 1.1, alike_distance = 0.05e-3;  // m
 
 std::optional<Coarsened> coarsened(const Model &model, size_t vertices) {
   if (static_cast<double>(sheet_vertices(model)) < finer * static_cast<double>(vertices))
@@ -71,13 +69,15 @@ void finish(const Valve &valve, const SurfaceMatcher &matcher, const FitSettings
   groups.mean.assign(groups.groups.size(), 1);
   const FitSearch search(shaped, matcher, s, solver, jacobian);
   FitTrial taken = search.from_open(groups, fit.factor);
-  if (rms_distance(taken.matches) > alike_share * fit.rms + alike_distance) {
+  if (rms_distance(taken.matches) > as_good_as(fit.rms)) {
     FitTrial improved = taken;
     std::vector<double> deviation;
     fit.rounds += search.improve(groups, improved, deviation);
     improved = search.from_open(groups, improved.factor);
-    const bool better = rms_distance(improved.matches) < rms_distance(taken.matches);
-    if (better && (improved.closed.stats.converged || !taken.closed.stats.converged)) {
+    const auto loss = [](const FitTrial &trial) {
+      return loss_of(rms_distance(trial.matches), trial.closed.stats.converged);
+    };
+    if (loss(improved) < loss(taken)) {
       for (size_t g = 0; g < fit.groups.size(); ++g) {
         for (const uint32_t c : fit.groups[g].chords)
           fit.chord_factor[c] *= improved.factor[g] / fit.factor[g];
@@ -88,7 +88,7 @@ void finish(const Valve &valve, const SurfaceMatcher &matcher, const FitSettings
   }
   fit.rms = rms_distance(taken.matches);
   fit.at_rest = taken.closed.stats.converged;
-  fit.leaks.at(0) = measure_orifice(*taken.closed.model, taken.closed.state.x).area;
+  fit.leak = measure_orifice(*taken.closed.model, taken.closed.state.x).area;
 }
 
 }  // namespace

@@ -65,14 +65,16 @@ void report_fit(const ChordFit &fit, const FitSettings &s, Findings &findings) {
               "the factor on its length and how far that is open (standard deviation)",
               known, fit.chord_factor.size()),
        std::move(rows), ""});
-  const auto [least, most] = std::minmax_element(fit.leaks.begin(), fit.leaks.end());
+  std::vector<double> leaks = fit.other_leaks;
+  leaks.push_back(fit.leak);
+  const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
   findings.push_back(
       {"fit_spread",
        FindingSource::measured,
-       fit.leaks.size() > 1 ? confidence : 0.5 * confidence,
+       leaks.size() > 1 ? confidence : 0.5 * confidence,
        format("%zu of %u fits from different lengths are as good; their closed valves are up to "
               "%.2f mm (RMS) apart and leak through %.1f to %.1f mm2",
-              fit.leaks.size(), s.starts, fit.spread * 1e3, *least * 1e6, *most * 1e6),
+              leaks.size(), s.starts, fit.spread * 1e3, *least * 1e6, *most * 1e6),
        {fit.spread},
        "m"});
 }

@@ -31,8 +31,8 @@ double match_weight(const SurfaceMatch &m, const FitSettings &s) {
 }
 
 // Minus twice the logarithm of the posterior, whose gradient has the weights above.
-double misfit_of(const FitParameters &p, const std::vector<SurfaceMatch> &matches,
-                 const std::vector<double> &factor, const FitSettings &s) {
+double log_misfit_of(const FitParameters &p, const std::vector<SurfaceMatch> &matches,
+                     const std::vector<double> &factor, const FitSettings &s) {
   double sum = 0;
   for (const SurfaceMatch &m : matches) {
     const double far = m.distance / robust_distance, scale = robust_distance / s.noise;
@@ -92,7 +92,7 @@ Valve FitSearch::scaled(const FitParameters &p, const std::vector<double> &facto
 FitTrial FitSearch::judged(const FitParameters &p, std::vector<double> factor,
                            ClosedValve closed) const {
   std::vector<SurfaceMatch> matches = matcher_.match(*closed.model, closed.state.x);
-  const double misfit = misfit_of(p, matches, factor, s_);
+  const double misfit = log_misfit_of(p, matches, factor, s_);
   return {std::move(factor), std::move(closed), std::move(matches), misfit};
 }
 

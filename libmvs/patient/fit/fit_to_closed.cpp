@@ -17,9 +17,6 @@ namespace {
 
 // Step of the differences: 0.15 mm of a chord of 15 mm, far above the error of a settled valve.
 constexpr double difference = 0.01;
-// Fits are as good as the best one if their distance is at most this much larger: less than two
-// segmentations of one valve differ by.
-constexpr double as_good_share = 1.1, as_good_distance = 0.05e-3;  // m
 // m, RMS: leaflets move by 3 to 5 mm as they close (median); the sides of thick ones lie 1 mm off.
 constexpr double nearest_open = 1e-3;
 constexpr uint64_t start_seed = 22;  // of the other starts
@@ -65,6 +62,10 @@ struct Found {
   uint32_t rounds = 0;
 };
 
+double loss(const Found &found) {
+  return loss_of(found.rms, found.trial.closed.stats.converged);
+}
+
 // Each chord of the groups as a group of its own, around the factor of its group.
 FitParameters singles_of(const FitParameters &groups, const std::vector<double> &factor,
                          const FitSettings &s) {
@@ -101,9 +102,9 @@ Found search(const FitSearch &fit, const FitParameters &groups, const FitSetting
       here.trial = fit.from_open(groups, here.group);
     }
     here.rms = rms_distance(here.trial.matches);
-    const bool is_better = pass == 0 || here.rms < best.rms;
+    const bool is_better = pass == 0 || loss(here) < loss(best);
     if (is_better) best = std::move(here);
-    if (!is_better || best.rms <= as_good_share * followed + as_good_distance) break;
+    if (!is_better || best.rms <= as_good_as(followed)) break;
     start = fit.again(groups, best.group, best.trial.closed);
   }
   best.rounds = rounds;
@@ -128,8 +129,7 @@ std::vector<double> start_factors(const FitParameters &groups, const FitSettings
   return factor;
 }
 
-double distance_between(const Model &model, const std::vector<Vec3> &a,
-                        const std::vector<Vec3> &b) {
+double node_distance(const Model &model, const std::vector<Vec3> &a, const std::vector<Vec3> &b) {
   double sum = 0, area = 0;
   for (size_t i = 0; i < a.size(); ++i) {
     sum += model.vertex_area[i] * (a[i] - b[i]).squaredNorm();
@@ -148,15 +148,14 @@ void collect(const std::vector<Found> &found, size_t best, const FitParameters &
              const FitSettings &s, size_t chords, ChordFit &fit) {
   const Found &taken = found[best];
   const Model &model = *taken.trial.closed.model;
-  const double limit = as_good_share * taken.rms + as_good_distance;
-  const FitParameters singles = singles_of(groups, taken.group, s);
-  fit.leaks.push_back(measure_orifice(model, taken.trial.closed.state.x).area);
+  const double limit = as_good_as(taken.rms);
+  fit.leak = measure_orifice(model, taken.trial.closed.state.x).area;
   std::vector<double> low = taken.trial.factor, high = low;
   for (size_t k = 0; k < found.size(); ++k) {
     if (k == best || found[k].rms > limit || !found[k].trial.closed.stats.converged) continue;
     const std::vector<Vec3> &x = found[k].trial.closed.state.x;
-    fit.spread = std::max(fit.spread, distance_between(model, x, taken.trial.closed.state.x));
-    fit.leaks.push_back(measure_orifice(model, x).area);
+    fit.spread = std::max(fit.spread, node_distance(model, x, taken.trial.closed.state.x));
+    fit.other_leaks.push_back(measure_orifice(model, x).area);
     for (size_t i = 0; i < low.size(); ++i) {
       low[i] = std::min(low[i], found[k].trial.factor[i]);
       high[i] = std::max(high[i], found[k].trial.factor[i]);
@@ -225,9 +224,6 @@ ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettin
         k == 0 && s.known.empty() ? as_it_is : fit.from_open(groups, start_factors(groups, s, k));
     found.push_back(search(fit, groups, s, std::move(start)));
     done.rounds += found.back().rounds;
-    const auto loss = [](const Found &f) {  // a valve that is not at rest is the last choice
-      return f.rms + (f.trial.closed.stats.converged ? 0 : 1);
-    };
     if (loss(found.back()) < loss(found[best])) best = k;
   }
   collect(found, best, groups, s, valve.chords.size(), done);

@@ -56,10 +56,24 @@ struct ChordFit {
   std::vector<double> chord_deviation;  // the same
   double rms_before = 0, rms = 0;       // m, distance of both surfaces, closed from open
   double spread = 0;                    // m, RMS between the nodes of fits that are as good
-  std::vector<double> leaks;            // m2, of all fits that are as good, the taken one first
+  double leak = 0;                      // m2, of the closed valve of the fitted lengths
+  bool at_rest = false;                 // that valve
+  std::vector<double> other_leaks;      // m2, of the other fits that are as good, all at rest
   uint32_t rounds = 0;                  // of all searches
-  bool at_rest = false;                 // the closed valve of the fitted lengths
 };
+
+// Another fit is as good as the best one if its distance is at most this much larger: less than two
+// segmentations, or two meshes, of one valve differ by.
+inline double as_good_as(double rms) {
+  constexpr double share = 1.1, distance = 0.05e-3;  // m
+  return share * rms + distance;
+}
+
+// Distance by which fits are compared, m: a valve that is not at rest is the last choice.
+inline double loss_of(double rms, bool at_rest) {
+  constexpr double not_at_rest = 1;  // m, farther than any fit
+  return rms + (at_rest ? 0 : not_at_rest);
+}
 
 // Called before each search with its number, from 0; may throw to end the fit.
 using FitProgress = std::function<void(uint32_t start)>;

@@ -92,8 +92,8 @@ Finding tissue_found(const std::vector<LawFit> &fits, LeafletLawId taken) {
     return {"tissue",
             FindingSource::assumed,
             0.2,
-            format("%s: with none of the tissues a coarse valve with fitted chordae closes; give "
-                   "the law if it is known",
+            format("%s: no coarse valve with fitted chordae could be compared with the closed "
+                   "surface; give the law if it is known",
                    word_of(taken)),
             {static_cast<double>(taken)},
             ""};

@@ -59,6 +59,43 @@ Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRan
   }
 }
 
+// Closures of one valve with changes, and the leaks found so far.
+class Closures {
+ public:
+  // `known`: leaks of closures at rest. `tell` gets the number of closures that are done.
+  Closures(const Model &model, const EdgeRange &edge, const std::vector<double> &known,
+           std::function<void(double)> tell)
+      : model_(model), edge_(edge), tell_(std::move(tell)), leaks_(known), leaks_at_rest_(known) {}
+
+  Closed close(const ClosureChange &change) {
+    const auto share_done = [&](double share, double) {
+      tell_(count_ + share);
+      return true;
+    };
+    share_done(0, 0);
+    Closed closed = close_with(model_.valve, change, edge_, share_done);
+    ++count_;
+    leaks_.push_back(closed.leak);
+    if (closed.at_rest) {
+      ++rests_;
+      leaks_at_rest_.push_back(closed.leak);
+    }
+    return closed;
+  }
+
+  uint32_t count() const { return count_; }
+  uint32_t rests() const { return rests_; }  // closures that came to rest
+  const std::vector<double> &leaks() const { return leaks_; }
+  const std::vector<double> &leaks_at_rest() const { return leaks_at_rest_; }
+
+ private:
+  const Model &model_;
+  const EdgeRange &edge_;
+  std::function<void(double)> tell_;
+  uint32_t count_ = 0, rests_ = 0;
+  std::vector<double> leaks_, leaks_at_rest_;  // m2
+};
+
 std::vector<double> drawn_factors(const std::vector<ChordGroup> &groups, const LengthRange &range,
                                   size_t chords, NormalNumbers &random) {
   const auto deviate = [&](double half) { return half * (2 * random.uniform() - 1); };
@@ -84,7 +121,8 @@ std::string shape_words(const ShapeLeaks &shape) {
 }
 
 std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, double thickness_error) {
-  std::string ranges = "lengths of chordae within that range";
+  const double more = interval.factor[2] - 1;
+  std::string ranges = format("lengths of chordae up to %.0f %% shorter or longer", 100 * more);
   if (edge.geometry) {
     ranges += format(
         ", a free edge up to %.1f mm farther out (%s with the lengths as they are) or %.1f mm "
@@ -133,7 +171,7 @@ void set_range(LeakInterval &interval, const std::vector<double> &leaks, bool is
 void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
                   Findings &findings) {
   const bool known = !std::isnan(interval.most);
-  const bool at_rest = interval.closed == interval.closures;
+  const bool at_rest = interval.rests == interval.closures;
   const double unsure =
       known ? std::min(1.0, (interval.most - interval.least) / unknown_leak) : 1.0;
   const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
@@ -148,7 +186,7 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
             : format("; %u closures with random ones are among them", interval.draws).c_str());
     if (!at_rest) {
       finding.sentence += format("; %u of %u closures did not come to rest and are left out",
-                                 interval.closures - interval.closed, interval.closures);
+                                 interval.closures - interval.rests, interval.closures);
     }
     if (interval.shape.distance > 0) finding.sentence += shape_words(interval.shape);
     finding.value = {interval.least, interval.most};
@@ -207,54 +245,41 @@ LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
   const EdgeRange &edge = unknowns.edge;
   const double thickness_error = unknowns.thickness_error;
   const size_t chords = model->valve.chords.size();
+  const uint32_t most = 3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_draws;
   LeakInterval interval;
   interval.factor = {1 - range.all, 1, 1 + range.all};
-  std::vector<double> leaks = known;
-  const uint32_t most_closures =
-      3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_draws;
-  std::vector<double> every = known;  // those of closures that are not at rest as well
-  const auto close = [&](const ClosureChange &change) {
-    const auto share_done = [&](double share, double) {
-      if (tell) tell((interval.closures + share) / most_closures);
-      return true;
-    };
-    share_done(0, 0);
-    Closed closed = close_with(model->valve, change, edge, share_done);
-    ++interval.closures;
-    every.push_back(closed.leak);
-    if (closed.at_rest) {
-      ++interval.closed;
-      leaks.push_back(closed.leak);
-    }
-    return closed;
-  };
+  Closures closures(*model, edge, known, [&](double done) {
+    if (tell) tell(done / most);
+  });
   std::vector<Vec3> as_it_is;
   for (size_t k = 0; k < 3; ++k) {
-    Closed closed = close({std::vector<double>(chords, interval.factor[k])});
+    Closed closed = closures.close({std::vector<double>(chords, interval.factor[k])});
     interval.leak[k] = closed.leak;
     interval.at_rest[k] = closed.at_rest;
     interval.iterations[k] = closed.iterations;
     if (k == 1) as_it_is = std::move(closed.x);
   }
   for (size_t k = 0; edge.geometry && k < 2; ++k) {
-    interval.edge_leak[k] = close({{}, k == 0 ? edge.out : -edge.in}).leak;
+    interval.edge_leak[k] = closures.close({{}, k == 0 ? edge.out : -edge.in}).leak;
   }
   const double spread = thickness_error / mean_thickness(model->valve);
   const auto thickness = [&](double by) { return std::max(least_thickness, 1 + by * spread); };
   for (size_t k = 0; thickness_error > 0 && k < 2; ++k) {
-    interval.tissue_leak[k] = close({{}, 0, thickness(k == 0 ? 1 : -1)}).leak;
+    interval.tissue_leak[k] = closures.close({{}, 0, thickness(k == 0 ? 1 : -1)}).leak;
   }
-  const bool is_sealed = interval.closed > 0 && all_seal(every);
+  const bool is_sealed = closures.rests() > 0 && all_seal(closures.leaks());
   NormalNumbers random(seed);
   const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
   for (; !is_sealed && interval.draws < most_draws; ++interval.draws) {
     ClosureChange change{drawn_factors(groups, range, chords, random)};
     if (edge.geometry) change.edge = random.uniform() * (edge.out + edge.in) - edge.in;
     if (thickness_error > 0) change.thickness = thickness(2 * random.uniform() - 1);
-    close(change);
+    closures.close(change);
   }
-  if (!leaks.empty()) {
-    set_range(interval, leaks, is_sealed);
+  interval.closures = closures.count();
+  interval.rests = closures.rests();
+  if (interval.rests > 0) {
+    set_range(interval, closures.leaks_at_rest(), is_sealed);
     if (unknowns.shape.given && !as_it_is.empty()) {
       interval.shape = leaks_of_shape(*model, as_it_is, interval.leak[1], unknowns.shape);
       add_shape_error(interval);

@@ -46,11 +46,11 @@ struct LeakInterval {
   std::array<double, 3> leak = {};          // m2, regurgitant orifice at 120 mmHg; NaN: diverged
   std::array<bool, 3> at_rest = {};         // whether the closure came to rest
   std::array<uint32_t, 3> iterations = {};  // of each closure
-  std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; 0: edge exact
-  std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; 0: thickness exact
+  std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; unused if it is exact
+  std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; unused if that is exact
   ShapeLeaks shape;                         // of the valve as it is, if it was fitted
   double least = NAN, most = NAN;           // m2, the interval; NaN: no closure came to rest
-  uint32_t closures = 0, closed = 0;        // of these, those that came to rest
+  uint32_t closures = 0, rests = 0;         // of these, those that came to rest
   uint32_t draws = 0;                       // closures with random lengths
 };
 
@@ -71,7 +71,8 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
 // The interval around the leak of the valve as it is, widened by the error of its shape.
 void add_shape_error(LeakInterval &interval);
 
-// `known`: leaks of other closures of the same valve, m2, which the interval contains. `tell` is
+// `known`: leaks of other closures of the same valve that came to rest, m2, which the interval
+// contains. `tell` is
 // called before and during closures with the share that is done; it may throw.
 LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
                            const std::vector<double> &known, Findings &findings,

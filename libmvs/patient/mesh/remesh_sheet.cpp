@@ -24,8 +24,8 @@ constexpr int most_passes = 12;         // of splits, collapses or flips in one 
 constexpr int last_rounds = 8;          // of flips and moves alone
 constexpr int improvements = 6;         // of the worst triangles
 constexpr double poor_cosine = 0.8572;  // cos 31 degrees: triangles below are improved
-// Corners of rims that a vertex goes to: those that stand out by this height over a chord to this
-// distance on both sides, in wanted edges. A turn by 40 degrees does.
+// Corners of rims that a vertex goes to: those that stand out by this height over a straight line
+// to this distance on both sides, in wanted edges. A turn by 40 degrees does.
 constexpr double corner_reach = 0.5, corner_height = 0.17;
 constexpr double longest_made =
     1.6;                            // edge, in wanted ones, that a collapse for the angles may make
@@ -35,10 +35,10 @@ constexpr double least_way = 2e-3;  // of an edge: shorter moves are left out
 double length_of(const InputSheet &input, const SheetMesh &mesh, const Edge &e) {
   const auto [a, b] = e;
   const MeshVertex &v = mesh.vertex[a];
-  const double chord = mesh.length(a, b);
-  if (v.rim == Rim::inside || (v.before != b && v.after != b)) return chord;
+  const double straight = mesh.length(a, b);
+  if (v.rim == Rim::inside || (v.before != b && v.after != b)) return straight;
   const double loop = input.curve(v.rim).length();
-  return std::max(chord, std::abs(around(v.arc, mesh.vertex[b].arc, loop)));
+  return std::max(straight, std::abs(around(v.arc, mesh.vertex[b].arc, loop)));
 }
 
 double mean_length(const SheetMesh &mesh) {
@@ -53,7 +53,7 @@ struct SizedEdge {
   Edge edge;
 };
 
-// Edges with accept(length), sorted by order(length), then as they come.
+// Edges with accept(length), the longest or the shortest first, equal ones as they come.
 template <typename Accept>
 std::vector<SizedEdge> edges_by_length(const InputSheet &input, const SheetMesh &mesh,
                                        Accept accept, bool longest_first) {
@@ -200,7 +200,7 @@ void search_place(SheetMesh &mesh, SheetEditor &editor, double edge, uint32_t v)
 }
 
 // One pass over the poor triangles: a flip or a collapse that raises the least angle around, else a
-// better place of each corner. Returns whether there was one.
+// better place of each corner. Returns whether there was a poor triangle.
 bool improve_poor(SheetMesh &mesh, SheetEditor &editor, double edge) {
   bool any = false;
   const size_t count = mesh.triangles.size();

@@ -48,9 +48,9 @@ struct Split {
 Split largest_components(const LeafletSheet &skin, const std::vector<uint32_t> &smooth,
                          const std::vector<uint8_t> &marks) {
   std::vector<uint32_t> joined = smooth;
-  for (uint32_t side = 0; side < joined.size(); ++side) {
-    if (joined[side] == none) continue;
-    if (marks[side / 3] == 0 || marks[joined[side] / 3] == 0) joined[side] = none;
+  for (uint32_t half_edge = 0; half_edge < joined.size(); ++half_edge) {
+    if (joined[half_edge] == none) continue;
+    if (marks[half_edge / 3] == 0 || marks[joined[half_edge] / 3] == 0) joined[half_edge] = none;
   }
   Split split;
   std::vector<uint32_t> &piece = split.side_of;
@@ -78,8 +78,8 @@ Split largest_components(const LeafletSheet &skin, const std::vector<uint32_t> &
 std::vector<uint8_t> eroded(const std::vector<uint32_t> &smooth,
                             const std::vector<uint8_t> &marks) {
   std::vector<uint8_t> out = marks;
-  for (uint32_t side = 0; side < smooth.size(); ++side) {
-    if (smooth[side] == none || marks[smooth[side] / 3] == 0) out[side / 3] = 0;
+  for (uint32_t half_edge = 0; half_edge < smooth.size(); ++half_edge) {
+    if (smooth[half_edge] == none || marks[smooth[half_edge] / 3] == 0) out[half_edge / 3] = 0;
   }
   return out;
 }
@@ -89,10 +89,10 @@ void grow_back(const std::vector<uint32_t> &smooth, const std::vector<uint8_t> &
                std::vector<uint32_t> &side_of) {
   for (int round = 0; round < rounds; ++round) {
     const std::vector<uint32_t> before = side_of;
-    for (uint32_t side = 0; side < smooth.size(); ++side) {
-      const uint32_t t = side / 3;
-      if (smooth[side] == none || marks[t] == 0 || side_of[t] != none) continue;
-      side_of[t] = before[smooth[side] / 3];
+    for (uint32_t half_edge = 0; half_edge < smooth.size(); ++half_edge) {
+      const uint32_t t = half_edge / 3;
+      if (smooth[half_edge] == none || marks[t] == 0 || side_of[t] != none) continue;
+      side_of[t] = before[smooth[half_edge] / 3];
     }
   }
 }
@@ -104,13 +104,15 @@ std::vector<uint32_t> split_sides(const LeafletSheet &skin, const std::vector<ui
   Split whole;
   std::vector<uint8_t> kept = marks;
   constexpr int most_erosions = 8;
+  // least share of the second side in the skin and of the first side, most share of the third part
+  constexpr double least_side = 0.15, least_ratio = 0.4, most_other = 0.1;
   for (int erosions = 0; erosions <= most_erosions; ++erosions) {
     Split split = largest_components(skin, smooth, kept);
     if (erosions == 0) whole = split;
     // sides differ by the curvature of a leaflet, and thick rims of short leaflets take up to a
     // third; erosion takes as much again
-    if (split.area[1] > 0.15 * split.total && split.area[1] > 0.4 * split.area[0] &&
-        split.area[2] < 0.1 * split.total) {
+    if (split.area[1] > least_side * split.total && split.area[1] > least_ratio * split.area[0] &&
+        split.area[2] < most_other * split.total) {
       grow_back(smooth, marks, 2 * erosions, split.side_of);
       return split.side_of;
     }
@@ -140,15 +142,15 @@ void check_facing(const LeafletSheet &skin, const std::vector<TissueBehind> &beh
 
 // Adds triangles without a side that lie in a side, or in a notch of its rim: two of their
 // neighbours belong to it and turn less than 37 degrees from them.
-void fill_notches(const std::vector<uint32_t> &across, const std::vector<Vec3> &normal,
-                  std::vector<uint32_t> &side_of) {
+void fill_side_notches(const std::vector<uint32_t> &across, const std::vector<Vec3> &normal,
+                       std::vector<uint32_t> &side_of) {
   for (bool grown = true; grown;) {
     grown = false;
     for (uint32_t t = 0; t < side_of.size(); ++t) {
       if (side_of[t] != none) continue;
       std::array<int, 2> beside{};
-      for (uint32_t side = 3 * t; side < 3 * t + 3; ++side) {
-        const uint32_t u = across[side] == none ? none : across[side] / 3;
+      for (uint32_t half_edge = 3 * t; half_edge < 3 * t + 3; ++half_edge) {
+        const uint32_t u = across[half_edge] == none ? none : across[half_edge] / 3;
         if (u == none || side_of[u] == none || normal[t].dot(normal[u]) < parallel_cosine) continue;
         ++beside[side_of[u]];
       }
@@ -178,8 +180,8 @@ void grow_flat(const LeafletSheet &skin, const std::vector<uint32_t> &across,
     const std::vector<uint32_t> before = side_of;
     for (uint32_t t = 0; t < side_of.size(); ++t) {
       if (before[t] != none) continue;
-      for (uint32_t side = 3 * t; side < 3 * t + 3 && side_of[t] == none; ++side) {
-        const uint32_t u = across[side] == none ? none : across[side] / 3;
+      for (uint32_t half_edge = 3 * t; half_edge < 3 * t + 3 && side_of[t] == none; ++half_edge) {
+        const uint32_t u = across[half_edge] == none ? none : across[half_edge] / 3;
         if (u == none || before[u] == none) continue;
         // the direction is compared with the side itself, so that it does not creep around a rim
         const uint32_t from = seed[u];
@@ -251,12 +253,12 @@ std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<Tissu
   }
   const std::vector<uint32_t> across = join_sides(skin.x, skin.triangles).across;
   std::vector<uint32_t> smooth = across;  // without ridges
-  for (uint32_t side = 0; side < across.size(); ++side) {
-    if (across[side] == none) continue;
-    if (normal[side / 3].dot(normal[across[side] / 3]) < ridge) smooth[side] = none;
+  for (uint32_t half_edge = 0; half_edge < across.size(); ++half_edge) {
+    if (across[half_edge] == none) continue;
+    if (normal[half_edge / 3].dot(normal[across[half_edge] / 3]) < ridge) smooth[half_edge] = none;
   }
   std::vector<uint32_t> side_of = split_sides(skin, smooth, marks);
-  fill_notches(across, normal, side_of);
+  fill_side_notches(across, normal, side_of);
   if (sharp_rims) grow_flat(skin, across, normal, median, side_of);
   check_facing(skin, behind, side_of);
   return side_of;

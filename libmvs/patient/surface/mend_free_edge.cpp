@@ -1,4 +1,4 @@
-// Pairs of vertices of the free edge with a short chord and a long way along the edge.
+// Pairs of vertices of the free edge with a short straight line and a long way along the edge.
 #include "patient/surface/mend_free_edge.h"
 
 #include <Eigen/Geometry>
@@ -13,16 +13,17 @@
 namespace mvs::core {
 namespace {
 
-// The way along the edge over the chord from which on it is a notch: a missing triangle has 2, a
-// missing square 3. The dip of a normal free edge at a commissure has 1.4 and stays, unless the
-// edge is torn, with three sharp notches or more: then the edge between tears is no shape of the
-// leaflet, and valleys may be tears as well.
+// The way along the edge over the straight line from which on it is a notch: a missing triangle has
+// 2, a missing square 3. The dip of a normal free edge at a commissure has 1.4 and stays, unless
+// the edge is torn, with three sharp notches or more: then the edge between tears is no shape of
+// the leaflet, and valleys may be tears as well.
 constexpr double sharp_detour = 1.5, gentle_detour = 1.2;
 constexpr size_t sharp_of_torn = 3;
-constexpr double bottom = 0.3e-3;  // m: vertices of a cleft less above its deepest one
-// A valley of the edge is seen by chords up to this length, half as long again as the mouth of a
-// notch: a notch is no deeper there. Straight sides with the detour of a notch are 0.56 of the
-// chord deep.
+// m: vertices of a cleft up to this far above its deepest one are its bottom.
+constexpr double bottom_height = 0.3e-3;
+// A valley of the edge is seen by straight lines up to this length, half as long again as the mouth
+// of a notch: a notch is no deeper there. Straight sides with the detour of a notch are 0.56 of the
+// line deep.
 constexpr double widest_valley = 1.5 * widest_notch, valley_depth = 0.5;
 // m: the edge beyond both ends of a notch is looked at so far. Where it goes on outward on both
 // sides, by this share of the depth, the bottom is that of a wider valley: the one at a commissure,
@@ -35,18 +36,19 @@ constexpr double longest_valley = 3 * widest_valley;
 
 struct Notch {
   size_t first = 0, count = 0;  // in the loop: the ends and the vertices between
-  double saved = 0;             // m: way along the edge less chord
+  double saved = 0;             // m: way along the edge less the straight line
   double width = 0, depth = 0;  // m
 };
 
 class FreeEdge {
  public:
-  // Vertices that are `kept` stay on the edge. `detour`: the least one of a notch.
+  // Vertices that are `kept` stay on the edge. A torn edge has gentle notches as well.
   FreeEdge(LeafletSheet &sheet, std::vector<uint32_t> &loop, std::vector<uint8_t> kept,
-           double detour)
+           bool is_torn)
       : sheet_(sheet),
         loop_(loop),
-        detour_(detour),
+        detour_(is_torn ? gentle_detour : sharp_detour),
+        is_torn_(is_torn),
         kept_(std::move(kept)),
         normal_(sheet.x.size(), Vec3::Zero()) {
     for (const Tri &t : sheet.triangles) {
@@ -145,7 +147,8 @@ class FreeEdge {
       return most;
     };
     const double least = rising * notch.depth;
-    return rise(notch.first, n - 1) > least && rise(last, 1) > least;
+    const size_t backwards = n - 1;  // modulo n
+    return rise(notch.first, backwards) > least && rise(last, 1) > least;
   }
 
   // m, of a vertex of a notch from the straight line over its mouth.
@@ -161,7 +164,7 @@ class FreeEdge {
   // on as steep as the sides of one. A torn edge has no valleys.
   bool is_cleft(const Notch &cleft, double way) const {
     if (cleft.width <= widest_notch) return cleft.depth > std::max(deepest_notch, cleft.width);
-    return detour_ >= sharp_detour && way >= sharp_detour * cleft.width &&
+    return !is_torn_ && way >= sharp_detour * cleft.width &&
            cleft.depth > std::max(deepest_notch, valley_depth * cleft.width);
   }
 
@@ -180,7 +183,7 @@ class FreeEdge {
         if (step < 2 || cleft.width > widest_valley) continue;
         if (!is_inward(cleft, normal) || !is_cleft(cleft, way)) continue;
         for (size_t k = 1; k < step; ++k) {
-          if (depth_of(cleft, k) > cleft.depth - bottom) is_bottom[vertex(first + k)] = 1;
+          if (depth_of(cleft, k) > cleft.depth - bottom_height) is_bottom[vertex(first + k)] = 1;
         }
       }
     }
@@ -192,17 +195,18 @@ class FreeEdge {
   LeafletSheet &sheet_;
   std::vector<uint32_t> &loop_;
   double detour_;
+  bool is_torn_;
   std::vector<uint8_t> kept_;  // vertices that stay on the edge
   std::vector<Vec3> normal_;   // of each vertex, by area
   std::vector<Edge> edges_;    // of the sheet, sorted
 };
 
-FilledNotches fill_with(double detour, const std::vector<uint8_t> &kept, LeafletSheet &sheet,
-                        std::vector<uint32_t> &loop) {
+FilledNotches fill_all(bool is_torn, const std::vector<uint8_t> &kept, LeafletSheet &sheet,
+                       std::vector<uint32_t> &loop) {
   FilledNotches filled;
   filled.sheet_triangles = sheet.triangles.size();
   const double area = surface_area(sheet.x, sheet.triangles);
-  FreeEdge edge(sheet, loop, kept, detour);
+  FreeEdge edge(sheet, loop, kept, is_torn);
   for (Notch notch = edge.largest(); notch.count > 0; notch = edge.largest()) {
     filled.inner.push_back(edge.fill(notch));
     filled.last.push_back(sheet.triangles.size());
@@ -220,9 +224,9 @@ FilledNotches fill_with(double detour, const std::vector<uint8_t> &kept, Leaflet
 FilledNotches fill_notches(LeafletSheet &sheet, SheetRims &rims, const std::vector<uint8_t> &kept) {
   LeafletSheet with_sharp = sheet;
   std::vector<uint32_t> loop = rims.free_edge;
-  FilledNotches sharp = fill_with(sharp_detour, kept, with_sharp, loop);
+  FilledNotches sharp = fill_all(false, kept, with_sharp, loop);
   if (sharp.last.size() >= sharp_of_torn) {
-    return fill_with(gentle_detour, kept, sheet, rims.free_edge);
+    return fill_all(true, kept, sheet, rims.free_edge);
   }
   sheet = std::move(with_sharp);
   rims.free_edge = std::move(loop);

@@ -1,4 +1,4 @@
-// Euler characteristic, holes, which side is the atrium.
+// Cuts, fills, orders and orients the rims; refuses closed leaflets.
 #include "patient/surface/rims.h"
 
 #include <algorithm>
@@ -32,8 +32,8 @@ constexpr double closed_width = 1e-3, doubtful_width = 3e-3;
 // the atrial side of 8 to 33 % of the area of closed valves has the other leaflet within 2 mm, of
 // open ones none.
 constexpr double coapted_gap = 2e-3, coapted_share = 0.04;
-// Both scale with the annulus: the edges of an infant's valve with an annulus of 33 mm lie 1 mm
-// apart.
+// These three lengths scale with the annulus: the edges of an infant's valve with an annulus of
+// 33 mm lie 1 mm apart.
 
 std::string list_of_lengths(const std::vector<RimLoop> &rims) {
   std::string list;

@@ -8,7 +8,7 @@
 
 namespace mvs::core {
 
-// How much a rim looks like an annulus: its spanned area, times its roundness (4 pi area /
+// How much a rim looks like an annulus: its spanned area, times its roundness (area /
 // length^2) over the square of its turning, as the free edge has scallops. Annulus over free
 // edge: 2.2 for a parametric valve with a saddle of 9 mm, 3.1 for its default, 28 for a real valve
 // by ultrasound, 37 and more for designed ones. (Deviations from a plane mislead: a saddle is less

@@ -13,8 +13,9 @@
 // (collision/step_limiter.h).
 //
 // Where only a few nodes are far from rest, as after an operation on a closed valve, a local
-// subproblem around them is settled first, and after each iteration another one around the nodes
-// with the largest forces (local_settles.cpp). Both only improve the start of the next iteration.
+// subproblem around them is settled first. Where the tissue is bilinear, another one around the
+// nodes with the largest forces is settled after each iteration (local_settles.cpp). Both only
+// improve the start of the next iteration.
 #pragma once
 
 #include "energy/total_energy.h"
@@ -95,7 +96,7 @@ class Newton {
   // Whether the valve left one unstable equilibrium again and again, and is there: it flutters
   // around it.
   bool always_returns() const { return unstable_.are_endless(); }
-  // Moves the nodes to `state`, with zero velocities; returns the statistics.
+  // Writes the positions to `state`, with zero velocities; returns the statistics.
   SolveStats finish(State &state);
 
   const std::vector<Vec3> &x() const { return at_.x; }

@@ -98,7 +98,7 @@ int run(int argc, char **argv) {
       cpu[name] += spent;
       rms[name] += fit.rms;
       table.row({k + 1, name, valve.chords.size(), spent, fit.rounds, 1e3 * fit.rms_before,
-                 1e3 * fit.rms, 1e6 * fit.leaks.front(), 1e6 * truth.leak});
+                 1e3 * fit.rms, 1e6 * fit.leak, 1e6 * truth.leak});
     }
   }
   for (const std::string &name : options.jacobians) {

@@ -15,6 +15,8 @@ from mvs import ArgumentError
 from .needs import need
 
 Points = NDArray[np.float64]
+Floats = NDArray[np.float64]
+"""Numbers that are no points: areas, lengths, matrices."""
 Volume = NDArray[np.float32]
 
 

@@ -43,6 +43,11 @@ def leaflet_of(name: str) -> Optional[int]:
     return UNKNOWN if any(w.startswith(("leaflet", "valve", "mitral", "mv")) for w in words) else None
 
 
+def other_leaflet(label: int) -> int:
+    """The label of the leaflet opposite to one."""
+    return POSTERIOR if label == ANTERIOR else ANTERIOR
+
+
 def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None) -> dict[str, int]:
     """The leaflet of each segment that is a part of the leaflets.
 
@@ -70,7 +75,7 @@ def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None
     if got in ({ANTERIOR}, {POSTERIOR}):
         missing = "posterior" if got == {ANTERIOR} else "anterior"
         empty = [name for name in labels.masks
-                 if name not in filled and leaflet_of(name) == 3 - max(got)]
+                 if name not in filled and leaflet_of(name) == other_leaflet(max(got))]
         raise ArgumentError(
             f'one leaflet is missing: the segment "{empty[0]}" has no voxels. ' if empty else
             f"one leaflet is missing: the image has {known}, and no segment of the {missing} leaflet. "
@@ -128,7 +133,8 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
     """The mid-surface; tissue is closed step by step until the sheet has no tunnel and is a whole ring."""
     voxel = spacing_of(image)
     grid, tissue = tissue_on_grid(image, mask, grid_step(image, mask))
-    first: Optional[tuple[Sheet, list[float], float]] = None  # without tunnels
+    # the first sheet without tunnels, or a later one without tears and ragged holes too
+    chosen: Optional[tuple[Sheet, list[float], float]] = None
     for attempt in range(4):
         radius = attempt * voxel
         if radius:
@@ -138,16 +144,16 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
         tunnels = handles(sheet)
         if tunnels:
             continue
-        first = first or (sheet, smaller, radius)
+        chosen = chosen or (sheet, smaller, radius)
         loops = loops_by_length(sheet)
         if not _is_torn(sheet, loops) and not _has_ragged_hole(sheet, loops, settings.hole):
-            first = (sheet, smaller, radius)
+            chosen = (sheet, smaller, radius)
             break
-    if first is None:
+    if chosen is None:
         raise ArgumentError(
             f"the leaflets have {tunnels} tunnels, bridges between two parts of the tissue, even after "
             f"gaps of {2e3 * radius:.1f} mm are closed: mend the segmentation there", "labels")
-    sheet, smaller, radius = first
+    sheet, smaller, radius = chosen
     if radius:
         findings.append(finding("closed_gaps", FindingSource.GUESSED, 0.6,
                                 f"gaps in the labels up to {2e3 * radius:.1f} mm were closed, because "
@@ -183,7 +189,7 @@ def _has_ragged_hole(sheet: Sheet, loops: list[NDArray[np.int64]], hole: float) 
 
 
 def _closed(grid: Grid, tissue: Volume, radius: float) -> Volume:
-    """Grey closing with a ball, by distances."""
+    """The tissue, of which the part above a half is closed with a ball, by distances; grey values stay elsewhere."""
     if radius <= 0:
         return tissue
     image = need("scipy.ndimage")
@@ -241,7 +247,7 @@ def _one_piece_each(sheet: Sheet, leaflet: NDArray[np.uint32]) -> float:
             if not len(rows):
                 continue
             others = rows[~in_largest_piece(sheet, rows, size[rows])]
-            leaflet[others] = ANTERIOR + POSTERIOR - label
+            leaflet[others] = other_leaflet(label)
             turned += float(size[others].sum())
         if turned == before:
             break

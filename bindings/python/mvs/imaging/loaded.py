@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
-from .grid import Points, spacing_of
+from .grid import Floats, Points, spacing_of
 from .labels import ANTERIOR, POSTERIOR, choose_segments
 from .mesh import Sheet, areas, largest_piece
 from .needs import need
@@ -24,7 +24,7 @@ from .tissue_sheet import LabelSettings, Tell, fitted_sheet, grid_step, silent, 
 class Motion:
     """A rigid motion x -> turn @ x + shift, m, LPS."""
 
-    turn: Points
+    turn: Floats
     shift: Points
 
     def __call__(self, points: Points) -> Points:

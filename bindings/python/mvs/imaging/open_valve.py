@@ -14,7 +14,7 @@ from .tissue_sheet import LabelSettings
 
 
 LONG_HOLE_SHARE, LONG_HOLE_AREA, OTHER_LEAFLET = 0.4, 40e-6, 0.1
-"""Constants of libmvs/patient/surface/holes.cpp, which fills holes of a longer rim: its share of the longest one, the
+"""Constants of libmvs/patient/surface/holes.cpp and holes.h, which fill holes of a longer rim: its share of the longest one, the
 m2 that it spans, and the share of it with the label of the other leaflet."""
 
 def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings()) -> None:

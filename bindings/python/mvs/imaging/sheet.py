@@ -7,7 +7,7 @@
 3. Lines across the sheet meet its two sides; each point moves to the middle of the two distances,
    whose sum is the thickness. Both are averaged over the surface within `smoothing`.
 
-The core's mid-surface of a skin (libmvs/patient/surface/mid_surface.h) cannot take its place: it needs a skin with
+The core's mid-surface of a skin (libmvs/patient/skin/mid_surface.h) cannot take its place: it needs a skin with
 two rims, which a closed leaflet by itself and most labels of networks do not have; see README.md.
 """
 

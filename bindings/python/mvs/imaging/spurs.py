@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mvs import Finding, FindingSource
 from mvs.mesh import shortest_paths
 from .findings import finding
+from .grid import Floats
 from .labels import Leaflets
 from .mesh import Points, Sheet, areas, loops_by_length, pieces, unique_edges
 
@@ -20,7 +21,7 @@ SPUR_WIDTH = 1.5
 thick, their mid-surface is narrower, and leaflets are ten times as wide."""
 
 FIN_WIDTH = 2.5
-"""Widths of the tissue, of ribbons between holes: around a hole in a leaflet tissue is wider, or it is part of the rim too"""
+"""Widths of the tissue, of ribbons between holes: a narrower strand between a hole and the rim counts as rim, wider ones as leaflet"""
 
 BRIDGE_WIDTH = 3.0
 """Widths of the tissue: narrower ribbons between two parts of the orifice, one leaflet on each side, are places where
@@ -37,10 +38,10 @@ def cut_spurs(found: Leaflets) -> None:
     A ribbon between two rims is no spur: low tissue at a commissure, or a strand below a hole.
     """
     widths, spurs = [], []
-    for width, first in ((FIN_WIDTH, 2), (SPUR_WIDTH, 0)):
+    for width, skipped_rims in ((FIN_WIDTH, 2), (SPUR_WIDTH, 0)):
         half = _half(found.sheet, width)
         rims = loops_by_length(found.sheet)
-        cut = [one for one in _ribbons(found.sheet, rims[first:], half) if _touched(found.sheet, one, rims) == 1]
+        cut = [one for one in _ribbons(found.sheet, rims[skipped_rims:], half) if _touched(found.sheet, one, rims) == 1]
         if cut:
             spurs += _cut(found, cut)
             widths.append(2e3 * half)
@@ -133,7 +134,7 @@ def _cut(found: Leaflets, ribbons: list[NDArray[np.int64]]) -> list[float]:
     return size
 
 
-def _large_pieces(sheet: Sheet, chosen: NDArray[np.bool_], size: Points) -> NDArray[np.bool_]:
+def _large_pieces(sheet: Sheet, chosen: NDArray[np.bool_], size: Floats) -> NDArray[np.bool_]:
     """The chosen triangles in pieces of at least LEAST_PIECE of the area of the sheet."""
     rows = np.flatnonzero(chosen)
     kept = np.zeros(len(chosen), bool)

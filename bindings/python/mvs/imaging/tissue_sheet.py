@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mvs import ArgumentError
-from .grid import Grid, Points, Volume, box_of, crop, isotropic, spacing_of
+from .grid import Floats, Grid, Volume, box_of, crop, isotropic, spacing_of
 from .mesh import Sheet, largest_piece
 from .needs import need
 from .sheet import SheetSettings, mid_surface
@@ -46,7 +46,7 @@ MOST_AREA = 100e-4
 """m2: twice the area of the largest valve that `check_open_valve` accepts, as faces of voxels give it roughly"""
 
 
-def check_sheet(mask: NDArray[np.bool_], spacing: Points) -> None:
+def check_sheet(mask: NDArray[np.bool_], spacing: Floats) -> None:
     """ArgumentError where tissue has more surface than any valve: noise, foam, a whole heart.
 
     A count of faces of voxels, before hours of work on the surface between them.
@@ -106,7 +106,7 @@ def grid_step(image: Any, mask: NDArray[np.bool_], most: int = 30_000_000) -> fl
     return float(max(step, (np.prod(extent) / most) ** (1 / 3)))
 
 
-def width_of(mask: NDArray[np.bool_], spacing: Points) -> float:
+def width_of(mask: NDArray[np.bool_], spacing: Floats) -> float:
     """About how wide tissue is, m, in voxels of a size (x, y, z): twice its volume over its surface.
 
     The faces of voxels have 1.5 times the area of a surface that looks in all directions alike.
