@@ -7,8 +7,10 @@
 #include <doctest/doctest.h>
 
 #include "anatomy/parametric.h"
+#include "tests/about.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -149,7 +151,6 @@ TEST_CASE("slack_multiplies_every_rest_length") {
   desc.chord_slack = 1.25;
   const Valve slack = make_parametric_valve(desc);
   for (size_t i = 0; i < plain.chords.size(); ++i) {
-    CHECK(slack.chords[i].rest_length ==
-          doctest::Approx(1.25 * plain.chords[i].rest_length).epsilon(1e-14));
+    CHECK(slack.chords[i].rest_length == about(1.25 * plain.chords[i].rest_length, 1e-14));
   }
 }

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "anatomy/coarse_chordae.h"
+#include "tests/about.h"
 #include "tests/anatomy/levels.h"
 
 using namespace mvs::core;
@@ -53,7 +54,7 @@ TEST_CASE("a_coarsened_valve_has_the_requested_size_and_the_same_topology") {
       CHECK(crossings(*coarse.model) == 0);
       // poor triangles of the input may remain, but no new ones are created (live_sheet.cpp)
       CHECK(worst_quality(*coarse.model) >= std::min(0.3, worst_quality(*fine)) - 1e-12);
-      CHECK(coarse.report.worst_quality == doctest::Approx(worst_quality(*coarse.model)));
+      CHECK(coarse.report.worst_quality == about(worst_quality(*coarse.model)));
     }
   }
 }
@@ -94,10 +95,10 @@ TEST_CASE("the_surface_and_its_scallops_stay_where_they_are") {
     const double side = vertices == 425 ? 2.8e-3 : 1.4e-3, sag = side * side / (8 * 5e-3);
     CHECK(made.report.surface_rms < 0.5 * sag);
     CHECK(made.report.surface_max < 3 * sag);
-    CHECK(area(*made.model) == doctest::Approx(area(*fine)).epsilon(5e-3));
+    CHECK(area(*made.model) == about(area(*fine), 5e-3));
     const std::vector<double> before = scallop_areas(*fine), after = scallop_areas(*made.model);
     for (size_t s = 0; s < before.size(); ++s) {
-      CHECK(after[s] == doctest::Approx(before[s]).epsilon(0.05));
+      CHECK(after[s] == about(before[s], 0.05));
     }
   }
 }
@@ -153,7 +154,7 @@ TEST_CASE("moved_chordae_keep_their_slack_and_merged_chordae_their_stiffness") {
     ++kept;
   }
   CHECK(kept > 0);
-  CHECK(area_after == doctest::Approx(area_before).epsilon(1e-14));
+  CHECK(area_after == about(area_before, 1e-14));
 }
 
 TEST_CASE("a_merged_chord_pulls_like_the_two_it_replaces") {
@@ -175,7 +176,7 @@ TEST_CASE("a_merged_chord_pulls_like_the_two_it_replaces") {
   moved.rest_length += (x[chords[0].b] - x[moved.a]).norm() - (x[moved.b] - x[moved.a]).norm();
   for (const double d : {0.04, 0.06}) {  // m: both are taut
     const auto pull = [&](const Chord &c) { return c.young * c.area * (d / c.rest_length - 1); };
-    CHECK(pull(left[0]) == doctest::Approx(pull(chords[0]) + pull(moved)).epsilon(1e-12));
+    CHECK(pull(left[0]) == about(pull(chords[0]) + pull(moved), 1e-12));
   }
 }
 
@@ -258,7 +259,7 @@ TEST_CASE("a_target_edge_length_gives_a_number_of_vertices") {
     const std::vector<double> &lengths = made.model->rest_length;
     const double mean =
         std::accumulate(lengths.begin(), lengths.end(), 0.0) / static_cast<double>(lengths.size());
-    CHECK(mean == doctest::Approx(edge).epsilon(0.1));
+    CHECK(mean == about(edge, 0.1));
   }
 }
 

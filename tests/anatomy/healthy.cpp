@@ -11,8 +11,10 @@
 #include "geometry/intersect.h"
 #include "measure/measure.h"
 #include "solve/solver.h"
+#include "tests/about.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -64,7 +66,7 @@ TEST_CASE("a_trunk_has_the_cross_section_of_its_branches") {
     for (const Chord &chord : valve.chords) {
       if (chord.a == trunk.b) branches += chord.area;
     }
-    CHECK(trunk.area == doctest::Approx(branches));
+    CHECK(trunk.area == about(branches));
   }
 }
 
@@ -78,7 +80,7 @@ TEST_CASE("the_open_leaflets_have_the_heights_of_the_design") {
           (shape.open({theta, (i + 1.0) / steps}) - shape.open({theta, 1.0 * i / steps})).norm();
     }
     // the polygon of an arc is shorter by (tilt / steps)^2 / 24
-    CHECK(length == doctest::Approx(shape.height(theta)).epsilon(1e-5));
+    CHECK(length == about(shape.height(theta), 1e-5));
   }
 }
 
@@ -89,7 +91,7 @@ TEST_CASE("both_leaflets_overlap_by_the_same_length_at_every_size") {
     const Shape shape(resolve_dimensions(desc));
     // both free edges of the closed target lie at one depth, the overlap below the line
     const double anterior = shape.closed({0, 1}).z(), posterior = shape.closed({pi, 1}).z();
-    CHECK(anterior == doctest::Approx(posterior).epsilon(1e-6));
+    CHECK(anterior == about(posterior, 1e-6));
   }
 }
 

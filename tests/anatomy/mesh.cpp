@@ -10,9 +10,11 @@
 #include "anatomy/parametric.h"
 #include "anatomy/shape.h"
 #include "geometry/intersect.h"
+#include "tests/about.h"
 #include "tests/founding.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -163,9 +165,9 @@ TEST_CASE("dimensions_are_the_requested_ones") {
     high = high.cwiseMax(valve.rest[i]);
   }
   // vertices lie on the annulus; a commissure, A and P point are always vertices
-  CHECK(high.x() - low.x() == doctest::Approx(desc.annulus_cc).epsilon(1e-12));
-  CHECK(high.y() - low.y() == doctest::Approx(desc.annulus_ap).epsilon(1e-12));
-  CHECK(high.z() - low.z() == doctest::Approx(desc.saddle_height).epsilon(1e-12));
+  CHECK(high.x() - low.x() == about(desc.annulus_cc, 1e-12));
+  CHECK(high.y() - low.y() == about(desc.annulus_ap, 1e-12));
+  CHECK(high.z() - low.z() == about(desc.saddle_height, 1e-12));
   // the columns of A2 and P2, cut into some 50 chords of a gentle arc: short by less than 0.1 %
   double anterior = 0, posterior = 0;
   for (const auto &[edge, uses] : edge_uses(valve)) {
@@ -173,10 +175,10 @@ TEST_CASE("dimensions_are_the_requested_ones") {
     if (a.x() != 0 || b.x() != 0) continue;
     (a.y() > 0 ? anterior : posterior) += (a - b).norm();
   }
-  CHECK(anterior == doctest::Approx(desc.anterior_height).epsilon(1e-3));
-  CHECK(posterior == doctest::Approx(desc.posterior_height).epsilon(1e-3));
+  CHECK(anterior == about(desc.anterior_height, 1e-3));
+  CHECK(posterior == about(desc.posterior_height, 1e-3));
   for (const Head &head : valve.heads) {
-    CHECK(valve.rest[head.node].z() == doctest::Approx(-desc.papillary_depth).epsilon(1e-12));
+    CHECK(valve.rest[head.node].z() == about(-desc.papillary_depth, 1e-12));
   }
 }
 
@@ -190,7 +192,7 @@ TEST_CASE("the_founding_shape_is_an_adult_valve") {
   CHECK(ratio > 1.4);
   CHECK(ratio < 2.5);
   CHECK(shape.height(0) == d.anterior_height);
-  CHECK(shape.height(Shape::commissure) == doctest::Approx(d.commissure_height).epsilon(1e-3));
+  CHECK(shape.height(Shape::commissure) == about(d.commissure_height, 1e-3));
   // both clefts are resolved: the edge rises towards P1, P2 and P3
   const double cleft = shape.height(Shape::cleft_theta());
   CHECK(shape.height(M_PI) > cleft + 2 * mm);
@@ -204,9 +206,9 @@ TEST_CASE("refinement_converges_to_one_surface") {
   const double limit = area(make_parametric_valve(sized(25600)));
   // flat triangles and straight edges fall short by the square of their edge, relative to the radii
   // of some 5 mm: 2 mm, 1 mm and 0.5 mm edges, with a factor of 2 for the clefts
-  CHECK(coarse == doctest::Approx(limit).epsilon(2e-3));
-  CHECK(middle == doctest::Approx(limit).epsilon(5e-4));
-  CHECK(fine == doctest::Approx(limit).epsilon(1.25e-4));
+  CHECK(coarse == about(limit, 2e-3));
+  CHECK(middle == about(limit, 5e-4));
+  CHECK(fine == about(limit, 1.25e-4));
 }
 
 TEST_CASE("the_two_halves_are_mirror_images_to_the_last_bit") {

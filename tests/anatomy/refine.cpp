@@ -1,6 +1,7 @@
 // Refinement: each triangle becomes four, and every other property of the valve is preserved.
 #include "anatomy/refine.h"
 
+#include "tests/about.h"
 #include "tests/anatomy/levels.h"
 
 using namespace mvs::core;
@@ -60,12 +61,12 @@ TEST_CASE("the_children_of_a_triangle_cover_it_and_have_its_tissue") {
         CHECK((made.triangle_fibre[child] - old.triangle_fibre[t]).norm() < 1e-11);
       }
       // rounding of places, as above
-      CHECK(sum == doctest::Approx(model->rest_area[t]).epsilon(1e-11));
+      CHECK(sum == about(model->rest_area[t], 1e-11));
     }
     const auto mass = [](const Model &m) {
       return std::accumulate(m.node_mass.begin(), m.node_mass.end(), 0.0);
     };
-    CHECK(mass(*fine) == doctest::Approx(mass(*model)).epsilon(1e-12));
+    CHECK(mass(*fine) == about(mass(*model), 1e-12));
   }
 }
 
@@ -90,6 +91,6 @@ TEST_CASE("three_refinements_of_the_default_valve_give_a_valve_of_25000_vertices
   CHECK(counted_vertices(*model) > 24000);
   CHECK(euler(*model) == 0);
   // a sum of 50,000 areas
-  CHECK(area(*model) == doctest::Approx(before).epsilon(1e-12));
+  CHECK(area(*model) == about(before, 1e-12));
   CHECK(crossings(*model) == 0);
 }

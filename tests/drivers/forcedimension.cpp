@@ -3,6 +3,9 @@
 #include <cstring>
 
 #include "dhd_bench.h"
+#include "tests/about.h"
+
+using mvs::core::test::about;
 
 namespace {
 
@@ -83,7 +86,7 @@ TEST_CASE("forcedimension_force_torque_and_grip_reach_the_motors") {
     const mvs_driver_force force = {sizeof force, 1, {1, 2, 3}, {0.1, 0.2, 0.3}, 0.16};
     REQUIRE(bench.plugin.api.write(bench.plugin.device, &force) == MVS_DRIVER_OK);
     const double wanted[7] = {1, 2, 3, 0.1, 0.2, 0.3, left ? -2.0 : 2.0};  // 0.16 N m by 80 mm
-    for (int i = 0; i < 7; ++i) CHECK(bench.given()[i] == doctest::Approx(wanted[i]));
+    for (int i = 0; i < 7; ++i) CHECK(bench.given()[i] == about(wanted[i]));
   }
 }
 
@@ -92,7 +95,7 @@ TEST_CASE("forcedimension_saturated_motors_are_a_success_and_reported") {
   bench.in.largest_mn = 1000;
   bench.start();
   REQUIRE(bench.tick(3, 0, 0) == MVS_DRIVER_OK);
-  CHECK(bench.given()[0] == doctest::Approx(1));
+  CHECK(bench.given()[0] == about(1));
   REQUIRE(bench.tick(0.5, 0, 0) == MVS_DRIVER_OK);
   CHECK((bench.state.flags & MVS_DRIVER_FLAG_SATURATED) != 0);
   REQUIRE(bench.tick(0.5, 0, 0) == MVS_DRIVER_OK);

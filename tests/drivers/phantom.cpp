@@ -5,6 +5,9 @@
 #include <thread>
 
 #include "phantom_bench.h"
+#include "tests/about.h"
+
+using mvs::core::test::about;
 
 namespace {
 
@@ -35,13 +38,13 @@ TEST_CASE("phantom_describes_the_device") {
   CHECK(std::string(info.serial) == "STAND-IN-1");
   CHECK(info.freedoms_in == 6);
   CHECK(info.freedoms_out == 3);
-  CHECK(info.peak_force == doctest::Approx(3.3));
-  CHECK(info.continuous_force == doctest::Approx(0.88));
-  CHECK(info.max_stiffness == doctest::Approx(500));  // 0.5 N/mm
-  CHECK(info.max_damping == doctest::Approx(3));      // 0.003 N s/mm
-  CHECK(info.max_speed == doctest::Approx(1));
-  CHECK(info.workspace_min[0] == doctest::Approx(-0.08));
-  CHECK(info.workspace_max[2] == doctest::Approx(0.035));
+  CHECK(info.peak_force == about(3.3));
+  CHECK(info.continuous_force == about(0.88));
+  CHECK(info.max_stiffness == about(500));  // 0.5 N/mm
+  CHECK(info.max_damping == about(3));      // 0.003 N s/mm
+  CHECK(info.max_speed == about(1));
+  CHECK(info.workspace_min[0] == about(-0.08));
+  CHECK(info.workspace_max[2] == about(0.035));
   CHECK(info.rate == 1000);
   CHECK(bench.in.enabled[0] == (2 | 4 | 8));  // its protections, not its motors
   CHECK(bench.plugin.list() == std::vector<std::string>{"Default Device"});
@@ -86,12 +89,12 @@ TEST_CASE("phantom_force_reaches_the_motors_and_the_last_one_is_zero") {
     CHECK(given[0] == 1);
     CHECK(given[1] == 0.5);
     CHECK(given[2] == -0.25);
-    CHECK(given[3] == doctest::Approx(10));  // mN m
-    CHECK(given[5] == doctest::Approx(30));
+    CHECK(given[3] == about(10));  // mN m
+    CHECK(given[5] == about(30));
   }
   CHECK(bench.in.forces[0][299][0] == 0);
   CHECK_MESSAGE((bench.in.enabled[0] & 1) == 0, "forces are still enabled");
-  CHECK(bench.plugin.info().peak_torque == doctest::Approx(0.188));
+  CHECK(bench.plugin.info().peak_torque == about(0.188));
 }
 
 TEST_CASE("phantom_motors_stay_off_on_request") {
@@ -188,6 +191,6 @@ TEST_CASE("phantom_two_devices_run_side_by_side_and_one_may_be_lost") {
     CHECK(bench.in.forces[0][10][0] == 1);
     CHECK(bench.in.forces[1][10][0] == 2);
     CHECK(left.seen[10].position[1] - 0.03 * std::sin(2 * 3.14159265358979323846 * 0.01) ==
-          doctest::Approx(0.005));
+          about(0.005));
   }
 }

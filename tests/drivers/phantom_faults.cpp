@@ -9,6 +9,9 @@
 #include <thread>
 
 #include "phantom_bench.h"
+#include "tests/about.h"
+
+using mvs::core::test::about;
 
 TEST_CASE("phantom_names_the_missing_library") {
   Plugin none("phantom", {{"library", "/nowhere/libHD.so"}});
@@ -196,7 +199,7 @@ TEST_CASE("phantom_reads_its_files_under_a_decimal_comma") {
     bench.start();
     PhantomHand hand{10};
     CHECK(hand.run(bench.plugin) == MVS_DRIVER_OK);
-    CHECK(hand.seen[0].position[0] == doctest::Approx(0.03));
+    CHECK(hand.seen[0].position[0] == about(0.03));
     CHECK(std::string(std::setlocale(LC_NUMERIC, nullptr)) == "de_DE.UTF-8");
     bench.plugin.close();
     bool told = false;

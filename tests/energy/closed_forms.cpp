@@ -42,8 +42,7 @@ TEST_CASE("the_bilinear_law_is_the_published_curve") {
     const double strain = std::stod(row[0]), kpa = std::stod(row[1]);
     CAPTURE(strain);
     // the table has ten digits
-    CHECK(Bilinear(Leaflet().constants).stress(strain) * 1e-3 ==
-          doctest::Approx(kpa).epsilon(1e-9).scale(1));
+    CHECK(std::abs(Bilinear(Leaflet().constants).stress(strain) * 1e-3 - kpa) < 1e-9 * (1 + kpa));
   }
 }
 

@@ -7,8 +7,10 @@
 
 #include "anatomy/parametric.h"
 #include "geometry/intersect.h"
+#include "tests/about.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -38,7 +40,7 @@ TEST_CASE("random numbers are the same on every machine, uniform, and differ bet
     mean += u / count;
     square += u * u / count;
     const Vec3 d = random.direction();
-    CHECK(d.norm() == doctest::Approx(1).epsilon(1e-14));
+    CHECK(d.norm() == about(1, 1e-14));
     sum += d / count;
   }
   // five standard errors: sqrt(1/12 / n), sqrt(4/45 / n), sqrt(1/3 / n) a component
@@ -53,13 +55,13 @@ TEST_CASE("the farthest node moves by the requested distance, prescribed nodes s
   std::vector<Vec3> x = rest;
   const double moved = disturb(*model, x, {0.1e-3, 5e-3}, {7, 1});
   // the open leaflets are farther apart than that, so the displacement is not shortened
-  CHECK(moved == doctest::Approx(0.1e-3).epsilon(1e-12));
+  CHECK(moved == about(0.1e-3, 1e-12));
   double farthest = 0;
   for (size_t i = 0; i < x.size(); ++i) {
     farthest = std::max(farthest, (x[i] - rest[i]).norm());
     if (model->topology.fixed[i]) CHECK(x[i] == rest[i]);
   }
-  CHECK(farthest == doctest::Approx(moved).epsilon(1e-12));
+  CHECK(farthest == about(moved, 1e-12));
   std::vector<Vec3> again = rest, none_at_all = rest;
   disturb(*model, again, {0.1e-3, 5e-3}, {7, 1});
   CHECK(again == x);

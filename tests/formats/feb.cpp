@@ -5,9 +5,11 @@
 
 #include "base/error.h"
 #include "model/chord_law.h"
+#include "tests/about.h"
 #include "tests/formats/inp_text.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -173,8 +175,7 @@ TEST_CASE("feb_energies_are_those_of_the_laws") {
     const auto ours = [&](double i1, double i4) { return known->response(c, i1, i4).w * 1e-3; };
     for (const auto &[i1, i4] : {std::pair(3.0, 1.0), {3.1, 1.2}, {3.2, 0.9}, {3.3, 1.3}}) {
       // accuracy of constants written with 15 decimals
-      CHECK(febio(i1, i4) - febio(3, 1) ==
-            doctest::Approx(ours(i1, i4) - ours(3, 1)).epsilon(1e-9));
+      CHECK(febio(i1, i4) - febio(3, 1) == about(ours(i1, i4) - ours(3, 1), 1e-9));
     }
   }
 }

@@ -13,8 +13,10 @@
 #include "geometry/convex_hull.h"
 #include "geometry/distance.h"
 #include "geometry/intersect.h"
+#include "tests/about.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -82,7 +84,7 @@ void check_found(const ConvexDistance &found, std::span<const Vec3> a, std::span
     sum += found.weight[k];
     apart += found.weight[k] * (a[found.first[k]] - b[found.second[k]]);
   }
-  CHECK(sum == doctest::Approx(1).epsilon(1e-14));
+  CHECK(sum == about(1, 1e-14));
   // positions of 1e-2 m and their rounding, over the heights of the triangles
   CHECK((apart - found.apart).norm() <= 1e-13);
   // the gap of the plane is the distance, up to the square of the error of its direction
@@ -128,7 +130,7 @@ TEST_CASE("parallel_faces_and_edges_have_their_distance") {
     const Vec3 low(corner.x(), corner.y(), 1e-3 + gap);
     const std::array<Vec3, 3> t = {low, low + Vec3(2e-3, 0, 0), low + Vec3(0, 3e-3, 0)};
     const ConvexDistance found = convex_distance(a, t, everywhere);
-    CHECK(found.distance == doctest::Approx(distance_by_pairs(a, t)).epsilon(1e-12));
+    CHECK(found.distance == about(distance_by_pairs(a, t), 1e-12));
     check_found(found, a, t);
   }
 }
@@ -173,10 +175,10 @@ TEST_CASE("points_and_segments_are_hulls_too") {
   const std::vector<Vec3> point = {Vec3(0, 0, 5e-3)};
   const std::vector<Vec3> segment = {Vec3(-1e-3, 0, 2e-3), Vec3(1e-3, 0, 2e-3)};
   const std::vector<Vec3> other = {Vec3(0, -1e-3, 0), Vec3(0, 1e-3, 0)};
-  CHECK(convex_distance(point, segment, 1).distance == doctest::Approx(3e-3));
+  CHECK(convex_distance(point, segment, 1).distance == about(3e-3));
   const ConvexDistance across = convex_distance(segment, other, 1);
-  CHECK(across.distance == doctest::Approx(2e-3));
-  CHECK(across.apart.z() == doctest::Approx(2e-3));
+  CHECK(across.distance == about(2e-3));
+  CHECK(across.apart.z() == about(2e-3));
   CHECK(convex_distance(segment, segment, 1).count == 0);
 }
 

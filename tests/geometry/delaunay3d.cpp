@@ -13,8 +13,10 @@
 #include "geometry/intersect.h"
 #include "geometry/max_flow.h"
 #include "geometry/sphere_side.h"
+#include "tests/about.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -70,7 +72,7 @@ void check_is_a_filling_of_the_box(const std::vector<LatticePoint> &points) {
     }
   }
   const long double side = lattice_size;
-  CHECK(total == doctest::Approx(double(6 * side * side * side)).epsilon(1e-12));  // rounding
+  CHECK(total == about(double(6 * side * side * side), 1e-12));  // rounding
 }
 
 }  // namespace

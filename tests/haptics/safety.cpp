@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "tests/about.h"
 #include "tests/haptics/loop.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -113,7 +115,7 @@ TEST_CASE("a button is reported once when it has settled, and once when it is re
   loop.run(0.02);
   REQUIRE(loop.device().links().buttons.pop(event));
   CHECK_EQ(event.buttons, 1);
-  CHECK_EQ(event.position.x(), doctest::Approx(0.002));
+  CHECK_EQ(event.position.x(), about(0.002));
   loop.run(1);
   REQUIRE(loop.device().links().buttons.pop(event));
   CHECK_EQ(event.buttons, 0);
@@ -171,7 +173,7 @@ TEST_CASE("a force is limited to the user's maximum and to the slew rate") {
     before = now.force;
     limited |= now.limited;
   }
-  CHECK_EQ(before.norm(), doctest::Approx(0.3));
+  CHECK_EQ(before.norm(), about(0.3));
   CHECK((limited & MVS_LIMITED_FORCE) != 0);
   CHECK((limited & MVS_LIMITED_SLEW) != 0);
 }
@@ -199,8 +201,8 @@ TEST_CASE("motor forces stay within the thermal limit") {
     loop.post(pull);
     hot = loop.run(5);
   }
-  CHECK_EQ(hot.force.norm(), doctest::Approx(0.88).epsilon(0.01));
-  CHECK_EQ(hot.heat, doctest::Approx(1).epsilon(0.02));
+  CHECK_EQ(hot.force.norm(), about(0.88, 0.01));
+  CHECK_EQ(hot.heat, about(1, 0.02));
   CHECK((hot.limited & MVS_LIMITED_CONTINUOUS) != 0);
 }
 

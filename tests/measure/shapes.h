@@ -8,18 +8,13 @@
 #include <vector>
 
 #include "model/model.h"
+#include "tests/about.h"
 
 namespace mvs::core::test {
 
 inline constexpr double pi = std::numbers::pi;
 
 inline constexpr double contact_thickness = 0.6e-3;
-
-// Equal to a relative tolerance. (doctest's own Approx adds 1 to what epsilon multiplies, so that
-// numbers in metres would always agree.)
-inline doctest::Approx about(double value, double relative) {
-  return doctest::Approx(value).epsilon(relative).scale(0);
-}
 
 // Nodes at angles 2 pi k / around, from the annulus (s = 0) to the free edge (s = 1). The anterior
 // leaflet A lies within +-anterior of angle 0, P is the rest; angle 0 is +x, the atrium is +z.

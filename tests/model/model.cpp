@@ -8,9 +8,11 @@
 #include <numeric>
 #include <set>
 
+#include "tests/about.h"
 #include "tests/model/small_valve.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -18,10 +20,7 @@ std::array<uint64_t, 2> fresh_hash(const ModelPtr &model) {
   return hash_of(*model, initial_state(*model));
 }
 
-// Relative error of a sum of some hundred doubles.
-const doctest::Approx about(double value) {
-  return doctest::Approx(value).epsilon(1e-12);
-}
+constexpr double rounding = 1e-12;  // relative, of a sum of some hundred doubles
 
 }  // namespace
 
@@ -76,7 +75,7 @@ TEST_CASE("fibres_run_around_the_valve_in_the_plane_of_their_triangle") {
                &c = valve.rest[valve.triangles[t][2]];
     const Vec3 normal = (b - a).cross(c - a).normalized(), middle = (a + b + c) / 3;
     const Vec3 &fibre = valve.triangle_fibre[t];
-    CHECK(fibre.norm() == about(1));
+    CHECK(fibre.norm() == about(1, rounding));
     CHECK(std::abs(fibre.dot(normal)) < 1e-12);  // rounding of a unit vector
     // on a funnel of 16 sides the centroid of a triangle is at most half a side off the fibre's
     // angle
@@ -90,7 +89,7 @@ TEST_CASE("given_fibres_are_projected_into_the_plane_and_normalised") {
   valve.triangle_fibre.assign(valve.triangles.size(), Vec3(0.1, 0.2, -3));
   const ModelPtr model = make_model(valve);
   for (const Vec3 &fibre : model->valve.triangle_fibre) {
-    CHECK(fibre.norm() == about(1));
+    CHECK(fibre.norm() == about(1, rounding));
     CHECK(fibre[2] < 0);
   }
   CHECK(fresh_hash(make_model(model->valve)) == fresh_hash(model));
@@ -109,8 +108,8 @@ TEST_CASE("areas_and_lengths_are_those_of_the_funnel") {
   const auto sum = [](const std::vector<double> &v) {
     return std::accumulate(v.begin(), v.end(), 0.0);
   };
-  CHECK(sum(model->rest_area) == about(expected));
-  CHECK(sum(model->vertex_area) == about(expected));
+  CHECK(sum(model->rest_area) == about(expected, rounding));
+  CHECK(sum(model->vertex_area) == about(expected, rounding));
   for (size_t e = 0; e < model->topology.edges.size(); ++e) {
     const Edge &edge = model->topology.edges[e];
     CHECK(model->rest_length[e] ==
@@ -128,12 +127,12 @@ TEST_CASE("mass_is_that_of_sheet_and_chordae") {
     expected += 1060 * chord.area * chord.rest_length;
   }
   for (const double mass : model->node_mass) lumped += mass;
-  CHECK(lumped == about(expected));
+  CHECK(lumped == about(expected, rounding));
   // a branch point carries half of its three segments
   double half = 0;
   for (int c = 0; c < 3; ++c)
     half += 0.5 * 1060 * model->valve.chords[c].area * model->valve.chords[c].rest_length;
-  CHECK(model->node_mass[small_rows * small_segments + 1] == about(half));
+  CHECK(model->node_mass[small_rows * small_segments + 1] == about(half, rounding));
 }
 
 TEST_CASE("a_new_valve_rests_without_load") {

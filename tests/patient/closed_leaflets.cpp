@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "patient/surface/facing_area.h"
 #include "patient/surface/rims.h"
+#include "tests/about.h"
 #include "tests/patient/cleaned.h"
 #include "tests/patient/surfaces.h"
 
@@ -67,7 +68,7 @@ TEST_CASE("tissue_faces_tissue_where_atrial_sides_lie_within_reach") {
       sheet.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
     }
   }
-  CHECK(facing_share(sheet, 2e-3) == doctest::Approx(2.0 / 3));
+  CHECK(facing_share(sheet, 2e-3) == about(2.0 / 3));
   CHECK(facing_share(sheet, 1.4e-3) == 0);
 }
 

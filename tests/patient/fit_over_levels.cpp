@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/about.h"
 #include "tests/patient/patient_valve.h"
 
 using namespace mvs::core;
@@ -50,8 +51,7 @@ TEST_CASE("lengths_of_a_fine_valve_are_sought_on_a_coarser_mesh") {
   CHECK(findings[0].value[0] == fit.rms);
   const ClosedValve closed = close_open(solver, make_model(fitted), systolic_pressure);
   const SurfaceMatcher matcher(surface, *closed.model, closed.state.x);
-  CHECK(rms_distance(matcher.match(*closed.model, closed.state.x)) ==
-        doctest::Approx(fit.rms).epsilon(0.02));
+  CHECK(rms_distance(matcher.match(*closed.model, closed.state.x)) == about(fit.rms, 0.02));
 }
 
 TEST_CASE("valves_that_are_hardly_finer_are_fitted_as_they_are") {

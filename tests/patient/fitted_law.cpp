@@ -5,6 +5,7 @@
 
 #include "patient/findings.h"
 #include "patient/fit/closure.h"
+#include "tests/about.h"
 #include "tests/patient/patient_valve.h"
 
 using namespace mvs::core;
@@ -70,7 +71,7 @@ TEST_CASE("a_free_edge_that_is_moved_far_out_counts_against_a_law") {
   using enum LeafletLawId;
   // an edge 2 mm too short: 0.5 mm / 1.4 mm of that over 26 of 60 places, 0.47 mm
   CHECK(misfit_of(fit_of(bilinear, 0.7 * mm, 2 * mm)) ==
-        doctest::Approx(std::sqrt(0.49 + 26.0 / 60.0 / 1.96) * mm).epsilon(1e-12));
+        about(std::sqrt(0.49 + 26.0 / 60.0 / 1.96) * mm, 1e-12));
   const LawFit soft = fit_of(may_newman_yin, 0.75 * mm);
   CHECK(in_order({fit_of(bilinear, 0.7 * mm), soft})[0].law == bilinear);
   CHECK(in_order({fit_of(bilinear, 0.7 * mm, 2 * mm), soft})[0].law == may_newman_yin);

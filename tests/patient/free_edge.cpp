@@ -9,8 +9,10 @@
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/mend_free_edge.h"
+#include "tests/about.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -66,10 +68,10 @@ TEST_CASE("notches_are_filled_and_clefts_and_straight_edges_are_kept") {
   const size_t edge_before = rims.free_edge.size();
   const FilledNotches filled = fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0));
   CHECK(filled.last.size() == 3);
-  CHECK(filled.deepest == doctest::Approx(3e-3).epsilon(0.02));
+  CHECK(filled.deepest == about(3e-3, 0.02));
   CHECK(rims.free_edge.size() == edge_before - 2 - 5 - 8);
   // the band is whole again but for the cleft, up to the sagitta of chords of 3 mm
-  CHECK(surface_area(sheet.x, sheet.triangles) == doctest::Approx(full - 7e-6).epsilon(2e-3));
+  CHECK(surface_area(sheet.x, sheet.triangles) == about(full - 7e-6, 2e-3));
   CHECK(find_intersections(sheet.x, sheet.triangles).empty());
   CHECK(boundary_loops(sheet).size() == 2);
   CHECK(sheet.label.size() == sheet.triangles.size());
@@ -119,8 +121,8 @@ TEST_CASE("the_valley_of_a_commissure_is_kept_where_the_edge_is_torn") {
   const double before = surface_area(sheet.x, sheet.triangles);
   const FilledNotches filled = fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0));
   CHECK(filled.last.size() == 3);
-  CHECK(filled.area == doctest::Approx(14e-6).epsilon(0.05));  // of the notches alone
-  CHECK(surface_area(sheet.x, sheet.triangles) == doctest::Approx(before + filled.area));
+  CHECK(filled.area == about(14e-6, 0.05));  // of the notches alone
+  CHECK(surface_area(sheet.x, sheet.triangles) == about(before + filled.area));
   for (uint32_t i = bottom - 6; i <= bottom + 6; ++i) {
     const uint32_t at = 10 * round + i;
     CHECK(std::count(rims.free_edge.begin(), rims.free_edge.end(), at) == 1);

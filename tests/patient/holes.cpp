@@ -17,6 +17,7 @@
 #include "patient/surface/holes.h"
 #include "patient/surface/manifold.h"
 #include "patient/surface/weld.h"
+#include "tests/about.h"
 #include "tests/patient/cleaned.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
@@ -68,10 +69,10 @@ TEST_CASE("find_rims_fills_holes") {
   CHECK(filled->value.size() == 3);
   // a chord of a curved patch: the hole is 6 mm across, the leaflet has a radius of 10 mm and more
   CHECK(area - open_area > 15e-6);
-  CHECK(area_of(sheet) == doctest::Approx(area).epsilon(0.05 * (area - open_area) / area));
+  CHECK(area_of(sheet) == about(area, 0.05 * (area - open_area) / area));
   CHECK(sheet.thickness.size() == sheet.x.size());
   CHECK(sheet.label.size() == sheet.triangles.size());
-  for (const double t : sheet.thickness) CHECK(t == doctest::Approx(1.1e-3));
+  for (const double t : sheet.thickness) CHECK(t == about(1.1e-3));
   for (const LeafletLabel l : sheet.label) CHECK(l == LeafletLabel::posterior);
   CHECK(boundary_loops(sheet).size() == 2);
   CHECK(join_sides(sheet.x, sheet.triangles).opened == 0);
@@ -117,7 +118,7 @@ TEST_CASE("find_rims_keeps_a_torn_rim_as_one_boundary") {
   CHECK(boundary_loops(sheet).size() == 2);
   CHECK(rims.annulus.size() > p.rims.annulus.size() - 4);
   CHECK(shape_of(sheet, rims.annulus).length ==
-        doctest::Approx(shape_of(p.sheet, p.rims.annulus).length).epsilon(0.1));
+        about(shape_of(p.sheet, p.rims.annulus).length, 0.1));
 }
 
 TEST_CASE("find_rims_refuses_surfaces_without_two_rims") {

@@ -1,5 +1,6 @@
 // Guesses of the commissures from heights along an annulus and its shape.
 #include "patient/leaflet_odds.h"
+#include "tests/about.h"
 
 #include <doctest/doctest.h>
 
@@ -7,6 +8,7 @@
 #include <cmath>
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -115,8 +117,8 @@ TEST_CASE("one_of_three_leaflets_alike_is_the_anterior_one_with_a_third_of_the_p
   // each of three arcs, a third of the way apart, is as likely; together they cover the annulus
   // once, and overlap by the share of each above a third
   const double share = static_cast<double>(guess.to - guess.from) / samples;
-  CHECK(share == doctest::Approx(1.0 / 3).epsilon(0.12));
-  CHECK(guess.orientation == doctest::Approx(1.0 / 3).epsilon(0.12));
+  CHECK(share == about(1.0 / 3, 0.12));
+  CHECK(guess.orientation == about(1.0 / 3, 0.12));
   // of these two ends alone, the smaller side is far likelier
   CHECK(odds.is_anterior(guess.from, guess.to) > 0.9);
 }

@@ -56,7 +56,7 @@ TEST_CASE("without_a_closure_at_rest_the_leak_is_not_determined") {
 // Tissue of a hundredth of the stiffness of a leaflet's cannot carry the pressure: closures end at
 // their last iteration, and what earlier fits leaked decides nothing.
 TEST_CASE("leaks_of_a_fit_do_not_stand_for_closures_that_do_not_come_to_rest") {
-  Valve valve = patient_valve(100);
+  Valve valve = patient_valve(200);
   for (Leaflet &leaflet : valve.leaflets) {
     leaflet.law = LeafletLawId::neo_hookean;
     leaflet.constants = {{2e3}};

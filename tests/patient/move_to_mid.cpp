@@ -6,6 +6,7 @@
 #include "base/math.h"
 #include "geometry/intersect.h"
 #include "patient/surface/boundary.h"
+#include "tests/about.h"
 #include "tests/patient/surfaces.h"
 #include "tests/patient/thick_skin.h"
 
@@ -28,13 +29,13 @@ TEST_CASE("move_to_mid_moves_the_atrial_side_to_the_middle") {
   CAPTURE(e.worst);
   // before: a half
   CHECK(e.rms < 0.03);
-  CHECK(e.covered == doctest::Approx(1).epsilon(0.01));
+  CHECK(e.covered == about(1, 0.01));
   CHECK(moved.thickness == side.thickness);
   CHECK(find_intersections(moved.x, moved.triangles).size() <=
         find_intersections(side.x, side.triangles).size());
   REQUIRE(find(findings, "mid_surface"));
   CHECK(find(findings, "mid_surface")->source == FindingSource::measured);
-  CHECK(find(findings, "mid_surface")->value[0] == doctest::Approx(0.6e-3).epsilon(0.05));
+  CHECK(find(findings, "mid_surface")->value[0] == about(0.6e-3, 0.05));
 }
 
 TEST_CASE("move_to_mid_takes_the_given_thickness_where_the_sheet_has_none") {
@@ -44,7 +45,7 @@ TEST_CASE("move_to_mid_takes_the_given_thickness_where_the_sheet_has_none") {
   move_to_mid(tissue.sheet, 2e-3, findings);
   for (size_t i = 0; i < before.size(); ++i) {
     const Vec3 way = tissue.sheet.x[i] - before[i];
-    CHECK(way.norm() == doctest::Approx(1e-3));
+    CHECK(way.norm() == about(1e-3));
     CHECK(way.z() < 0);
     CHECK(way.x() * before[i].x() + way.y() * before[i].y() > 0);  // off the axis
   }
@@ -70,7 +71,7 @@ TEST_CASE("move_to_mid_stops_in_folds_that_are_narrower_than_the_tissue") {
   for (size_t i = 0; i < before.x.size(); ++i) {
     way = std::max(way, (tissue.sheet.x[i] - before.x[i]).norm());
   }
-  CHECK(way == doctest::Approx(2e-3));
+  CHECK(way == about(2e-3));
   CHECK(findings[0].value[0] < 1.9e-3);  // crests moved less
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "patient/chordae/closed_target.h"
+#include "tests/about.h"
 #include "tests/patient/kaiser_sheet.h"
 #include "tests/patient/patient_valve.h"
 
@@ -57,7 +58,7 @@ TEST_CASE("the_closed_target_hangs_at_the_annulus_and_both_leaflets_overlap_as_a
   const PatientGeometry g = parametric_geometry(430);
   const AnnulusCurve annulus(g, g.sheet.x);
   const ClosedTarget target = closed_target(g, annulus, 4 * mm);
-  CHECK(target.overlap == doctest::Approx(4 * mm).epsilon(1e-6));
+  CHECK(target.overlap == about(4 * mm, 1e-6));
   for (const uint32_t i : g.rims.annulus) CHECK((target.x[i] - g.sheet.x[i]).norm() < 1e-12);
   // free edges in the middle: as far below the line as the overlap, 1 mm: the line is balanced on
   // average over the middle
@@ -65,7 +66,7 @@ TEST_CASE("the_closed_target_hangs_at_the_annulus_and_both_leaflets_overlap_as_a
   for (const uint32_t i : g.rims.free_edge) {
     if (std::abs(target.x[i].x()) > 3.5 * mm) continue;
     ++seen;
-    CHECK(target.x[i].z() == doctest::Approx(-target.depth - target.overlap).epsilon(0.08));
+    CHECK(target.x[i].z() == about(-target.depth - target.overlap, 0.08));
   }
   CHECK(seen >= 4);
   // an overlap that would need a line above its normal depth is not met
@@ -108,7 +109,7 @@ TEST_CASE("chordae_have_the_pattern_of_normal_anatomy") {
       if (c.kind == ChordKind::trunk) {
         double branches = 0;
         for (const Chord &d : model->valve.chords) branches += d.a == c.b ? d.area : 0;
-        CHECK(c.area == doctest::Approx(branches));
+        CHECK(c.area == about(branches));
         continue;
       }
       CHECK(ends.insert(c.b).second);
@@ -159,7 +160,7 @@ TEST_CASE("the_chord_factor_multiplies_every_rest_length") {
   const Valve a = with_chordae(g), b = with_chordae(g, LeafletLawId::bilinear, longer);
   REQUIRE(a.chords.size() == b.chords.size());
   for (size_t k = 0; k < a.chords.size(); ++k) {
-    CHECK(b.chords[k].rest_length == doctest::Approx(1.2 * a.chords[k].rest_length).epsilon(1e-14));
+    CHECK(b.chords[k].rest_length == about(1.2 * a.chords[k].rest_length, 1e-14));
   }
 }
 

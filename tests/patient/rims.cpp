@@ -7,6 +7,7 @@
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
+#include "tests/about.h"
 #include "tests/patient/cleaned.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
@@ -173,7 +174,7 @@ TEST_CASE("find_rims_takes_the_boundary_far_from_given_tips") {
   CHECK(sheet.x[rims.annulus[0]].z() == 0);
   CHECK(find(findings, "annulus")->source == FindingSource::measured);
   CHECK(find(findings, "annulus")->confidence > 0.9);
-  CHECK(find(findings, "atrium")->value[2] == doctest::Approx(1));
+  CHECK(find(findings, "atrium")->value[2] == about(1));
   landmarks.tips[0].x() = landmarks.tips[1].x() = 0.2;
   CHECK_THROWS_WITH_AS(rims_of(s, landmarks, findings), doctest::Contains("papillary tips lie"),
                        Error);
@@ -227,10 +228,10 @@ TEST_CASE("shape_of_a_circle_is_that_of_the_circle") {
   const LoopShape shape = shape_of(sheet, boundary_loops(sheet)[0]);
   const double pi = 3.14159265358979;
   // a polygon of 200 sides: short by pi^2 / (6 n^2) of the length, 4 times that of the area
-  CHECK(shape.length == doctest::Approx(2 * pi * 16e-3).epsilon(5e-5));
-  CHECK(shape.area.norm() == doctest::Approx(pi * 256e-6).epsilon(2e-4));
+  CHECK(shape.length == about(2 * pi * 16e-3, 5e-5));
+  CHECK(shape.area.norm() == about(pi * 256e-6, 2e-4));
   CHECK(shape.centre.norm() < 1e-15);
-  CHECK(shape.turning == doctest::Approx(1));
+  CHECK(shape.turning == about(1));
 }
 
 TEST_CASE("a_small_valve_is_as_open_as_a_large_one") {

@@ -9,6 +9,7 @@
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
+#include "tests/about.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
 #include "tests/patient/voxel_skin.h"
@@ -38,7 +39,7 @@ TEST_CASE("small_holes_of_a_skin_are_filled_and_rims_of_a_sheet_are_not") {
   findings.clear();
   fill_skin_holes(skin, findings);
   CHECK(boundary_loops(skin).empty());
-  CHECK(surface_area(skin.x, skin.triangles) == doctest::Approx(area).epsilon(0.01));
+  CHECK(surface_area(skin.x, skin.triangles) == about(area, 0.01));
   REQUIRE(find(findings, "skin_holes"));
   // 10 mm wide: an orifice
   LeafletSheet torn = without(5e-3);

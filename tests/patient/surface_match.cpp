@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "patient/fit/closure.h"
+#include "tests/about.h"
 #include "tests/patient/patient_valve.h"
 
 using namespace mvs::core;
@@ -45,7 +46,7 @@ TEST_CASE("each_piece_of_a_closed_surface_may_be_wound_either_way") {
     }
     CAPTURE(turned);
     // the same matches, but for rounding of normals
-    CHECK(distance_from(given, *model, x) == doctest::Approx(as_wound).epsilon(1e-9));
+    CHECK(distance_from(given, *model, x) == about(as_wound, 1e-9));
   }
   // within a piece, and without common points
   ClosedSurface mixed{{}, {}};

@@ -13,16 +13,12 @@
 #include "energy/term.h"
 #include "model/model.h"
 #include "solve/solver.h"
+#include "tests/about.h"
 
 namespace mvs::core::test {
 
 inline constexpr double pi = std::numbers::pi;
 using Positions = std::vector<Vec3>;
-
-// Equal to a relative tolerance. (doctest's own Approx adds 1 to what epsilon multiplies.)
-inline doctest::Approx about(double value, double relative) {
-  return doctest::Approx(value).epsilon(relative).scale(0);
-}
 
 // The rows below the heading of a table of the shared data. If the table does not exist: no rows,
 // and a line on stderr.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/about.h"
 #include "tests/surgery/operated.h"
 
 namespace mvs::core::test {
@@ -31,7 +32,7 @@ TEST_CASE("a_band_has_its_length_and_its_ends_stay_at_the_trigones") {
   const ModelState before = shipped();
   const Operated full = apply(before, band(0, 1)), done = apply(before, band(70 * mm, 0));
   const std::vector<Vec3> &was = curve_of(full), &is = curve_of(done);
-  CHECK(length_of(is) == doctest::Approx(70 * mm).scale(0).epsilon(1e-12));
+  CHECK(length_of(is) == about(70 * mm, 1e-12));
   CHECK(is.front() == was.front());
   CHECK(is.back() == was.back());
   const Valve &valve = done.current.model->valve;

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 
 #include "measure/tissue/surface.h"
+#include "tests/about.h"
 #include "tests/surgery/operated.h"
 
 using namespace mvs::core;
@@ -48,7 +49,7 @@ TEST_CASE("a_patch_has_the_requested_area_and_thickness_and_the_rest_stays") {
       CHECK(surface.normal[t].dot(flat.normal[t]) > 0);  // a dome, nowhere folded over
     }
     // bisection to the last bits
-    CHECK(is == doctest::Approx(factor * was).epsilon(1e-9));
+    CHECK(is == about(factor * was, 1e-9));
     CHECK(was > 0.8 * 3.14159 / 4 * 12 * mm * 8 * mm);  // an ellipse of triangles
     CHECK(was < 1.2 * 3.14159 / 4 * 12 * mm * 8 * mm);
     for (size_t c = 0; c < now.valve.chords.size(); ++c) {

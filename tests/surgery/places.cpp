@@ -2,6 +2,7 @@
 // head.
 #include <cmath>
 
+#include "tests/about.h"
 #include "tests/surgery/operated.h"
 
 namespace mvs::core::test {
@@ -38,9 +39,9 @@ TEST_CASE("a_scaled_annulus_has_the_square_of_the_factor_in_area_and_the_tissue_
     const ModelState after = apply(before, scaled(factor, 0, 0)).current;
     const AnnulusMeasures is = loaded_annulus(after);
     // rounding
-    CHECK(is.area == doctest::Approx(factor * factor * was.area).scale(0).epsilon(1e-12));
-    CHECK(is.perimeter == doctest::Approx(factor * was.perimeter).scale(0).epsilon(1e-12));
-    CHECK(is.saddle_height == doctest::Approx(factor * was.saddle_height).scale(0).epsilon(1e-12));
+    CHECK(is.area == about(factor * factor * was.area, 1e-12));
+    CHECK(is.perimeter == about(factor * was.perimeter, 1e-12));
+    CHECK(is.saddle_height == about(factor * was.saddle_height, 1e-12));
     tissue_is_untouched(before, after);
   }
 }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "surgery/ring/ring_curve.h"
+#include "tests/about.h"
 #include "tests/surgery/operated.h"
 
 namespace mvs::core::test {
@@ -72,11 +73,11 @@ TEST_CASE("the_parametric_ring_has_the_measures_of_a_physio_34") {
   }
   // its measures are given to 0.1 mm and 0.01 cm2; a polygon of 360 sides of 0.28 mm lies at most
   // 1 um inside its curve, and is shorter by 1e-5 of its length
-  CHECK(high[1] - low[1] == doctest::Approx(34.7 * mm).scale(0).epsilon(1e-4));
-  CHECK(high[0] - low[0] == doctest::Approx(26.1 * mm).scale(0).epsilon(1e-4));
-  CHECK(high[2] - low[2] == doctest::Approx(4.7 * mm).scale(0).epsilon(1e-4));
-  CHECK(Loop(curve).length() == doctest::Approx(100.4 * mm).scale(0).epsilon(1e-4));
-  CHECK(area == doctest::Approx(7.40e-4).scale(0).epsilon(1e-4));
+  CHECK(high[1] - low[1] == about(34.7 * mm, 1e-4));
+  CHECK(high[0] - low[0] == about(26.1 * mm, 1e-4));
+  CHECK(high[2] - low[2] == about(4.7 * mm, 1e-4));
+  CHECK(Loop(curve).length() == about(100.4 * mm, 1e-4));
+  CHECK(area == about(7.40e-4, 1e-4));
   // along its own axes it measures the same: it lies in its best plane
   const Vec3 extent = extent_of(Loop(curve));
   CHECK((extent - Vec3(34.7, 26.1, 4.7) * mm).norm() < 3e-6);
@@ -126,7 +127,7 @@ TEST_CASE("the_a_point_of_the_ring_is_at_the_a_point_of_the_annulus") {
   CHECK((marks.a - curve[0]).norm() < 0.1 * mm);
   CHECK((marks.p - curve[180]).norm() < 0.1 * mm);
   const AnnulusMeasures m = measure_annulus(model, model.valve.loaded);
-  CHECK(m.saddle_height == doctest::Approx(34 * mm * 4.7 / 34.7).scale(0).epsilon(0.02));
+  CHECK(m.saddle_height == about(34 * mm * 4.7 / 34.7, 0.02));
 }
 
 TEST_CASE("frame_winding_and_start_of_a_curve_have_no_effect") {

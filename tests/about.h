@@ -1,0 +1,15 @@
+// Comparison of two numbers to a relative tolerance.
+#pragma once
+
+#include <doctest/doctest.h>
+
+namespace mvs::core::test {
+
+// Equal to a relative tolerance. doctest's own Approx adds 1 to the factor of epsilon, so that
+// numbers in metres would always agree (tests/tolerances.py refuses it). For a value of 0 compare
+// the absolute difference.
+inline doctest::Approx about(double value, double relative = 1e-5) {
+  return doctest::Approx(value).epsilon(relative).scale(0);
+}
+
+}  // namespace mvs::core::test
