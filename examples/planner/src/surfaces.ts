@@ -1,4 +1,4 @@
-// Surfaces of an import, what a build gets with them, and what it finds. Lengths in mm.
+// Surfaces of an import, the request to build a valve from one, and its findings. Lengths in mm.
 
 export type SurfaceKind = '' | 'mid' | 'atrial' | 'skin';
 

@@ -1,5 +1,5 @@
-// What is wrong with a sealed valve is said wherever its verdict stands: unmet goals, a ring that is much too small, chordae far beyond
-// their limit. No plan gives way to another one unasked, and the report names its plan.
+// Faults of a sealed valve, said wherever its verdict stands: unmet goals, a ring that is much too small, chordae far beyond their limit.
+// No plan gives way to another one unasked, and the report names its plan.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
 import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
