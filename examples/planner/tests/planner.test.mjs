@@ -1,10 +1,11 @@
 // The planner as a person uses it: the built page, opened from disk in Chromium.
 import assert from 'node:assert/strict';
 import { readFileSync, statSync } from 'node:fs';
-import { dirname, resolve } from 'node:path';
 import { describe, it } from 'node:test';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { pathToFileURL } from 'node:url';
 import { closed, figures, openBrowser, page_path, sharePlanner } from './fixtures/browser.mjs';
+import { shippedPositions } from './fixtures/library.mjs';
+import { applyAtShape, noteApplied, notePreviews } from './fixtures/notes.mjs';
 import {
   answered,
   apply,
@@ -12,14 +13,13 @@ import {
   begin,
   cameraRests,
   chooseAnyChord,
+  chordDirection,
   chordNames,
   fillIn,
   openPanel,
   shareOfTissue,
   undo,
 } from './fixtures/person.mjs';
-
-const library = resolve(dirname(fileURLToPath(import.meta.url)), '../../../build/js/dist/index.mjs');
 
 describe('opening', () => {
   it('shows_the_open_valve_before_the_library_answers', async () => {
@@ -35,11 +35,7 @@ describe('opening', () => {
       const share = await shareOfTissue(page);
       assert.ok(share > 0.15 && share < 0.6, `share of tissue ${share}`);
       const shown = await page.evaluate(() => [...window.planner.state.picture.value.positions]);
-      const { loadMvs } = await import(pathToFileURL(library).href);
-      const sim = (await loadMvs()).simulator();
-      sim.generateValve({ vertices: 425 });
-      const made = sim.read((snapshot) => Array.from(snapshot.array('node_position'), (v) => 1e3 * v));
-      sim.dispose();
+      const made = await shippedPositions();
       assert.equal(shown.length, made.length);
       // half a unit of the last digit that the page keeps, and single precision at 40 mm
       assert.ok(made.every((v, i) => Math.abs(v - shown[i]) < 5e-6 + 2e-6));
@@ -102,18 +98,7 @@ describe('planner', () => {
   });
 
   it('shows_the_shape_first_and_marks_what_is_to_come', async () => {
-    await page.evaluate(() => {
-      const { state } = window.planner;
-      window.seen = [];
-      state.preview.subscribe((preview) => {
-        // after the page has shown it
-        if (preview)
-          setTimeout(() => {
-            const verdict = document.querySelector('[data-testid=verdict]').innerText;
-            window.seen.push({ known: preview.figures.known, verdict, now: state.preview.value === preview });
-          });
-      });
-    });
+    await notePreviews(page);
     await begin(page, 'ring');
     const seen = await page.evaluate(() => window.seen);
     assert.deepEqual(
@@ -137,24 +122,9 @@ describe('planner', () => {
   });
 
   it('applies_as_soon_as_the_shape_is_there_and_adds_the_figures', async () => {
-    await page.evaluate(() => {
-      window.applied = [];
-      const { state } = window.planner;
-      const begin = state.main.value.figures.hash;
-      window.unsubscribe = state.main.subscribe((main) => {
-        const { known, hash, measures } = main.figures;
-        if (hash !== begin)
-          window.applied.push({ known, coaptation: measures.coaptationMean, form: !!state.draft.value });
-      });
-    });
+    await noteApplied(page);
     await begin(page, 'annulus_scale');
-    await page.evaluate(() => {
-      const { state } = window.planner;
-      const stop = state.preview.subscribe((preview) => {
-        if (preview?.figures.known !== 'shape' || state.draft.value?.fields.factor !== 0.94) return;
-        queueMicrotask(() => (stop(), document.querySelector('[data-testid=form]').requestSubmit()));
-      });
-    });
+    await applyAtShape(page, 0.94);
     await page.locator('#f-factor').fill('94');
     await page.keyboard.press('Enter');
     await page.getByTestId('form').waitFor({ state: 'detached' });
@@ -278,21 +248,7 @@ describe('planner', () => {
     await page.mouse.move(place.x, place.y);
     await page.mouse.down();
     // towards the papillary head on the screen, whichever side it is on
-    const direction = await page.evaluate((wanted) => {
-      const { state, viewport } = window.planner;
-      const picture = state.picture.value;
-      const topology = state.topologyOf(picture);
-      const k = topology.chords.findIndex((part) => part.name === wanted);
-      const at = (node) =>
-        viewport.camera.project(
-          ...picture.positions.slice(3 * node, 3 * node + 3),
-          viewport.width,
-          viewport.height,
-        );
-      const [head, leaf] = [at(topology.chordNodes[2 * k]), at(topology.chordNodes[2 * k + 1])];
-      const length = Math.hypot(head[0] - leaf[0], head[1] - leaf[1]);
-      return [(head[0] - leaf[0]) / length, (head[1] - leaf[1]) / length];
-    }, name);
+    const direction = await chordDirection(page, name);
     for (let k = 1; k <= 10; ++k)
       await page.mouse.move(place.x + 3 * k * direction[0], place.y + 3 * k * direction[1]);
     await page.mouse.up();

@@ -1,8 +1,8 @@
-// The rasteriser draws the pictures that were looked at when `node tests/references.mjs` made them.
+// The rasteriser draws the pictures that were looked at when `node tests/tools/references.mjs` made them.
 import assert from 'node:assert/strict';
 import { describe, it } from 'node:test';
 import { openBrowser } from './fixtures/browser.mjs';
-import { drawPictures, readReference } from './references.mjs';
+import { drawPictures, readReference } from './tools/references.mjs';
 
 /**
  * Largest mean difference of two pictures, of 255. The positions have the same bits on every machine; the camera's tangent and

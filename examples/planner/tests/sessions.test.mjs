@@ -4,7 +4,7 @@ import { readFileSync } from 'node:fs';
 import { describe, it } from 'node:test';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
 import { closed, figures, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
-import { repeated } from './fixtures/native.mjs';
+import { checkpointsIn, repeated } from './fixtures/native.mjs';
 import {
   answered,
   apply,
@@ -17,26 +17,7 @@ import {
   startAfresh,
   undo,
 } from './fixtures/person.mjs';
-
-const listed = (page) => page.getByTestId('earlier-valves').locator('.earlier-valve');
-const startHealthy = async (page) => {
-  const plan = () => page.evaluate(() => window.planner.state.plan.value);
-  const before = await plan();
-  await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
-  // a plan that is left is kept first, and a busy worker takes its time; two plans may be alike
-  for (const end = Date.now() + 120_000; (await plan()) === before; await page.waitForTimeout(50))
-    assert.ok(Date.now() < end, 'the healthy valve does not come');
-  await closed(page);
-};
-const openTour = async (page, number) => {
-  await openPanel(page, 'Learn');
-  await page.getByRole('button', { name: `Valve ${number}`, exact: true }).click();
-  await page
-    .getByTestId('score')
-    .getByText(number > 3 ? 'Example' : 'Study surgeon')
-    .waitFor();
-  await closed(page);
-};
+import { listed, openTour, startHealthy } from './fixtures/valves.mjs';
 
 describe('valves that were left', () => {
   let page;
@@ -250,11 +231,7 @@ describe('sessions', () => {
     await becomes(() => page.getByTestId('compare').count(), 0, 'compared with a deleted plan');
     await becomes(() => page.getByTestId('status').innerText(), '“First” was deleted.');
     assert.equal(await hash(), second, 'the plan itself stays');
-    const inSession = (path) =>
-      JSON.parse(strFromU8(unzipSync(readFileSync(path))['session.json'])).checkpoints.map(
-        ({ name }) => name,
-      );
-    assert.deepEqual(inSession(await save(page)), ['Second']);
+    assert.deepEqual(checkpointsIn(await save(page)), ['Second']);
     // the keyboard is at the way back
     await page.keyboard.press('Enter');
     await answered(page, 150);
@@ -265,7 +242,7 @@ describe('sessions', () => {
     // a name used twice replaces the first, which can be put back beside it
     await page.getByLabel('Name of the plan').fill('Second');
     // saved from within a text
-    assert.deepEqual(inSession(await save(page)), ['First', 'Second']);
+    assert.deepEqual(checkpointsIn(await save(page)), ['First', 'Second']);
     await page.keyboard.press('Enter');
     await answered(page, 150);
     await page.getByRole('button', { name: 'Put it back' }).click();

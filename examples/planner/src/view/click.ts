@@ -11,6 +11,13 @@ import { addOutlinePoint } from './outline';
 import { pickSurface, type Hit } from './pick';
 import type { Viewport } from './viewport';
 
+/** Whether a field of the form is answered by a click on what the leaflets hide. */
+export function hidesFromAtrium(field: string): boolean {
+  const kind = state.draft.peek()?.kind;
+  const info = state.operations.peek().find((operation) => operation.name === kind);
+  return ['chord', 'head'].includes(info?.fields.find(({ name }) => name === field)?.type ?? '');
+}
+
 /** The most points of each kind; the oldest gives way. */
 const most = { annulus: 200, commissures: 2, anterior: 1, tips: 12 };
 

@@ -4,28 +4,21 @@ import { effect, untracked } from '@preact/signals';
 import * as state from '../store/state';
 import { appTexts } from '../text/texts';
 import { Camera, type Preset } from './camera';
+import { hidesFromAtrium } from './click';
 import { planeOf } from './cut';
 import { Gestures } from './gestures';
 import { overlayInputs, sameInputs, sceneInputs } from './inputs';
 import { Labels } from './labels';
-import { Raster } from './raster';
+import { makeRenderer } from './make_renderer';
 import type { CutPlane, Renderer, Scene } from './renderer';
 import { marksMesh } from './marks';
 import { lowestFree, outlineOf, topOf } from './room';
 import { rimOf, sectionMeshes, shownFrame, shownRadius, valveMeshes } from './shown';
 import type { Mesh } from './mesh';
 import { surfaceFrame, surfaceMesh } from './surface';
-import { WebGl } from './webgl';
 
 /** ms without motion until the picture is drawn in full. */
 const still = 140;
-/** Whether a field of the form is answered by a click on what the leaflets hide. */
-function hidesFromAtrium(field: string): boolean {
-  const kind = state.draft.peek()?.kind;
-  const info = state.operations.peek().find((operation) => operation.name === kind);
-  return ['chord', 'head'].includes(info?.fields.find(({ name }) => name === field)?.type ?? '');
-}
-
 const background: [number, number, number] = [0.925, 0.937, 0.949];
 
 export class Viewport {
@@ -60,7 +53,11 @@ export class Viewport {
     readonly host: HTMLElement,
     wanted: 'webgl' | 'software' | '',
   ) {
-    this.renderer = this.makeRenderer(wanted);
+    this.renderer = makeRenderer(
+      wanted,
+      () => (this.dirty = false),
+      () => this.touchScene(),
+    );
     host.prepend(this.renderer.canvas);
     this.describe();
     this.labels = new Labels(host);
@@ -125,19 +122,6 @@ export class Viewport {
     }
     this.touchScene();
     if (fresh && shown) this.go('surgeon', true);
-  }
-
-  private makeRenderer(wanted: 'webgl' | 'software' | ''): Renderer {
-    if (wanted === 'software') return new Raster();
-    const lost = () => (this.dirty = false);
-    const restored = () => this.touchScene();
-    try {
-      // a browser without WebGL, or one that emulates it more slowly than the rasteriser; it is asked without an
-      // exception, for whose place the whole script would be parsed once more
-      return WebGl.make(wanted === 'webgl', lost, restored) ?? new Raster();
-    } catch {
-      return new Raster();
-    }
   }
 
   private describe(): void {

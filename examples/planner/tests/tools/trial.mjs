@@ -1,14 +1,14 @@
 // A trial by a person who sees pictures of the page and sends mouse and key events, nothing else. A server keeps the
 // page open in Chromium; each command sends it one action, or looks at it without an action.
 //
-//   node tests/trial.mjs start [WIDTH HEIGHT] &   opens out/planner.html from disk, counts from 0
-//   node tests/trial.mjs look                     writes a picture of the window, prints its path
-//   node tests/trial.mjs click X Y                also: double X Y, right X Y, move X Y
-//   node tests/trial.mjs drag X1 Y1 X2 Y2 [right] also: wheel X Y AMOUNT (positive is towards the person)
-//   node tests/trial.mjs drop X Y FILE           a file is dropped on the page
-//   node tests/trial.mjs key Control+z            names of keys as playwright has them; also: type TEXT
-//   node tests/trial.mjs wait SECONDS             no action
-//   node tests/trial.mjs stop
+//   node tests/tools/trial.mjs start [WIDTH HEIGHT] &   opens out/planner.html from disk, counts from 0
+//   node tests/tools/trial.mjs look                     writes a picture of the window, prints its path
+//   node tests/tools/trial.mjs click X Y                also: double X Y, right X Y, move X Y
+//   node tests/tools/trial.mjs drag X1 Y1 X2 Y2 [right] also: wheel X Y AMOUNT (positive is towards the person)
+//   node tests/tools/trial.mjs drop X Y FILE           a file is dropped on the page
+//   node tests/tools/trial.mjs key Control+z            names of keys as playwright has them; also: type TEXT
+//   node tests/tools/trial.mjs wait SECONDS             no action
+//   node tests/tools/trial.mjs stop
 //
 // Lists that the browser opens over the page are missing from the pictures: choose in them with the arrow keys.
 import { mkdirSync, readFileSync, rmSync } from 'node:fs';
@@ -16,7 +16,7 @@ import { createServer, request } from 'node:http';
 import { tmpdir } from 'node:os';
 import { basename, join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { openBrowser, page_path } from './fixtures/browser.mjs';
+import { openBrowser, page_path } from '../fixtures/browser.mjs';
 
 const folder = process.env.PLANNER_TRIAL ?? join(tmpdir(), 'planner-trial');
 const socket = join(folder, 'socket');
@@ -82,7 +82,8 @@ function performer(page) {
       await page.waitForTimeout(1000 * numbers(words)[0]);
       return `${count} actions`;
     }
-    if (!Object.hasOwn(actions, command)) throw new Error(`unknown command ${command}; see tests/trial.mjs`);
+    if (!Object.hasOwn(actions, command))
+      throw new Error(`unknown command ${command}; see tests/tools/trial.mjs`);
     const textual = command === 'key' || command === 'type';
     await actions[command](
       page,
@@ -130,7 +131,7 @@ function send(words) {
     });
   });
   asked.on('error', () => {
-    console.error('no trial is open: node tests/trial.mjs start');
+    console.error('no trial is open: node tests/tools/trial.mjs start');
     process.exitCode = 1;
   });
   asked.end(JSON.stringify(words));
@@ -140,4 +141,6 @@ const [command, ...rest] = process.argv.slice(2);
 if (command === 'start') await serve(rest);
 else if (command) send([command, ...rest]);
 else
-  console.error('node tests/trial.mjs start | look | click X Y | ... : the first lines of the file list all');
+  console.error(
+    'node tests/tools/trial.mjs start | look | click X Y | ... : the first lines of the file list all',
+  );

@@ -1,12 +1,12 @@
-// Makes examples/pictures/planner.png: the tour as a strip of four pictures of the page. Usage: node tests/pictures.mjs
+// Makes examples/pictures/planner.png: the tour as a strip of four pictures of the page. Usage: node tests/tools/pictures.mjs
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { openBrowser, openPlanner } from './fixtures/browser.mjs';
-import { answered, apply, begin, cameraRests, openPanel } from './fixtures/person.mjs';
+import { openBrowser, openPlanner } from '../fixtures/browser.mjs';
+import { answered, apply, begin, cameraRests, openPanel } from '../fixtures/person.mjs';
 
-const target = resolve(dirname(fileURLToPath(import.meta.url)), '../../pictures/planner.png');
+const target = resolve(dirname(fileURLToPath(import.meta.url)), '../../../pictures/planner.png');
 const size = { width: 1280, height: 720 };
 const { context } = await openBrowser(size);
 const shots = [];

@@ -1,12 +1,12 @@
-// Pictures of the rasteriser to compare with. Usage: node tests/references.mjs makes tests/references/*.png anew from
+// Pictures of the rasteriser to compare with. Usage: node tests/tools/references.mjs makes tests/references/*.png anew from
 // out/planner.html; look at them before they are committed.
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { closed, openBrowser, openPlanner } from './fixtures/browser.mjs';
-import { apply, begin, cameraRests, openPanel } from './fixtures/person.mjs';
+import { closed, openBrowser, openPlanner } from '../fixtures/browser.mjs';
+import { apply, begin, cameraRests, openPanel } from '../fixtures/person.mjs';
 
-const folder = join(dirname(fileURLToPath(import.meta.url)), 'references');
+const folder = join(dirname(fileURLToPath(import.meta.url)), '../references');
 
 /** CSS pixels of the picture, whatever the fonts of the machine leave for it. */
 const [width, height] = [200, 150];

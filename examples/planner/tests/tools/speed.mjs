@@ -1,16 +1,16 @@
 // Prints how fast the page is: first picture, time from a change of a form to the shape, the leak and all figures, and
 // frames and tasks of the main thread while a valve settles. CPU times hold on a busy machine as well (README.md). Usage:
-// node tests/speed.mjs [VERTICES ...]; the default is 425 1700 3710, of which the last has 7,000 faces.
+// node tests/tools/speed.mjs [VERTICES ...]; the default is 425 1700 3710, of which the last has 7,000 faces.
 import { mkdtempSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
-import { closed, openBrowser, page_path } from './fixtures/browser.mjs';
-import { begin, open } from './fixtures/person.mjs';
-import { cpuBetween, traced } from './fixtures/trace.mjs';
+import { closed, openBrowser, page_path } from '../fixtures/browser.mjs';
+import { begin, open } from '../fixtures/person.mjs';
+import { cpuBetween, traced } from '../fixtures/trace.mjs';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const library = resolve(here, '../../../build/js/dist/index.mjs');
+const library = resolve(here, '../../../../build/js/dist/index.mjs');
 const sizes = process.argv.slice(2).map(Number);
 const rounds = 9;
 
