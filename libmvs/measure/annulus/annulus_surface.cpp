@@ -103,13 +103,18 @@ bool AnnulusSurface::is_strictly_towards(size_t k, const Vec3 &p) const {
   return cross_in_plane(p, rim_[(k + 1) % sides()]) > 0 && cross_in_plane(rim_[k], p) > 0;
 }
 
+// Twice the area of the triangle of a side of the rim and the centre, and those of its parts with p
+// in the place of one end of the side, which are the weights of the other end.
+AnnulusSurface::Sector AnnulusSurface::sector(size_t k, const Vec3 &p) const {
+  const Vec3 &a = rim_[k], &b = rim_[(k + 1) % sides()];
+  return {cross_in_plane(a, b), cross_in_plane(p, b), cross_in_plane(a, p)};
+}
+
 // Returns the first side of the rim whose triangle with the centre holds p, or sides(). Sectors of
 // a star-shaped rim do not overlap, so that one strictly around p is the only one to look at.
 size_t AnnulusSurface::find_side(const Vec3 &p, size_t near) const {
   const auto holds = [&](size_t k) {
-    const Vec3 &a = rim_[k], &b = rim_[(k + 1) % sides()];
-    const double area = cross_in_plane(a, b), toward_a = cross_in_plane(p, b),
-                 toward_b = cross_in_plane(a, p);
+    const auto [area, toward_a, toward_b] = sector(k, p);
     return !(toward_a < 0 || toward_b < 0 || area <= 0 || toward_a + toward_b > area);
   };
   for (size_t i = 0; star_shaped_ && i < sides(); ++i) {
@@ -128,9 +133,7 @@ double AnnulusSurface::height(double u, double v, size_t &near) const {
   const size_t k = find_side(p, near);
   if (k == sides()) return std::numeric_limits<double>::quiet_NaN();
   near = k;
-  const Vec3 &a = rim_[k], &b = rim_[(k + 1) % sides()];
-  const double area = cross_in_plane(a, b), toward_a = cross_in_plane(p, b),
-               toward_b = cross_in_plane(a, p);
+  const auto [area, toward_a, toward_b] = sector(k, p);
   // the ray through p meets this side of the rim at a share f; rings are parallel to the side
   const double s = (toward_a + toward_b) / area;
   const double f = s > 0 ? toward_b / (toward_a + toward_b) : 0;

@@ -27,6 +27,10 @@ class AnnulusSurface {
   double area() const;
 
  private:
+  struct Sector {
+    double area, toward_a, toward_b;  // twice those of triangles, m2
+  };
+  Sector sector(size_t k, const Vec3 &p) const;
   size_t sides() const { return rim_.size(); }
   size_t index(size_t ring, size_t k) const;  // of a height; ring 0 is the centre
   Vec3 point(size_t ring, size_t k) const;

@@ -3,12 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/error.h"
-#include "geometry/distance.h"
-#include "measure/annulus/landmarks.h"
-#include "model/sides.h"
 #include "patient/findings.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/cut_annulus.h"

@@ -163,9 +163,13 @@ class HierarchySettling final : public Settling {
     levels_.push_back({&model, nullptr, nullptr, state, options, progress});
     if (has_tissue_with_surrogate(model)) {
       namespace set = settings::mesh_hierarchy;
-      const double left_at = is_to_coarsen()      ? set::surrogate_residual
-                             : is_overstretched() ? set::overstretched_residual
-                                                  : 0;
+      // each begins the settle of the level where it is false
+      double left_at = 0;
+      if (is_to_coarsen()) {
+        left_at = set::surrogate_residual;
+      } else if (is_overstretched()) {
+        left_at = set::overstretched_residual;
+      }
       if (left_at > 0) {
         levels_.back().has_coarser = true;
         levels_.push_back(surrogate_of(levels_.back(), left_at, solver.coarse_levels()));
