@@ -178,7 +178,7 @@ def test_noise_is_refused_before_work_on_its_surface(share, words, monkeypatch):
     """Noise of 120^3 voxels took minutes: its surface has a thousand times the triangles of a valve's."""
     random = np.random.default_rng(2)
     noise = np.where(random.random((120, 120, 120)) < share, random.integers(1, 3, (120, 120, 120)), 0)
-    monkeypatch.setattr("mvs.imaging.labels.mid_surface", lambda *_: pytest.fail("the surface was made"))
+    monkeypatch.setattr("mvs.imaging.tissue_sheet.mid_surface", lambda *_: pytest.fail("the surface was made"))
     with pytest.raises(mvs.ArgumentError, match=words):
         found_in(noise.astype(np.uint8))
 
