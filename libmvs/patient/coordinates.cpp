@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "model/compressed_rows.h"
 #include "model/sides.h"
 

@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "model/sides.h"
 #include "patient/surface/clusters.h"
 
