@@ -8,9 +8,9 @@
 #include "base/bit_cast.h"
 #include "base/error.h"
 #include "formats/formats.h"
+#include "formats/session/checks.h"
 #include "formats/session/layout.h"
 #include "formats/session/pool.h"
-#include "history/tool_trajectory.h"
 
 namespace mvs::core {
 namespace {
@@ -57,8 +57,8 @@ class SessionReader {
   void optional_text(const char *&given);
   template <typename Item>
   void list(PersistentList<Item> &items);
-  void check(const ModelState &current) const;
-  static void check(const RecordedEvent &event);
+  static void check(const ModelState &current) { check_state(current); }
+  static void check(const RecordedEvent &event) { check_event(event); }
   void optional(std::shared_ptr<const ModelState> &current);
   void optional(std::shared_ptr<const std::vector<Checkpoint>> &checkpoints);
 
@@ -209,39 +209,6 @@ void SessionReader::shape(ToolShapePtr &shape) {
              "the file has a tool with bodies that cannot be");
     it = ToolShapePtr(std::make_shared<const ToolShape>(std::move(bodies)));
   });
-}
-
-// Checks that a state fits its model.
-void SessionReader::check(const ModelState &current) const {
-  const State &state = current.state;
-  const size_t n = current.model->node_count();
-  MVS_MUST(state.x.size() == n && state.v.size() == n, MVS_E_FORMAT, "state",
-           "a state of the file has %zu positions and %zu velocities for %zu nodes", state.x.size(),
-           state.v.size(), n);
-  const double fraction = state.load.boundary_fraction;
-  MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
-           "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);
-  MVS_MUST(state.rest_tolerance >= 0, MVS_E_FORMAT, "state",
-           "a state of the file has a rest tolerance of %g N, it has to be 0 or more",
-           state.rest_tolerance);
-  for (const Tool &tool : state.tools) {
-    MVS_MUST(is_valid(*current.model, tool), MVS_E_FORMAT, "state",
-             "a state of the file has a tool that cannot be");
-  }
-}
-
-void SessionReader::check(const RecordedEvent &event) {
-  const bool is_of_tool =
-      event.kind >= RecordedEvent::tool_add && event.kind <= RecordedEvent::tool_remove;
-  bool is_good = event.kind == RecordedEvent::tool_trajectory ? is_consistent(event)
-                                                              : event.tools.size() == is_of_tool;
-  for (const Tool &tool : event.tools.get()) {
-    is_good = is_good && tool.kind >= ToolKind::grasp && tool.kind <= ToolKind::convex;
-    if (event.kind == RecordedEvent::tool_add && tool.kind == ToolKind::convex)
-      is_good = is_good && tool.shape;
-  }
-  MVS_MUST(is_good, MVS_E_FORMAT, "history",
-           "the history of the file has an event whose tools and numbers do not agree");
 }
 
 template <typename Item>

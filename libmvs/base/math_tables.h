@@ -1,4 +1,4 @@
-// Tables of math.cpp. Written by math_tables.py; do not edit.
+// Tables of math_powers.cpp and math_angles.cpp. Written by math_tables.py; do not edit.
 // clang-format off
 #pragma once
 

@@ -1,4 +1,4 @@
-"""Writes math_tables.h, the tables of math.cpp, and the reference values of its test.
+"""Writes math_tables.h, the tables of math_powers.cpp and math_angles.cpp, and the reference values of its test.
 
     python3 libmvs/base/math_tables.py            needs mpmath (PyPI)
 
@@ -102,7 +102,7 @@ def write_tables() -> None:
     log_ln2, exp_ln2 = split(ln2, 42), split(ln2 / EXP_ENTRIES, 41)
     half_pi = [rounded(pi / 2, 32)]
     half_pi.append(rounded(pi / 2 - half_pi[0], 65))
-    text = "// Tables of math.cpp. Written by math_tables.py; do not edit.\n"
+    text = "// Tables of math_powers.cpp and math_angles.cpp. Written by math_tables.py; do not edit.\n"
     text += "// clang-format off\n#pragma once\n\n#include <cstdint>\n\nnamespace mvs::core::math::tables {\n\n"
     text += f"inline constexpr uint64_t log_first = {LOG_FIRST:#x};\n"
     text += constant("log_ln2_high", log_ln2[0]) + constant("log_ln2_low", log_ln2[1])

@@ -8,7 +8,7 @@
 #include "collision/leaf_parts.h"
 #include "collision/leaf_soa.h"
 #include "collision/node_motion.h"
-#include "geometry/bvh.h"
+#include "geometry/swept_bvh.h"
 #include "model/model.h"
 
 namespace mvs::core {

@@ -26,6 +26,7 @@
 #include "collision/shared_search.h"
 #include "collision/verlet_list.h"
 #include "geometry/bvh.h"
+#include "geometry/swept_bvh.h"
 #include "model/model.h"
 
 namespace mvs::core {

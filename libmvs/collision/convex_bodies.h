@@ -9,7 +9,7 @@
 
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "geometry/convex_hull.h"
 #include "model/model.h"
 

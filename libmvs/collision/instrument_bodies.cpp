@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "collision/near_parts.h"
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "geometry/distance.h"
 
 namespace mvs::core {

@@ -7,6 +7,7 @@
 #include "base/workers.h"
 #include "collision/leaf_parts.h"
 #include "geometry/bvh.h"
+#include "geometry/swept_aabb_batch.h"
 #include "model/model.h"
 
 namespace mvs::core {

@@ -10,7 +10,7 @@
 #include "collision/leaf_soa.h"
 #include "collision/node_motion.h"
 #include "collision/search_mask.h"
-#include "geometry/bvh.h"
+#include "geometry/swept_bvh.h"
 
 namespace mvs::core {
 

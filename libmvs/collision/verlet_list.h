@@ -19,8 +19,8 @@
 #include "collision/leaf_parts.h"
 #include "collision/leaf_soa.h"
 #include "collision/rest_distance_filter.h"
-#include "geometry/bvh.h"
 #include "geometry/distance_batch.h"
+#include "geometry/swept_bvh.h"
 #include "model/model.h"
 
 namespace mvs::core {

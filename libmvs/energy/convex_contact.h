@@ -21,7 +21,7 @@
 
 #include "collision/convex_bodies.h"
 #include "energy/barrier.h"
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "geometry/smooth_distance.h"
 #include "model/model.h"
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 
 namespace mvs::core {
 

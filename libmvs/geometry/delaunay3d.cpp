@@ -8,45 +8,12 @@
 #include <tuple>
 
 #include "base/types.h"
+#include "geometry/edge_table.h"
+#include "geometry/lattice_predicates.h"
 #include "geometry/sphere_side.h"
 
 namespace mvs::core {
 namespace {
-
-__extension__ typedef __int128 Wide;
-using Step = std::array<int64_t, 3>;
-
-Step step(const LatticePoint &from, const LatticePoint &to) {
-  return {int64_t{to[0]} - from[0], int64_t{to[1]} - from[1], int64_t{to[2]} - from[2]};
-}
-
-// Returns six times the volume, below 3 * 2^61.
-int64_t volume(const LatticePoint &a, const LatticePoint &b, const LatticePoint &c,
-               const LatticePoint &d) {
-  const Step u = step(a, b), v = step(a, c), w = step(a, d);
-  return (u[0] * v[1] - u[1] * v[0]) * w[2] + (u[1] * v[2] - u[2] * v[1]) * w[0] +
-         (u[2] * v[0] - u[0] * v[2]) * w[1];
-}
-
-// Whether p is strictly inside the sphere through a, b, c, d, which have positive volume: in exact
-// integers.
-bool in_sphere(const LatticePoint &a, const LatticePoint &b, const LatticePoint &c,
-               const LatticePoint &d, const LatticePoint &p) {
-  const std::array<Step, 4> row = {step(p, a), step(p, b), step(p, c), step(p, d)};
-  const auto minor = [&](int i, int j) { return row[i][0] * row[j][1] - row[i][1] * row[j][0]; };
-  const int64_t ab = minor(0, 1), ac = minor(0, 2), ad = minor(0, 3);
-  const int64_t bc = minor(1, 2), bd = minor(1, 3), cd = minor(2, 3);
-  const std::array<int64_t, 4> volume = {row[1][2] * cd - row[2][2] * bd + row[3][2] * bc,
-                                         row[2][2] * ad - row[0][2] * cd - row[3][2] * ac,
-                                         row[0][2] * bd - row[1][2] * ad + row[3][2] * ab,
-                                         row[1][2] * ac - row[0][2] * bc - row[2][2] * ab};
-  Wide exact = 0;
-  for (size_t i = 0; i < 4; ++i) {
-    const int64_t lift = row[i][0] * row[i][0] + row[i][1] * row[i][1] + row[i][2] * row[i][2];
-    exact += Wide{lift} * volume[i];
-  }
-  return exact > 0;
-}
 
 // Returns the Morton code of a point: the interleaved bits of its coordinates.
 uint64_t z_order(const LatticePoint &p) {
@@ -78,60 +45,6 @@ std::vector<uint32_t> insertion_order(const std::vector<LatticePoint> &points) {
   for (const Key &key : keys) order.push_back(key.point);
   return order;
 }
-
-// Table of the edges of a cavity, which pairs the two new tetrahedra at each edge. Its vertices
-// have numbers of their own, from 0.
-class EdgeTable {
- public:
-  struct Side {
-    uint64_t edge;
-    uint32_t tetrahedron, face;
-  };
-
-  // Begins a cavity with this many vertices.
-  void clear(size_t vertices) {
-    is_square_ = vertices <= largest_square;
-    if (is_square_) {
-      if (square_.empty()) square_.assign(largest_square * largest_square, Side{0, 0, 0});
-      ++cavity_;
-    } else {
-      // a triangulated sphere has 3 (vertices - 2) edges
-      slots_.assign(std::bit_ceil(6 * vertices + 1), Side{empty, 0, 0});
-    }
-  }
-  // Returns the side stored at this edge, or stores this one and returns null.
-  const Side *match(uint32_t a, uint32_t b, uint32_t tetrahedron, uint32_t face) {
-    if (a > b) std::swap(a, b);
-    return is_square_ ? match_in_square(a, b, tetrahedron, face)
-                      : match_in_slots(uint64_t{a} << 32 | b, tetrahedron, face);
-  }
-
- private:
-  static constexpr uint64_t empty = UINT64_MAX;
-  static constexpr size_t largest_square = 64;  // nearly all cavities have fewer vertices
-
-  // An entry of an earlier cavity counts as empty.
-  const Side *match_in_square(uint32_t a, uint32_t b, uint32_t tetrahedron, uint32_t face) {
-    Side &side = square_[largest_square * a + b];
-    if (side.edge == cavity_) return &side;
-    side = {cavity_, tetrahedron, face};
-    return nullptr;
-  }
-  const Side *match_in_slots(uint64_t edge, uint32_t tetrahedron, uint32_t face) {
-    size_t slot = (edge * 0x9e3779b97f4a7c15u) >> 32;
-    for (;; ++slot) {
-      Side &side = slots_[slot & (slots_.size() - 1)];
-      if (side.edge == edge) return &side;
-      if (side.edge != empty) continue;
-      side = {edge, tetrahedron, face};
-      return nullptr;
-    }
-  }
-
-  bool is_square_ = false;
-  uint64_t cavity_ = 0;
-  std::vector<Side> square_, slots_;
-};
 
 class DelaunayBuilder {
  public:

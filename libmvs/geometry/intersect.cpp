@@ -7,6 +7,7 @@
 
 #include "geometry/bvh.h"
 #include "geometry/predicates.h"
+#include "geometry/triangle_bvh.h"
 
 namespace mvs::core {
 namespace {

@@ -1,13 +1,13 @@
-// The class of the library's own Cholesky factorisation: cholesky.cpp has what one thread does,
-// shared_cholesky.cpp the work of several.
+// The class of the library's own Cholesky factorisation: cholesky.cpp has the factorisation by one
+// thread, cholesky_solve.cpp the solution, shared_cholesky.cpp the work of several threads.
 #pragma once
 
 #include <vector>
 
 #include "base/denormals.h"
 #include "linalg/cholesky.h"
-#include "linalg/compact_panel.h"
-#include "linalg/panel.h"
+#include "linalg/panel/compact_panel.h"
+#include "linalg/panel/panel.h"
 #include "linalg/subtrees.h"
 #include "linalg/symbolic.h"
 
@@ -54,8 +54,13 @@ class BlockFactor final : public RowSolver {
  private:
   using Row = Eigen::Matrix<T, 3, 1>;
   T *panel(const Supernode &s) { return value_.data() + s.panel; }
+  // The panel of supernode k in 16 bits.
+  CompactPanel compact(size_t k) {
+    const Supernode &s = pattern_.node[k];
+    return {inverse_.data() + 3 * inverse_numbers * s.first, tiles_.data() + tiles_of_[k],
+            scale_.data() + 3 * s.first, 3 * s.width(), s.height()};
+  }
   void weigh();
-  CompactPanel compact(size_t k);
   void compress();
   void solve_compactly();
   size_t begin_of(uint32_t part, uint32_t parts) const;

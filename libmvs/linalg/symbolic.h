@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "linalg/block_matrix.h"
-#include "linalg/panel.h"
+#include "linalg/panel/panel.h"
 
 namespace mvs::core {
 

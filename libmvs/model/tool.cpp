@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "geometry/convex_distance.h"
 #include "geometry/distance.h"
 #include "geometry/intersect.h"

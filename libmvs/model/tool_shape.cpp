@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "geometry/convex_hull.h"
 
 namespace mvs::core {

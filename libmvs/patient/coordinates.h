@@ -6,6 +6,10 @@
 // they do not jump between walls of a fold that touch.
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
 #include "patient/leaflet_sheet.h"
 
 namespace mvs::core {
@@ -32,8 +36,13 @@ std::vector<double> height_profile(const SheetRims &rims, const SheetCoordinates
 size_t sample_at(double foot, double length, size_t count);
 
 // The representative of an arc length in [0, length).
-double wrapped(double s, double length);
+inline double wrapped(double s, double length) {
+  const double r = s - length * std::floor(s / length);
+  return r < length ? r : 0;  // rounding
+}
 // The difference b - a of two arc lengths around a loop, in [-length / 2, length / 2).
-double around(double a, double b, double length);
+inline double around(double a, double b, double length) {
+  return wrapped(b - a + 0.5 * length, length) - 0.5 * length;
+}
 
 }  // namespace mvs::core

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "model/sides.h"
 
 namespace mvs::core {

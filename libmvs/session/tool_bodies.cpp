@@ -8,7 +8,7 @@
 #include "base/array_view.h"
 #include "base/error.h"
 #include "base/option_checks.h"
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "geometry/convex_hull.h"
 #include "session/tools.h"
 

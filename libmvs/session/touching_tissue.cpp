@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "model/compressed_rows.h"
 
 namespace mvs::core {

@@ -32,6 +32,7 @@
 #include "linalg/cholesky.h"
 #include "linalg/spmv.h"
 #include "model/law.h"
+#include "solve/hierarchy_settings.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
 #include "solve/static/mesh_hierarchy.h"

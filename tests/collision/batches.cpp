@@ -6,10 +6,10 @@
 #include <bit>
 #include <vector>
 
-#include "geometry/bvh.h"
 #include "geometry/distance.h"
 #include "geometry/distance_batch.h"
 #include "geometry/swept_aabb_batch.h"
+#include "geometry/swept_bvh.h"
 #include "tests/collision/pairs.h"
 
 using namespace mvs::core;

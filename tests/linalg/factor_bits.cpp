@@ -5,7 +5,7 @@
 
 #include "linalg/cholesky.h"
 #include "linalg/direct_solver.h"
-#include "linalg/panel.h"
+#include "linalg/panel/panel.h"
 #include "tests/linalg/random_matrix.h"
 
 using namespace mvs::core;

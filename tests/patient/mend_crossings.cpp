@@ -2,8 +2,8 @@
 // moves.
 #include "patient/surface/mend_crossings.h"
 
-#include "geometry/bvh.h"
 #include "geometry/intersect.h"
+#include "geometry/triangle_bvh.h"
 #include "tests/patient/sheets.h"
 
 using namespace mvs::core;

@@ -1,7 +1,7 @@
 // Remeshed sheets beside their input: size, quality, shape, rims, and walls that stay apart.
 #include "base/error.h"
-#include "geometry/bvh.h"
 #include "geometry/intersect.h"
+#include "geometry/triangle_bvh.h"
 #include "model/winding.h"
 #include "patient/mesh/remesh_sheet.h"
 #include "patient/surface/mend_crossings.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/math.h"
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "model/sides.h"
 #include "patient/findings.h"
 #include "patient/skin/mid_surface.h"

@@ -6,7 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
+#include "geometry/triangle_bvh.h"
 #include "model/compressed_rows.h"
 #include "model/sides.h"
 #include "tests/patient/surfaces.h"

@@ -8,6 +8,7 @@
 
 #include "anatomy/family_level.h"
 #include "anatomy/parametric.h"
+#include "solve/hierarchy_settings.h"
 #include "solve/nodes.h"
 #include "solve/settings.h"
 #include "solve/solver.h"

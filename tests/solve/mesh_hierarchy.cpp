@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "geometry/intersect.h"
 #include "model/law.h"
+#include "solve/hierarchy_settings.h"
 #include "solve/nodes.h"
-#include "solve/settings.h"
 #include "solve/static/untangle.h"
 #include "tests/solve/founding_model.h"
 

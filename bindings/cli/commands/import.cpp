@@ -6,143 +6,13 @@
 
 #include "commands/commands.h"
 #include "import/findings_file.h"
-#include "import/landmarks.h"
+#include "import/import_input.h"
 #include "valve/tissue.h"
 
 namespace cli {
 namespace {
 
 constexpr double least_confidence = 0.1;  // of a finding: up to it, an input is taken for wrong
-
-struct ImportOptions {
-  std::string surface, out, findings_out, with;
-  std::string annulus, commissures, anterior, tips, closed;
-  std::string kind, leaflet, label_array, thickness_array;
-  FileOptions files;
-  double edge = 0, thickness = 0, coaptation_length = 0;      // mm
-  double edge_error = 0, edge_lost = 0, thickness_error = 0;  // mm
-  mvs_build_options build = {};
-};
-
-mvs_surface_kind kind_number(const std::string &kind) {
-  if (kind == "mid") return MVS_SURFACE_KIND_MID;
-  if (kind == "atrial") return MVS_SURFACE_KIND_ATRIAL;
-  return kind == "skin" ? MVS_SURFACE_KIND_SKIN : 0;
-}
-
-// The values of a named array of the surface, one a row.
-std::vector<double> array_values(const mvs::SurfaceFile &file, const std::string &name,
-                                 mvs_surface_place place) {
-  std::string known;
-  for (const mvs_surface_array &array : file.arrays()) {
-    if (array.place == place && name == array.name && array.values.components == 1) {
-      const mvs::View<double> view(array.values);
-      return {view.begin(), view.end()};
-    }
-    known += std::string(known.empty() ? "" : ", ") + array.name;
-  }
-  fail(MVS_E_ARGUMENT, name,
-       "the surface has no array \"" + name + "\" with one value for each " +
-           (place == MVS_SURFACE_PLACE_POINT ? "point" : "triangle") +
-           (known.empty() ? "; it has no arrays" : "; it has: " + known));
-}
-
-std::vector<uint32_t> labels_of(const mvs::SurfaceFile &file, const std::string &name) {
-  std::vector<uint32_t> labels;
-  for (const double value : array_values(file, name, MVS_SURFACE_PLACE_TRIANGLE)) {
-    if (value != 0 && value != 1 && value != 2) {
-      fail(MVS_E_ARGUMENT, name,
-           text("the array \"%s\" has the value %g: 0 is unknown, 1 anterior, 2 posterior",
-                name.c_str(), value));
-    }
-    labels.push_back(static_cast<uint32_t>(value));
-  }
-  return labels;
-}
-
-// Input of a build, with the memory that the description points to.
-struct Input {
-  PatientFiles files;
-  std::vector<double> points, annulus, commissures, anterior, tips, thickness, closed;
-  std::vector<uint32_t> labels;
-};
-
-mvs_array array_of(const mvs_view &view) {
-  return {view.data, view.count, view.components, view.type, view.stride};
-}
-
-mvs_array points_of(const std::vector<double> &values) {
-  if (values.empty()) return {};
-  return {values.data(), values.size() / 3, 3, MVS_TYPE_F64, 0};
-}
-
-mvs_surface_desc desc_of(const Input &input, const ImportOptions &options,
-                         const std::string &name) {
-  mvs_surface_desc desc = {};
-  desc.kind = kind_number(options.kind);
-  desc.name = name.c_str();
-  desc.points = points_of(input.points);
-  desc.triangles = array_of(input.files.file(options.surface).info().triangles);
-  if (!input.labels.empty()) {
-    desc.triangle_leaflet = {input.labels.data(), input.labels.size(), 1, MVS_TYPE_U32, 0};
-  }
-  if (!input.thickness.empty()) {
-    desc.point_thickness = {input.thickness.data(), input.thickness.size(), 1, MVS_TYPE_F64, 0};
-  }
-  desc.annulus = points_of(input.annulus);
-  desc.commissures = points_of(input.commissures);
-  desc.anterior = points_of(input.anterior);
-  desc.papillary_tips = points_of(input.tips);
-  if (!options.closed.empty()) {
-    desc.closed_points = points_of(input.closed);
-    desc.closed_triangles = array_of(input.files.file(options.closed).info().triangles);
-  }
-  return desc;
-}
-
-Input read_input(const ImportOptions &options, ImportOptions &with_known) {
-  const KnownValues known = options.with.empty() ? KnownValues{} : read_findings(options.with);
-  Input input{PatientFiles(options.files, options.surface), {}, {}, {}, {}, {}, {}, {}, {}};
-  PatientFiles &files = input.files;
-  for (const std::string *path :
-       {&options.annulus, &options.commissures, &options.anterior, &options.tips}) {
-    files.add_landmarks(*path);
-  }
-  files.add_surface(options.closed);
-  files.settle_frames();
-  const auto landmarks = [&](const std::string &path, const std::vector<double> &else_known) {
-    return path.empty() ? else_known : files.points(path);
-  };
-  input.points = files.points(options.surface);
-  input.annulus = landmarks(options.annulus, known.annulus);
-  input.commissures = landmarks(options.commissures, known.commissures);
-  input.anterior = landmarks(options.anterior, known.anterior);
-  input.tips = landmarks(options.tips, known.papillary_tips);
-  input.closed = files.points(options.closed);
-  const mvs::SurfaceFile &surface = files.file(options.surface);
-  if (!options.label_array.empty()) input.labels = labels_of(surface, options.label_array);
-  if (!options.thickness_array.empty()) {
-    const double metre = metres(surface.info().unit);
-    input.thickness = array_values(surface, options.thickness_array, MVS_SURFACE_PLACE_POINT);
-    for (double &value : input.thickness) value *= metre;
-  }
-  if (options.thickness == 0 && !known.thickness.empty()) {
-    with_known.build.thickness = known.thickness[0];
-  }
-  if (options.edge_error == 0 && !known.edge_error.empty()) {
-    with_known.build.edge_error = known.edge_error[0];
-  }
-  if (options.edge_lost == 0 && !known.edge_lost.empty()) {
-    with_known.build.edge_lost = known.edge_lost[0];
-  }
-  if (options.thickness_error == 0 && !known.thickness_error.empty()) {
-    with_known.build.thickness_error = known.thickness_error[0];
-  }
-  if (options.leaflet.empty() && !known.tissue.empty()) {
-    with_known.build.leaflet_law = law_of_finding(known.tissue[0], options.with);
-  }
-  return input;
-}
 
 std::string findings_path(const ImportOptions &options) {
   if (!options.findings_out.empty()) return options.findings_out;
@@ -184,7 +54,7 @@ void run_import(const ImportOptions &given, Console &console) {
   options.build.edge_lost = options.edge_lost * 1e-3;
   options.build.thickness_error = options.thickness_error * 1e-3;
   options.build.leaflet_law = law_of(options.leaflet);
-  const Input input = read_input(given, options);
+  const ImportInput input = read_input(given, options);
   warn_of_whole_valve(options.surface);
   const std::string name = std::filesystem::path(options.surface).stem().string();
   Progress progress(console);

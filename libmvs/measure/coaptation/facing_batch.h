@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/simd.h"
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 
 namespace mvs::core {
 

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <vector>
 
+#include "geometry/aabb.h"
 #include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "measure/tissue/sheet_topology.h"
 #include "measure/tissue/surface.h"
 #include "model/model.h"

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 
 namespace mvs::core {
 

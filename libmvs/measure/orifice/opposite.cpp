@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "geometry/bvh.h"
 #include "geometry/simd_points.h"
 
 namespace mvs::core::orifice {

@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 
 namespace mvs::core::orifice {
 

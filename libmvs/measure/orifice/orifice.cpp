@@ -2,7 +2,7 @@
 // samples, and shrinks it to a surface of least area. METHOD.md has definition, method and errors.
 #include "measure/orifice/orifice.h"
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "measure/annulus/frame.h"
 #include "measure/orifice/samples.h"
 #include "measure/orifice/seal.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "measure/orifice/samples.h"
 
 namespace mvs::core::orifice {

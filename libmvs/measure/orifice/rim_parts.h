@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/triangle_bvh.h"
 #include "measure/orifice/opposite.h"
 
 namespace mvs::core::orifice {

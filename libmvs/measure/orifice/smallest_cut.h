@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "measure/orifice/samples.h"
 
 namespace mvs::core::orifice {

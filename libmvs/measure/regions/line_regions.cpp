@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 
 namespace mvs::core {
 namespace {

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "measure/annulus/landmarks.h"
 
 namespace mvs::core {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "measure/regions/region_map.h"
 
 namespace mvs::core {

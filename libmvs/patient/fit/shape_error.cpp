@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "measure/orifice/orifice.h"
 #include "measure/regions/orifice_parts.h"
 #include "model/sides.h"

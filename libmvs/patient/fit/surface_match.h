@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/types.h"
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "model/model.h"
 
 namespace mvs::core {

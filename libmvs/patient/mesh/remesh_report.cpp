@@ -5,6 +5,7 @@
 
 #include "base/math.h"
 #include "geometry/intersect.h"
+#include "geometry/triangle_bvh.h"
 #include "patient/mesh/sheet_edit.h"
 
 namespace mvs::core {

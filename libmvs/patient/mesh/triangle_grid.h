@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 
 namespace mvs::core {
 

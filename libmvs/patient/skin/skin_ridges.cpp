@@ -3,7 +3,7 @@
 
 #include <numeric>
 
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "model/sides.h"
 #include "patient/surface/clusters.h"
 
@@ -13,7 +13,7 @@ namespace {
 constexpr double sharp = 0.5;        // cosine of 60 degrees
 constexpr double least_length = 10;  // over the thickness
 // Length of all chains over the extent of the valve: four chains of 2 to 3 extents each.
-constexpr double least_share = 4;
+constexpr double least_extents = 4;
 // Share of their vertices that have two of their edges: steps of voxels branch.
 constexpr double least_inside = 0.7;
 
@@ -61,7 +61,7 @@ SkinRidges skin_ridges(const LeafletSheet &skin, double thickness) {
   }
   Aabb box;
   for (const Vec3 &p : skin.x) box.add(p);
-  ridges.at_rims = all > least_share * box.longest_side() &&
+  ridges.at_rims = all > least_extents * box.longest_side() &&
                    static_cast<double>(inside) > least_inside * static_cast<double>(on_chains);
   return ridges;
 }

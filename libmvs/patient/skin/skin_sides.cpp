@@ -6,7 +6,8 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
+#include "geometry/triangle_bvh.h"
 #include "model/sides.h"
 #include "patient/surface/manifold.h"
 

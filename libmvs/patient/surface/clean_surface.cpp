@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "geometry/bvh.h"
+#include "geometry/aabb.h"
 #include "model/sides.h"
 #include "patient/findings.h"
 #include "patient/surface/manifold.h"

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "model/sides.h"
 #include "patient/mesh/surface_walk.h"
 #include "patient/surface/annulus_through.h"

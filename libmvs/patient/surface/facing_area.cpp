@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "geometry/bvh.h"
+#include "geometry/triangle_bvh.h"
 #include "model/sides.h"
 
 namespace mvs::core {

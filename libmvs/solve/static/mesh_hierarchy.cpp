@@ -10,8 +10,8 @@
 #include "base/error.h"
 #include "geometry/intersect.h"
 #include "model/law.h"
+#include "solve/hierarchy_settings.h"
 #include "solve/nodes.h"
-#include "solve/settings.h"
 #include "solve/static/newton.h"
 #include "solve/static/untangle.h"
 
@@ -49,7 +49,7 @@ Progress part_of(const Progress &whole, double from, double to) {
 }
 
 // Prot's law is left out: it closed in half the time, but four of five valves to shapes of higher
-// energy (settings.h).
+// energy (hierarchy_settings.h).
 bool has_surrogate(const Leaflet &leaflet) {
   return leaflet.law == LeafletLawId::fung || leaflet.law == LeafletLawId::may_newman_yin;
 }

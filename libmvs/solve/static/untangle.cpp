@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "geometry/intersect.h"
-#include "solve/settings.h"
+#include "solve/hierarchy_settings.h"
 
 namespace mvs::core {
 namespace {

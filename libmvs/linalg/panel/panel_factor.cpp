@@ -1,107 +1,15 @@
-// Register-tiled kernels: one tile of C in registers, cache-blocked loops over tiles.
-#include "linalg/panel.h"
-
+// Factorisation of a panel, by blocks of columns: products with the columns on the left by tiles in
+// registers, then a few columns at a time on their own.
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "base/simd.h"
+#include "linalg/panel/panel.h"
+#include "linalg/panel/panel_tile.h"
 
 namespace mvs::core {
 namespace {
-
-constexpr size_t tile_columns = 6;
-// A slab of this size is 96 kB, which fits the second-level cache.
-constexpr size_t slab_depth = 128, slab_rows = 96;
-
-// A tile is `vectors` registers high.
-template <typename V, size_t vectors_in>
-struct Tall : V {
-  static constexpr size_t vectors = vectors_in, height = V::width * vectors;
-};
-
-// A tile of some columns: C -= A B^T, of B the rows that the columns of C have.
-template <typename V, size_t columns, bool from_zero = false, typename T = typename V::Number>
-MVS_INLINE void subtract_tile(T *c, size_t c_stride, const T *a, const T *b, size_t a_stride,
-                              size_t depth) {
-  constexpr size_t width = V::width, vectors = V::vectors;
-  typename V::Value sum[vectors][columns], of_a[vectors];
-  for (size_t j = 0; j < columns; ++j) {
-    for (size_t v = 0; v < vectors; ++v) {
-      if constexpr (from_zero) {
-        sum[v][j] = typename V::Value{};
-      } else {
-        load<V>(sum[v][j], c + j * c_stride + v * width);
-      }
-    }
-  }
-  for (size_t k = 0; k < depth; ++k, a += a_stride, b += a_stride) {
-    for (size_t v = 0; v < vectors; ++v) load<V>(of_a[v], a + v * width);
-    for (size_t j = 0; j < columns; ++j) {
-      for (size_t v = 0; v < vectors; ++v) sum[v][j] -= of_a[v] * b[j];
-    }
-  }
-  for (size_t j = 0; j < columns; ++j) {
-    for (size_t v = 0; v < vectors; ++v) store<V>(c + j * c_stride + v * width, sum[v][j]);
-  }
-}
-
-// Some columns of C from row i on, gathered by blocks.
-template <size_t columns, typename T>
-struct Tile {
-  T value[columns * slab_rows];
-
-  // Calls visit(block of C, block here) for each of `rows` rows.
-  template <typename Visit>
-  MVS_INLINE void for_each(const PanelUpdate<T> &u, size_t i, size_t j, size_t rows,
-                           const Visit &visit) {
-    for (size_t q = 0; q < columns; ++q) {
-      T *column = u.c + (3 * u.row[(j + q) / 3] + q % 3) * u.c_stride;
-      for (size_t p = 0; p < rows; p += 3) {
-        visit(column + 3 * u.row[(i + p) / 3], value + q * slab_rows + p);
-      }
-    }
-  }
-};
-
-// Columns of C from j on.
-template <typename V, size_t columns, typename T = typename V::Number>
-MVS_INLINE void update_columns(const PanelUpdate<T> &u, size_t j) {
-  Tile<columns, T> tile;
-  constexpr bool exact = std::is_same_v<T, double>;
-  for (size_t i = j; i < u.m; i += slab_rows) {
-    const size_t rows = std::min(slab_rows, u.m - i);
-    if (exact) {
-      tile.for_each(u, i, j, rows, [](const T *c, T *here) {
-        here[0] = c[0];
-        here[1] = c[1];
-        here[2] = c[2];
-      });
-    }
-    for (size_t p = 0; p < rows; p += V::height) {
-      subtract_tile<V, columns, !exact>(tile.value + p, slab_rows, u.a + i + p, u.a + j, u.a_stride,
-                                        u.depth);
-    }
-    tile.for_each(u, i, j, rows, [](T *c, const T *here) {
-      c[0] = exact ? here[0] : c[0] + here[0];
-      c[1] = exact ? here[1] : c[1] + here[1];
-      c[2] = exact ? here[2] : c[2] + here[2];
-    });
-  }
-}
-
-// One slab of the depth at a time, so that A stays in the cache while its columns pass.
-template <typename V, typename T = typename V::Number>
-MVS_INLINE void update_tiles(const PanelUpdate<T> &u) {
-  for (size_t k = 0; k < u.depth; k += slab_depth) {
-    PanelUpdate<T> slab = u;
-    slab.a += k * u.a_stride;
-    slab.depth = std::min(slab_depth, u.depth - k);
-    size_t j = 0;
-    for (; j + tile_columns <= u.n; j += tile_columns) update_columns<V, tile_columns>(slab, j);
-    if (j < u.n) update_columns<V, 3>(slab, j);
-  }
-}
 
 // Rows of a panel, from one multiple of panel_rows to another.
 struct Rows {
@@ -261,20 +169,7 @@ MVS_INLINE void factorise_below(T *panel, size_t width, size_t height, size_t bl
   }
 }
 
-// A tile of floats has as many rows as one of doubles: panels of small valves are not high.
-template <typename V>
-using WideTile = Tall<V, sizeof(typename V::Number) == 4 ? 1 : 2>;
-
 }  // namespace
-
-template <typename T>
-void update_panel(const PanelUpdate<T> &u) {
-  using R = Registers<T>;
-  static const auto kernel = simd_kernel<&update_tiles<Tall<typename R::Baseline, 2>>,
-                                         &update_tiles<WideTile<typename R::Avx2>>,
-                                         &update_tiles<WideTile<typename R::Avx512>>>();
-  kernel(u);
-}
 
 template <typename T>
 bool factorise_panel(T *panel, size_t width, size_t height) {
@@ -311,8 +206,6 @@ void finish_panel(T *panel, size_t width, size_t height) {
 
 template void finish_panel(double *, size_t, size_t);
 template void finish_panel(float *, size_t, size_t);
-template void update_panel(const PanelUpdate<double> &);
-template void update_panel(const PanelUpdate<float> &);
 template bool factorise_panel(double *, size_t, size_t);
 template bool factorise_panel(float *, size_t, size_t);
 template bool factorise_square(double *, size_t, size_t, size_t);

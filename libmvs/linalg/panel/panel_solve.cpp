@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "base/simd.h"
-#include "linalg/panel.h"
-#include "linalg/panel_block.h"
+#include "linalg/panel/panel.h"
+#include "linalg/panel/panel_block.h"
 
 namespace mvs::core {
 namespace {

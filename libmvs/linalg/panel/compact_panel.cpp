@@ -1,6 +1,6 @@
 // Kernels on tiles: integers become floats in registers, and scales multiply the numbers of a
 // solution, of which there are few.
-#include "linalg/compact_panel.h"
+#include "linalg/panel/compact_panel.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "base/bit_cast.h"
 #include "base/simd.h"
-#include "linalg/panel_block.h"
+#include "linalg/panel/panel_block.h"
 
 namespace mvs::core {
 namespace {

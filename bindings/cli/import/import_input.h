@@ -1,0 +1,36 @@
+// Input of `mvs import`: surface, landmarks and known values from files, as the description of a
+// build.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "import/landmarks.h"
+
+namespace cli {
+
+struct ImportOptions {
+  std::string surface, out, findings_out, with;
+  std::string annulus, commissures, anterior, tips, closed;
+  std::string kind, leaflet, label_array, thickness_array;
+  FileOptions files;
+  double edge = 0, thickness = 0, coaptation_length = 0;      // mm
+  double edge_error = 0, edge_lost = 0, thickness_error = 0;  // mm
+  mvs_build_options build = {};
+};
+
+// Input of a build, with the memory that the description points to.
+struct ImportInput {
+  PatientFiles files;
+  std::vector<double> points, annulus, commissures, anterior, tips, thickness, closed;
+  std::vector<uint32_t> labels;
+};
+
+// Reads the files. Known values of --with go to `with_known`, where no option gives them.
+ImportInput read_input(const ImportOptions &options, ImportOptions &with_known);
+
+// Points to the memory of the input and of the name.
+mvs_surface_desc desc_of(const ImportInput &input, const ImportOptions &options,
+                         const std::string &name);
+
+}  // namespace cli
