@@ -52,10 +52,8 @@ static void take_events(void) {
 }
 
 static void set_mode(uint32_t wanted, mvs_id chord) {
-  mvs_device_hand tool = {0};
-  tool.struct_size = sizeof tool;
-  tool.mode = mode = wanted;
-  tool.chord = chord;
+  mvs_device_hand tool = {.struct_size = sizeof tool, .mode = wanted, .chord = chord};
+  mode = wanted;
   if (mode == MVS_HAND_MODE_CONVEX) log_line(now.time, "takes the %s", instrument_give(&tool));
   must(mvs_device_set_hand(device, &tool));
   log_line(now.time, "the hand %s", mode_name(mode));
@@ -215,17 +213,15 @@ static void open_window(void) {
 }
 
 static void open_device(void) {
-  mvs_device_desc desc = {0};
-  mvs_device_info info = {0};
-  desc.struct_size = sizeof desc;
-  desc.clock = option.headless ? MVS_CLOCK_VIRTUAL : MVS_CLOCK_REAL;
-  desc.driver = option.driver;
-  desc.device = option.device;
-  desc.options = option.driver_options;
-  desc.log = log_driver;
+  mvs_device_desc desc = {.struct_size = sizeof desc,
+                          .clock = option.headless ? MVS_CLOCK_VIRTUAL : MVS_CLOCK_REAL,
+                          .driver = option.driver,
+                          .device = option.device,
+                          .options = option.driver_options,
+                          .log = log_driver};
+  mvs_device_info info = {.struct_size = sizeof info};
   must(mvs_device_open(&desc, &device));
   mouse_opened();
-  info.struct_size = sizeof info;
   must(mvs_device_get_info(device, &info));
   motors = info.freedoms_out > 0;
   log_device(&info);
@@ -250,10 +246,8 @@ static int is_over(void) {
 }
 
 static void turn_once(void) {
-  mvs_step_options step = {0};
+  const mvs_step_options step = {.struct_size = sizeof step, .dt = option.dt};
   int key;
-  step.struct_size = sizeof step;
-  step.dt = option.dt;
   if (option.headless) must(mvs_device_advance(device, option.dt));
   must(mvs_device_sync(device, sim, &hand));
   must(mvs_device_get_state(device, &now));

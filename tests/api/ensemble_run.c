@@ -1,48 +1,8 @@
-/* mvs_ensemble_run closes a valve along several paths: reproducibility, statistics, refusals. */
+/* mvs_ensemble_run closes a valve along several paths: reproducibility, statistics. */
 #include <math.h>
 
 #include "check.h"
-
-enum { PATHS = 4 }; /* the last one in time, with inertia */
-
-static const mvs_load_case systole = {sizeof(mvs_load_case), 0, MVS_SYSTOLE_PA, 1};
-
-/* The default valve, coarse, and half as thick so that it can fold in several ways. */
-static mvs_sim *thin_valve(void) {
-  mvs_sim *sim = NULL;
-  mvs_parametric_desc desc = {.struct_size = sizeof desc,
-                              .vertices = 250,
-                              .thickness = 0.5e-3,
-                              .shape = MVS_SHAPE_FOUNDING};
-  MUST(mvs_create(NULL, &sim));
-  MUST(mvs_generate_valve(sim, &desc));
-  return sim;
-}
-
-static const mvs_snapshot *snapshot_of(mvs_sim *sim) {
-  const mvs_snapshot *snapshot = NULL;
-  MUST(mvs_get_snapshot(sim, &snapshot));
-  return snapshot;
-}
-
-static mvs_ensemble_options options_of(uint32_t paths, uint64_t seed) {
-  mvs_ensemble_options options = {.struct_size = sizeof options, .members = paths, .seed = seed};
-  return options;
-}
-
-static mvs_ensemble *run(const mvs_snapshot *start, mvs_ensemble_options options) {
-  mvs_ensemble *ensemble = NULL;
-  MUST(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble));
-  return ensemble;
-}
-
-static hash128 path_hash(const mvs_ensemble *ensemble, uint32_t path) {
-  const mvs_snapshot *snapshot = NULL;
-  MUST(mvs_ensemble_get_member_snapshot(ensemble, path, &snapshot));
-  hash128 hash = snapshot_hash(snapshot);
-  mvs_snapshot_release(snapshot);
-  return hash;
-}
+#include "paths.h"
 
 static void path_0_is_the_plain_closure(const mvs_ensemble *ensemble, mvs_sim *sim) {
   mvs_stats plain = {.struct_size = sizeof plain}, told = plain;
@@ -174,52 +134,6 @@ static void nodes_spread_as_the_pairs_do(const mvs_snapshot *start, const mvs_en
   CHECK(fabs(squares / sheet - between / 2) <= 1e-9 * between);
 }
 
-typedef struct host {
-  int calls, stop_at, share_fell;
-  double share;
-} host;
-
-static int32_t take_progress(void *user, double share, double residual) {
-  host *h = user;
-  ++h->calls;
-  h->share_fell |= share < h->share || share > 1 || !(residual >= 0);
-  h->share = share;
-  return h->stop_at && h->calls >= h->stop_at;
-}
-
-static void it_is_told_how_far_it_is_and_can_be_stopped(const mvs_snapshot *start) {
-  host h = {0};
-  mvs_ensemble_options options = options_of(2, 0);
-  options.progress = take_progress;
-  options.user = &h;
-  mvs_ensemble *ensemble = run(start, options), *kept = NULL;
-  CHECK(h.calls > 10 && !h.share_fell && h.share > 0.5);
-  mvs_ensemble_release(ensemble);
-  /* in the second path: the last call but one */
-  h = (host){.stop_at = h.calls - 1};
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &kept), MVS_E_CANCELLED, "cancelled");
-  CHECK(kept == NULL);
-}
-
-static void paths_not_at_rest_are_not_mixed_in(const mvs_snapshot *start) {
-  mvs_settle_options one = {.struct_size = sizeof one, .max_iterations = 1};
-  mvs_ensemble_options options = options_of(2, 0);
-  mvs_ensemble *ensemble = NULL;
-  MUST(mvs_ensemble_run(start, &systole, &one, &options, &ensemble));
-  mvs_ensemble_summary all = {.struct_size = sizeof all};
-  mvs_ensemble_member path = {.struct_size = sizeof path};
-  mvs_measures mean = {.struct_size = sizeof mean}, count = mean;
-  MUST(mvs_ensemble_get_summary(ensemble, &all));
-  MUST(mvs_ensemble_get_member(ensemble, 1, &path));
-  MUST(mvs_ensemble_measure(ensemble, MVS_ENSEMBLE_STATISTIC_MEAN, &mean));
-  MUST(mvs_ensemble_measure(ensemble, MVS_ENSEMBLE_STATISTIC_COUNT, &count));
-  CHECK(all.converged == 0 && all.equilibria == 0 && all.lowest == UINT32_MAX);
-  CHECK(all.node_rms == 0 && path.converged == 0 && path.equilibrium == UINT32_MAX);
-  CHECK(path.node_rms > 0); /* the path itself still reports it */
-  CHECK(isnan(mean.annulus_ap) && count.annulus_ap == 0);
-  mvs_ensemble_release(ensemble);
-}
-
 /* From a closed valve: from its present state, the same fold is found; from rest, the plain
  * closure. */
 static void a_closed_valve_is_opened_again(mvs_sim *sim) {
@@ -249,57 +163,6 @@ static void a_closed_valve_is_opened_again(mvs_sim *sim) {
   mvs_ensemble_release(from_start);
 }
 
-static void bad_options_are_refused(const mvs_snapshot *start) {
-  mvs_ensemble *ensemble = NULL;
-  mvs_ensemble_options options = options_of(1001, 0);
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
-            "1 to 1000");
-  options = options_of(2, 0);
-  options.perturbation = 1;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT, "0.005");
-  options.perturbation = NAN;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT, "0.005");
-  options = options_of(2, 0);
-  options.wavelength = 1e-6;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
-            "wavelength");
-  options = options_of(2, 0);
-  options.tolerance = -1;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
-            "tolerance");
-  options = options_of(2, 0);
-  options.start = 3;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
-            "ENSEMBLE_START");
-  options = options_of(2, 0);
-  options.backend = 9;
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, &options, &ensemble), MVS_E_ARGUMENT,
-            "BACKEND");
-  mvs_load_case load = systole;
-  load.pressure = 1e9;
-  MUST_FAIL(mvs_ensemble_run(start, &load, NULL, NULL, &ensemble), MVS_E_ARGUMENT, "pressure");
-  MUST_FAIL(mvs_ensemble_run(NULL, &systole, NULL, NULL, &ensemble), MVS_E_ARGUMENT, "start");
-  MUST_FAIL(mvs_ensemble_run(start, NULL, NULL, NULL, &ensemble), MVS_E_ARGUMENT, "load");
-  MUST_FAIL(mvs_ensemble_run(start, &systole, NULL, NULL, NULL), MVS_E_ARGUMENT, "ensemble");
-  CHECK(ensemble == NULL);
-}
-
-static void bad_questions_are_refused(const mvs_ensemble *ensemble) {
-  mvs_ensemble_member path = {.struct_size = sizeof path};
-  mvs_measures measures = {.struct_size = sizeof measures};
-  mvs_stats stats = {.struct_size = sizeof stats};
-  const mvs_snapshot *snapshot = NULL;
-  mvs_view view;
-  MUST_FAIL(mvs_ensemble_get_member(ensemble, PATHS, &path), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_ensemble_get_member_stats(ensemble, PATHS, &stats), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_ensemble_get_member_snapshot(ensemble, PATHS, &snapshot), MVS_E_ARGUMENT, "0 to 3");
-  MUST_FAIL(mvs_ensemble_measure(ensemble, 0, &measures), MVS_E_ARGUMENT, "statistic");
-  MUST_FAIL(mvs_ensemble_measure(ensemble, 6, &measures), MVS_E_ARGUMENT, "statistic");
-  MUST_FAIL(mvs_ensemble_get_array(ensemble, 3, &view), MVS_E_ARGUMENT, "which");
-  MUST_FAIL(mvs_ensemble_get_summary(NULL, NULL), MVS_E_ARGUMENT, "ensemble");
-  mvs_ensemble_release(NULL);
-}
-
 int main(void) {
   mvs_sim *sim = thin_valve();
   const mvs_snapshot *start = snapshot_of(sim);
@@ -311,11 +174,7 @@ int main(void) {
   paths_are_told(ensemble, PATHS);
   statistics_are_those_of_the_paths(ensemble, PATHS);
   nodes_spread_as_the_pairs_do(start, ensemble);
-  it_is_told_how_far_it_is_and_can_be_stopped(start);
-  paths_not_at_rest_are_not_mixed_in(start);
   a_closed_valve_is_opened_again(sim);
-  bad_options_are_refused(start);
-  bad_questions_are_refused(ensemble);
   mvs_ensemble_release(ensemble);
   mvs_snapshot_release(start);
   mvs_destroy(sim);

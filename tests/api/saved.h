@@ -12,10 +12,10 @@ static inline const mvs_snapshot *present(mvs_sim *of) {
   return snapshot;
 }
 
-static inline mvs_sim *saved_and_loaded(mvs_sim *sim, uint32_t format) {
+static inline mvs_sim *saved_and_loaded(mvs_sim *of, uint32_t format) {
   uint64_t size = 0;
   mvs_sim *other = NULL;
-  const mvs_snapshot *snapshot = present(sim);
+  const mvs_snapshot *snapshot = present(of);
   MUST(mvs_save_memory(snapshot, format, NULL, 0, &size));
   char *bytes = malloc(size);
   if (!bytes) exit(2);

@@ -14,6 +14,9 @@
 
 namespace mvs::core {
 
+// Relative: one rounding of a product with a power of ten, or of a sum of few numbers.
+inline constexpr double rounding = 1e-15;
+
 inline std::string toy_inp() {
   std::stringstream text;
   text << std::ifstream(MVS_SOURCE_DIR "/tests/formats/data/three_leaflets.inp").rdbuf();

@@ -4,6 +4,7 @@
 #include <mvs/valve.h>
 
 #include <doctest/doctest.h>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
@@ -15,6 +16,7 @@
 #include "base/error.h"
 #include "formats/formats.h"
 #include "model/chord_law.h"
+#include "model/model.h"
 #include "tests/model/small_valve.h"
 
 namespace mvs::core {
@@ -24,6 +26,12 @@ struct Pair {
   Model model;
   State state;
 };
+
+using Hash128 = std::array<uint64_t, 2>;
+
+inline Hash128 hash_of(const ModelState &current) {
+  return hash_of(*current.model, current.state);
+}
 
 // The example of FORMAT.md: nine nodes.
 inline std::string example_text() {

@@ -14,12 +14,6 @@ using namespace mvs::core;
 
 namespace {
 
-using Hash128 = std::array<uint64_t, 2>;
-
-Hash128 hash_of(const ModelState &current) {
-  return mvs::core::hash_of(*current.model, current.state);
-}
-
 template <typename Struct>
 Snapshot with_op(const Snapshot &now, Struct op, uint32_t kind, const Group &group = {}) {
   op.op = {sizeof op, kind};
@@ -195,7 +189,7 @@ TEST_CASE("the_golden_session_is_what_the_writer_makes") {
   const std::string bytes = read_whole_file(data + "session.h5");
   const Snapshot now = read_session(bytes);
   const Pair pair = complete(read_obj(read_whole_file(data + "session_present.obj")));
-  CHECK(hash_of(now.current) == mvs::core::hash_of(pair.model, pair.state));
+  CHECK(hash_of(now.current) == hash_of(pair.model, pair.state));
   CHECK(hash_of(now.current) == hash_of(present));
   CHECK(hashes(now.history.past) == hashes(made.history.past));
   CHECK(hashes(now.history.future) == hashes(made.history.future));

@@ -7,84 +7,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <string>
+#include <vector>
+
+#include "tests/golden/operations.h"
+#include "tests/golden/sim.h"
 
 namespace golden {
 namespace {
-
-template <typename Struct>
-Struct sized() {
-  Struct made;
-  std::memset(&made, 0, sizeof made);
-  made.struct_size = sizeof made;
-  return made;
-}
-
-uint32_t worker_threads = 0;
-
-// A simulator with a parametric valve.
-class Sim {
- public:
-  explicit Sim(uint32_t vertices, uint32_t law = MVS_LEAFLET_LAW_SPRING, uint32_t branching = 0) {
-    auto how = sized<mvs_sim_desc>();
-    how.workers = worker_threads;
-    check(mvs_create(&how, &sim_));
-    auto desc = sized<mvs_parametric_desc>();
-    desc.shape = MVS_SHAPE_FOUNDING;
-    desc.vertices = vertices;
-    desc.branching = branching;
-    check(mvs_generate_valve(sim_, &desc));
-    mvs_leaflet_desc tissue = {};
-    tissue.law = law;
-    if (law != MVS_LEAFLET_LAW_SPRING) check(mvs_set_leaflet(sim_, 0, &tissue));
-  }
-  Sim(const Sim &) = delete;
-  Sim &operator=(const Sim &) = delete;
-  ~Sim() { mvs_destroy(sim_); }
-
-  operator mvs_sim *() const { return sim_; }
-
-  void load(double pressure = MVS_SYSTOLE_PA) {
-    const mvs_load_case load = {sizeof load, 0, pressure, 1};
-    check(mvs_set_load(sim_, &load));
-  }
-  void settle(uint32_t solver = MVS_SOLVER_NEWTON, uint32_t iterations = 0) {
-    auto options = sized<mvs_settle_options>();
-    options.solver = solver;
-    options.max_iterations = iterations;
-    check(mvs_settle(sim_, &options, nullptr));
-  }
-  void step(int count, uint32_t solver = MVS_SOLVER_IMPLICIT) {
-    auto options = sized<mvs_step_options>();
-    options.solver = solver;
-    for (int k = 0; k < count; ++k) check(mvs_step(sim_, &options));
-  }
-  void record(const Record &record, const std::string &scene) const {
-    const mvs_snapshot *snapshot = nullptr;
-    check(mvs_get_snapshot(sim_, &snapshot));
-    record(scene, snapshot);
-    mvs_snapshot_release(snapshot);
-  }
-  mvs_part part(uint32_t kind, const char *name) const {
-    const mvs_snapshot *snapshot = nullptr;
-    mvs_part part;
-    check(mvs_get_snapshot(sim_, &snapshot));
-    check(mvs_snapshot_find_part(snapshot, kind, name, &part));
-    mvs_snapshot_release(snapshot);
-    return part;
-  }
-  mvs_id id(uint32_t kind, const char *name) const { return part(kind, name).id; }
-  void node_position(uint32_t node, double *p) const {
-    const mvs_snapshot *snapshot = nullptr;
-    mvs_view view;
-    check(mvs_get_snapshot(sim_, &snapshot));
-    check(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &view));
-    std::memcpy(p, static_cast<const double *>(view.data) + 3 * size_t{node}, 3 * sizeof *p);
-    mvs_snapshot_release(snapshot);
-  }
-
- private:
-  mvs_sim *sim_ = nullptr;
-};
 
 constexpr uint32_t small = 425, medium = 1700;
 
@@ -168,98 +98,6 @@ void tool_trajectories(const Record &record) {
   sim.load();
   sim.step(200);  // a sudden load, no hand
   sim.record(record, "200 steps load at once");
-}
-
-mvs_site site_in(const Sim &sim, const char *scallop, double along, double down) {
-  mvs_site site = {};
-  site.how = MVS_SITE_ANATOMICAL;
-  site.scallop = sim.id(MVS_PART_SCALLOP, scallop);
-  site.u[0] = along;
-  site.u[1] = down;
-  return site;
-}
-
-template <typename Op>
-Op op_of(uint32_t kind) {
-  Op op;
-  std::memset(&op, 0, sizeof op);
-  op.op = {sizeof op, kind};
-  return op;
-}
-
-// One operation on the closed valve: the bits before and after settling.
-struct OpCase {
-  const char *name;
-  std::function<void(const Sim &)> apply;
-};
-
-template <typename Op, typename Fill>
-OpCase op_case(const char *name, uint32_t kind, Fill fill) {
-  return {name, [=](const Sim &sim) {
-            auto op = op_of<Op>(kind);
-            fill(sim, op);
-            check(mvs_apply_op(sim, &op.op, nullptr));
-          }};
-}
-
-std::vector<OpCase> op_cases() {
-  const auto chord = [](const Sim &sim, const char *name) { return sim.id(MVS_PART_CHORD, name); };
-  const auto head = [](const Sim &sim, const char *name) { return sim.id(MVS_PART_HEAD, name); };
-  return {
-      op_case<mvs_op_chord_length>("chord_length", MVS_OP_CHORD_LENGTH,
-                                   [=](const Sim &sim, auto &op) {
-                                     op.chord = chord(sim, "A2/7");
-                                     op.factor = 0.75;
-                                   }),
-      op_case<mvs_op_chord_remove>(
-          "chord_remove", MVS_OP_CHORD_REMOVE,
-          [=](const Sim &sim, auto &op) { op.chord = chord(sim, "P2/2"); }),
-      op_case<mvs_op_chord_add>("chord_add", MVS_OP_CHORD_ADD,
-                                [=](const Sim &sim, auto &op) {
-                                  op.head = head(sim, "AL1");
-                                  op.site = site_in(sim, "A2", 0.62, 0.85);
-                                }),
-      op_case<mvs_op_chord_transfer>("chord_transfer leaflet", MVS_OP_CHORD_TRANSFER,
-                                     [=](const Sim &sim, auto &op) {
-                                       op.chord = chord(sim, "P2/6");
-                                       op.site = site_in(sim, "A2", 0.4, 0.8);
-                                     }),
-      op_case<mvs_op_chord_transfer>("chord_transfer head", MVS_OP_CHORD_TRANSFER,
-                                     [=](const Sim &sim, auto &op) {
-                                       op.chord = chord(sim, "A2/2");
-                                       op.end = MVS_CHORD_END_HEAD;
-                                       op.head = head(sim, "PM2");
-                                     }),
-      op_case<mvs_op_annulus_scale>("annulus_scale", MVS_OP_ANNULUS_SCALE,
-                                    [](const Sim &, auto &op) {
-                                      op.factor = 1.1;
-                                      op.ap = 1.05;
-                                    }),
-      op_case<mvs_op_ring>("ring", MVS_OP_RING, [](const Sim &, auto &op) { op.size = 0.032; }),
-      op_case<mvs_op_band>("band", MVS_OP_BAND, [](const Sim &, auto &op) { op.factor = 0.9; }),
-      op_case<mvs_op_neochord>("neochord", MVS_OP_NEOCHORD,
-                               [=](const Sim &sim, auto &op) {
-                                 op.head = head(sim, "PM1");
-                                 op.site = site_in(sim, "P2", 0.5, 1);
-                                 op.length = 14e-3;
-                               }),
-      op_case<mvs_op_head_move>("head_move", MVS_OP_HEAD_MOVE,
-                                [=](const Sim &sim, auto &op) {
-                                  op.head = head(sim, "PM1");
-                                  op.by[2] = -3e-3;
-                                  op.frame = 1;
-                                }),
-      op_case<mvs_op_clip>("clip", MVS_OP_CLIP, [](const Sim &, auto &) {}),
-      op_case<mvs_op_resect>("resect triangle", MVS_OP_RESECT, [](const Sim &, auto &) {}),
-      op_case<mvs_op_resect>("resect quadrangle", MVS_OP_RESECT,
-                             [](const Sim &, auto &op) {
-                               op.width = 8e-3;
-                               op.base_width = 5e-3;
-                             }),
-      op_case<mvs_op_patch>(
-          "patch", MVS_OP_PATCH,
-          [](const Sim &sim, auto &op) { op.site = site_in(sim, "A2", 0.5, 0.5); }),
-  };
 }
 
 void operate(const Record &record) {

@@ -12,42 +12,7 @@
 namespace mvs::core::test {
 namespace {
 
-constexpr double gap = 0.5e-3;  // below the contact thickness
-
-// An elliptic annulus whose leaflets slope down to a line of coaptation and there turn into two
-// walls. The line runs across, from -half_width to half_width; `wall` gives the wall's point at a
-// position along the line, a depth and a side (+1 anterior, -1 posterior).
-struct Closed {
-  double half_width = 14e-3, depth = 4e-3;
-  double anterior_wall = 6e-3, posterior_wall = 6e-3;  // depth of the walls
-  std::function<Vec3(double along, double down, double side)> wall = [](double along, double down,
-                                                                        double side) -> Vec3 {
-    return {0.5 * gap * side, along, -down};
-  };
-  // the annulus at an angle; seen from above, bellies must not overlap
-  std::function<Vec3(double angle, double side)> rim = [](double angle, double) -> Vec3 {
-    return {14e-3 * std::cos(angle), 18e-3 * std::sin(angle), 0};
-  };
-};
-
-Sheet sheet_of(const Closed &closed, size_t around = 96, size_t rings = 24) {
-  Sheet sheet;
-  sheet.around = around;
-  sheet.rings = rings;
-  sheet.at = [=](double angle, double s) -> Vec3 {
-    const double side = std::clamp(1e3 * std::cos(angle), -1.0, 1.0);
-    const double length =
-        0.5 * ((1 + side) * closed.anterior_wall + (1 - side) * closed.posterior_wall);
-    const double down = std::max(0.0, 2 * s - 1) * length;
-    const Vec3 wall =
-        closed.wall(closed.half_width * std::sin(angle), down, side) - Vec3(0, 0, closed.depth);
-    const double belly = std::min(1.0, 2 * s);
-    return (1 - belly) * closed.rim(angle, side) + belly * wall;
-  };
-  return sheet;
-}
-
-Coaptation coaptation_of(const Closed &closed) {
+Coaptation coaptation_of(const ClosedShape &closed) {
   const ModelPtr model = model_of(sheet_of(closed));
   return measure_coaptation(*model, model->valve.rest);
 }
@@ -55,7 +20,7 @@ Coaptation coaptation_of(const Closed &closed) {
 }  // namespace
 
 TEST_CASE("parallel_walls_coapt_over_their_overlap") {
-  Closed closed;
+  ClosedShape closed;
   closed.anterior_wall = 8e-3;
   closed.posterior_wall = 5e-3;
   const Coaptation coaptation = coaptation_of(closed);
@@ -82,7 +47,7 @@ TEST_CASE("facing_nodes_store_their_distance") {
     const bool on_wall = p[2] < -5e-3 && p[2] > -9.5e-3 && std::abs(p[1]) < 13e-3;
     if (on_wall) {
       ++facing;
-      CHECK(coaptation.distance[n] == about(gap, 1e-9));
+      CHECK(coaptation.distance[n] == about(walls_gap, 1e-9));
     } else if (p[2] > -3.5e-3) {
       CHECK(std::isinf(coaptation.distance[n]));
     }
@@ -107,7 +72,7 @@ TEST_CASE("share_is_one_on_the_walls_and_zero_on_the_bellies") {
 
 TEST_CASE("a_v_coapts_up_to_where_it_gapes") {
   const double half_angle = 3 * pi / 180, bottom_gap = 0.2e-3;
-  Closed closed;
+  ClosedShape closed;
   closed.wall = [=](double along, double down, double side) -> Vec3 {
     return {side * (0.5 * bottom_gap + (6e-3 - down) * std::tan(half_angle)), along, -down};
   };
@@ -122,13 +87,13 @@ TEST_CASE("a_v_coapts_up_to_where_it_gapes") {
 
 TEST_CASE("tilted_walls_are_measured_along_the_tissue") {
   const double tilt = 40 * pi / 180;
-  Closed closed;
+  ClosedShape closed;
   closed.wall = [=](double along, double down, double side) -> Vec3 {
-    return {0.5 * gap * side + down * std::tan(tilt), along, -down};
+    return {0.5 * walls_gap * side + down * std::tan(tilt), along, -down};
   };
   const Coaptation coaptation = coaptation_of(closed);
   // one wall is shifted along the other by the gap's share of the slant
-  const double overlap = 6e-3 / std::cos(tilt) - gap * std::sin(tilt);
+  const double overlap = 6e-3 / std::cos(tilt) - walls_gap * std::sin(tilt);
   CHECK(coaptation.length_mean == about(overlap, 0.03));
   CHECK(coaptation.length_min == about(overlap, 0.06));
 }
@@ -137,11 +102,11 @@ TEST_CASE("a_curved_line_is_followed") {
   for (const double degrees : {30.0, 60.0, 85.0}) {
     CAPTURE(degrees);
     const double radius = 9e-3, half_angle = degrees * pi / 180;
-    Closed closed;
+    ClosedShape closed;
     closed.half_width = radius * half_angle;
     // bulging towards the posterior leaflet, like a smile
     closed.wall = [=](double along, double down, double side) -> Vec3 {
-      const double r = radius - 0.5 * gap * side, angle = along / radius;
+      const double r = radius - 0.5 * walls_gap * side, angle = along / radius;
       return {4e-3 - r * std::cos(angle), r * std::sin(angle), -down};
     };
     closed.rim = [=](double angle, double side) -> Vec3 {
@@ -164,9 +129,9 @@ TEST_CASE("a_curved_line_is_followed") {
 }
 
 TEST_CASE("the_shortest_length_is_zero_where_the_line_has_a_gap") {
-  Closed closed;
+  ClosedShape closed;
   closed.wall = [](double along, double down, double side) -> Vec3 {
-    const double open = std::abs(along) < 3e-3 ? 4e-3 : gap;
+    const double open = std::abs(along) < 3e-3 ? 4e-3 : walls_gap;
     return {0.5 * open * side, along, -down};
   };
   const Coaptation coaptation = coaptation_of(closed);
@@ -218,7 +183,7 @@ TEST_CASE("a_cleft_coapts_with_itself_but_forms_no_line") {
 }
 
 TEST_CASE("three_leaflets_meet_along_their_lines") {
-  const Closed closed;
+  const ClosedShape closed;
   Valve valve = valve_of(sheet_of(closed));
   valve.leaflets.resize(3);
   valve.leaflets[2].name = "S";
@@ -264,7 +229,7 @@ namespace {
 
 // The closed sheet with its posterior leaflet cut in two along the plane between both commissures,
 // the anterior one last, as in a tricuspid valve.
-ModelPtr three_leaflets(const Closed &closed) {
+ModelPtr three_leaflets(const ClosedShape &closed) {
   Valve valve = valve_of(sheet_of(closed));
   valve.leaflets.resize(3);
   valve.leaflets[0].name = "Septal";
@@ -285,7 +250,7 @@ ModelPtr three_leaflets(const Closed &closed) {
 }  // namespace
 
 TEST_CASE("three_leaflets_coapt_where_two_do") {
-  const Closed closed;
+  const ClosedShape closed;
   const ModelPtr two = model_of(sheet_of(closed)), three = three_leaflets(closed);
   const Coaptation of_two = measure_coaptation(*two, two->valve.rest);
   const Coaptation of_three = measure_coaptation(*three, three->valve.rest);
@@ -300,7 +265,7 @@ TEST_CASE("three_leaflets_coapt_where_two_do") {
 }
 
 TEST_CASE("three_leaflets_have_the_frame_of_the_anterior_one") {
-  const Closed closed;
+  const ClosedShape closed;
   const ModelPtr two = model_of(sheet_of(closed)), three = three_leaflets(closed);
   const Frame of_two = valve_frame(*two, two->valve.rest);
   const Frame of_three = valve_frame(*three, three->valve.rest);

@@ -102,21 +102,6 @@ std::set<std::string> parts_of(const std::string &names) {
   return found;
 }
 
-// Leaflets that overlap, with a gap of two lenses side by side; closed in the middle.
-Sheet two_gaps(double left, double right) {
-  Sheet sheet;
-  sheet.around = 96;
-  sheet.rings = 24;
-  sheet.at = [=](double angle, double s) -> Vec3 {
-    const double c = std::cos(angle), n = std::sin(angle), there = std::min(1.0, s / 0.4);
-    const double from = 16 * mm * c, to = -3 * mm * c;
-    const double half_width = (16 - 2 * there - 0.02 * s) * mm;
-    const double gap = (n < 0 ? left : right) * 2 * std::abs(n) + 0.2 * mm;
-    return {from + s * (to - from), half_width * n, 0.5 * gap * c * there};
-  };
-  return sheet;
-}
-
 }  // namespace
 
 TEST_CASE("scallops_add_up_to_the_valve") {

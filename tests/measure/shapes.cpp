@@ -2,6 +2,7 @@
 #include "tests/measure/shapes.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -52,6 +53,38 @@ Sheet disc(double radius, double hole, std::function<double(double x, double y)>
     const double r = radius + s * (hole - radius);
     const double x = r * std::cos(angle), y = r * std::sin(angle);
     return {x, y, height(x, y)};
+  };
+  return sheet;
+}
+
+Sheet two_gaps(double left, double right) {
+  constexpr double mm = 1e-3;
+  Sheet sheet;
+  sheet.around = 96;
+  sheet.rings = 24;
+  sheet.at = [=](double angle, double s) -> Vec3 {
+    const double c = std::cos(angle), n = std::sin(angle), there = std::min(1.0, s / 0.4);
+    const double from = 16 * mm * c, to = -3 * mm * c;
+    const double half_width = (16 - 2 * there - 0.02 * s) * mm;
+    const double gap = (n < 0 ? left : right) * 2 * std::abs(n) + 0.2 * mm;
+    return {from + s * (to - from), half_width * n, 0.5 * gap * c * there};
+  };
+  return sheet;
+}
+
+Sheet sheet_of(const ClosedShape &closed, size_t around, size_t rings) {
+  Sheet sheet;
+  sheet.around = around;
+  sheet.rings = rings;
+  sheet.at = [=](double angle, double s) -> Vec3 {
+    const double side = std::clamp(1e3 * std::cos(angle), -1.0, 1.0);
+    const double length =
+        0.5 * ((1 + side) * closed.anterior_wall + (1 - side) * closed.posterior_wall);
+    const double down = std::max(0.0, 2 * s - 1) * length;
+    const Vec3 wall =
+        closed.wall(closed.half_width * std::sin(angle), down, side) - Vec3(0, 0, closed.depth);
+    const double belly = std::min(1.0, 2 * s);
+    return (1 - belly) * closed.rim(angle, side) + belly * wall;
   };
   return sheet;
 }

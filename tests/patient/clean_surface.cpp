@@ -16,10 +16,6 @@ using namespace mvs::core::test;
 
 namespace {
 
-LeafletSheet cleaned(const Surface &s, Findings &findings) {
-  return clean_surface(s.x, s.triangles, {}, {}, findings);
-}
-
 double area_of(const std::vector<Vec3> &x, const std::vector<Tri> &triangles) {
   double area = 0;
   for (const Tri &t : triangles) area += triangle_area(x, t);

@@ -7,9 +7,13 @@
 
 namespace mvs::core::test {
 
+inline LeafletSheet cleaned(const Surface &s, Findings &findings) {
+  return clean_surface(s.x, s.triangles, {}, {}, findings);
+}
+
 inline LeafletSheet cleaned(const Surface &s) {
   Findings findings;
-  return clean_surface(s.x, s.triangles, {}, {}, findings);
+  return cleaned(s, findings);
 }
 
 inline SheetRims rims_of(const Surface &s, const RimLandmarks &landmarks, Findings &findings) {

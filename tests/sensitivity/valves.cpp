@@ -1,81 +1,24 @@
 // Sensitivities of closed valves against central differences of settles, along random parameters
-// and along the gradient. MVS_TEST_LONG: 200 pairs of valve and parameter.
+// and along the gradient; slack chordae have the derivative zero. MVS_TEST_LONG: 200 pairs of valve
+// and parameter.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
+#include <string>
 
-#include "anatomy/parametric.h"
 #include "base/error.h"
-#include "measure/coaptation/coaptation.h"
-#include "measure/tissue/chords.h"
-#include "sensitivity/coaptation_gradient.h"
-#include "sensitivity/sensitivity.h"
-#include "tests/solve/bench.h"
+#include "tests/sensitivity/random_valves.h"
 
 namespace mvs::core::test {
 namespace {
 
-// Some valves do not settle so far: rounding, or a snap on the way.
-struct NotAtRest {};
-
-constexpr double rest_force = 1e-10;  // N; settles end far below it, because Newton converges
 // The tolerance wanted of derivatives; a displacement of 5e-8 m leaves rounding of about 1e-6.
 constexpr double most_error = 1e-4;
 
-State settled(const Model &model, State state) {
-  SolveOptions options;
-  options.residual = rest_force;
-  state.rest_tolerance = 0;
-  const SolveStats stats = Solver(Backend::fastest).settle(model, state, options, nullptr);
-  if (!stats.converged) throw NotAtRest();
-  return state;
-}
-
-struct Closed {
-  ModelPtr model;
-  State state;
-};
-
-Closed closed_valve(Random &random) {
-  const LeafletLawId laws[] = {LeafletLawId::bilinear, LeafletLawId::fung,
-                               LeafletLawId::may_newman_yin, LeafletLawId::prot,
-                               LeafletLawId::spring};
-  mvs_parametric_desc desc = {};
-  desc.struct_size = sizeof desc;
-  desc.vertices = static_cast<uint32_t>(random(200, 400));
-  desc.annulus_scale = random(0.9, 1.25);
-  if (random(0, 1) < 0.3) desc.shape = MVS_SHAPE_FOUNDING;
-  Valve valve = make_parametric_valve(desc);
-  const LeafletLawId law = laws[static_cast<size_t>(random(0, 5))];
-  for (Leaflet &leaflet : valve.leaflets.edit()) {
-    leaflet.law = law;
-    leaflet.constants = default_constants(find_leaflet_law(law)->constants);
-  }
-  // the symmetry of the parametric valve
-  for (Chord &chord : valve.chords.edit()) chord.rest_length *= random(0.9, 1.1);
-  Closed made;
-  made.model = make_model(valve);
-  State state = initial_state(*made.model);
-  state.load = {random(80, 140) * 133.322, 1};
-  made.state = settled(*made.model, state);
-  return made;
-}
-
-// The first valve from a seed on that comes to rest.
-Closed some_valve(Random &random, uint64_t &seed) {
-  for (;;) {
-    try {
-      random = Random(seed++);
-      return closed_valve(random);
-    } catch (const NotAtRest &) {
-    }
-  }
-}
-
 // Changes the description of the valve itself.
-Closed changed(const Closed &from, const Parameter &p, double by) {
+RandomValve changed(const RandomValve &from, const Parameter &p, double by) {
   Valve valve = from.model->valve;
   State state = from.state;
   const auto shift = [&](uint32_t node, const Vec3 &move) {
@@ -126,7 +69,7 @@ Closed changed(const Closed &from, const Parameter &p, double by) {
   return {make_model(valve), state};
 }
 
-Parameter random_parameter(const Closed &closed, Random &random) {
+Parameter random_parameter(const RandomValve &closed, Random &random) {
   const Valve &valve = closed.model->valve;
   const auto any = [&](size_t count) {
     return static_cast<uint32_t>(random(0, static_cast<double>(count)));
@@ -159,89 +102,14 @@ Parameter random_parameter(const Closed &closed, Random &random) {
   return p;
 }
 
-// A branch point whose chordae bear nothing has no place of its own.
-bool is_idle(const Closed &closed, uint32_t node) {
-  if (closed.model->topology.node_kind[node] != NodeKind::branch) return false;
-  const ChordMeasures chords = measure_chords(*closed.model, closed.state.x);
-  const Rows &rows = closed.model->topology.node_chords;
-  for (uint32_t k = rows.start[node]; k < rows.start[node + 1]; ++k) {
-    if (chords.tension[rows.items[k]] > 2 * rest_force) return false;
-  }
-  return true;
-}
-
-Quantity random_functional(const Closed &closed, Random &random) {
-  Quantity q;
-  q.weights = random.vectors(closed.model->node_count(), 1);
-  for (uint32_t i = 0; i < q.weights.size(); ++i) {
-    if (is_idle(closed, i)) q.weights[i].setZero();
-  }
-  return q;
-}
-
 double fastest_of(const NodeField &field) {
   double most = 0;
   for (const Vec3 &v : field) most = std::max(most, v.norm());
   return most;
 }
 
-double value_of(const Closed &closed, const Quantity &q) {
+double value_of(const RandomValve &closed, const Quantity &q) {
   return quantity_gradient(*closed.model, closed.state, q).value;
-}
-
-Closed settled(Closed closed) {
-  closed.state = settled(*closed.model, closed.state);
-  return closed;
-}
-
-}  // namespace
-
-TEST_CASE("coaptation_gradient_is_that_of_differences") {
-  Random random(11);
-  Closed closed = closed_valve(random);
-  std::vector<Vec3> x = closed.state.x;
-  NodeField g(x.size(), Vec3::Zero());
-  const double area = coaptation_area_gradient(*closed.model, x, g);
-  CHECK(area == about(measure_coaptation(*closed.model, x).area, 1e-12));
-  REQUIRE(area > 1e-5);
-  const NodeField direction = random.vectors(x.size(), 1);
-  double slope = 0;
-  for (size_t i = 0; i < x.size(); ++i) slope += g[i].dot(direction[i]);
-  const double h = 1e-9;
-  const auto at = [&](double by) {
-    std::vector<Vec3> moved = x;
-    for (size_t i = 0; i < x.size(); ++i) moved[i] += by * direction[i];
-    return measure_coaptation(*closed.model, moved).area;
-  };
-  // kinks of single samples within 1e-9 m, and the rounding of 1e-16 / 1e-9
-  CHECK((at(h) - at(-h)) / (2 * h) == about(slope, 1e-5));
-}
-
-TEST_CASE("slack_chordae_change_nothing_and_are_declared_smooth") {
-  const double away = 2e-7;  // m, twice the slack of the side test
-  uint64_t seed = 100;
-  Random random(seed);
-  for (int valve = 0; valve < 3; ++valve) {
-    const Closed closed = some_valve(random, seed);
-    std::vector<Parameter> lengths;
-    for (uint32_t c = 0; c < closed.model->valve.chords.size(); ++c) {
-      const Chord &chord = closed.model->valve.chords[c];
-      const double length = (closed.state.x[chord.a] - closed.state.x[chord.b]).norm();
-      if (length > chord.rest_length - away || is_idle(closed, chord.a) || is_idle(closed, chord.b))
-        continue;
-      lengths.push_back({ParameterKind::chord_rest_length, c, 0, {}});
-    }
-    SensitivityOptions options;
-    options.with_motion = true;
-    const Sensitivity found = differentiate(*closed.model, closed.state,
-                                            {random_functional(closed, random)}, lengths, options);
-    for (size_t p = 0; p < lengths.size(); ++p) {
-      CAPTURE(lengths[p].index);
-      CHECK(found.derivative[p] == 0);
-      CHECK(found.parameter_notes[p] == 0);
-    }
-    MESSAGE(lengths.size() << " slack chordae");
-  }
 }
 
 // One pair of a valve and a parameter, or of a valve and the gradient of a functional over all rest
@@ -253,11 +121,11 @@ struct Compared {
 };
 
 // The fastest node moves by `distance`.
-Compared compared_at(const Closed &closed, const Quantity &q,
+Compared compared_at(const RandomValve &closed, const Quantity &q,
                      const std::vector<Parameter> &parameters, const std::vector<double> &direction,
                      const NodeField &motion, bool smooth, double distance) {
   const double h = distance / fastest_of(motion);
-  Closed above = closed, below = closed;
+  RandomValve above = closed, below = closed;
   double slope = 0;
   for (size_t p = 0; p < parameters.size(); ++p) {
     above = changed(above, parameters[p], h * direction[p]);
@@ -275,9 +143,9 @@ Compared compared_at(const Closed &closed, const Quantity &q,
   return {smooth, fastest_of(error) / fastest_of(motion), std::abs(difference / slope - 1)};
 }
 
-Compared compare(const Closed &closed, const Quantity &q, const std::vector<Parameter> &parameters,
-                 const std::vector<double> &direction, const NodeField &motion, bool smooth,
-                 double slack) {
+Compared compare(const RandomValve &closed, const Quantity &q,
+                 const std::vector<Parameter> &parameters, const std::vector<double> &direction,
+                 const NodeField &motion, bool smooth, double slack) {
   if (fastest_of(motion) == 0) return {smooth, 0, 0};  // all chordae are slack: nothing to compare
   const auto at = [&](double distance) {
     return compared_at(closed, q, parameters, direction, motion, smooth, distance);
@@ -288,7 +156,7 @@ Compared compare(const Closed &closed, const Quantity &q, const std::vector<Para
   return smooth && found.motion_error > most_error ? at(0.1 * slack) : found;
 }
 
-Compared along_a_parameter(const Closed &closed, const Quantity &q, const Parameter &p) {
+Compared along_a_parameter(const RandomValve &closed, const Quantity &q, const Parameter &p) {
   SensitivityOptions options;
   options.with_motion = true;
   const Sensitivity found = differentiate(*closed.model, closed.state, {q}, {p}, options);
@@ -299,7 +167,7 @@ Compared along_a_parameter(const Closed &closed, const Quantity &q, const Parame
 }
 
 // Adjoint and direct derivatives agree, and both with the difference.
-Compared along_the_gradient(const Closed &closed, const Quantity &q) {
+Compared along_the_gradient(const RandomValve &closed, const Quantity &q) {
   std::vector<Parameter> lengths;
   for (uint32_t c = 0; c < closed.model->valve.chords.size(); ++c) {
     lengths.push_back({ParameterKind::chord_rest_length, c, 0, {}});
@@ -327,6 +195,35 @@ Compared along_the_gradient(const Closed &closed, const Quantity &q) {
                  options.slack);
 }
 
+}  // namespace
+
+TEST_CASE("slack_chordae_change_nothing_and_are_declared_smooth") {
+  const double away = 2e-7;  // m, twice the slack of the side test
+  uint64_t seed = 100;
+  Random random(seed);
+  for (int valve = 0; valve < 3; ++valve) {
+    const RandomValve closed = some_valve(random, seed);
+    std::vector<Parameter> lengths;
+    for (uint32_t c = 0; c < closed.model->valve.chords.size(); ++c) {
+      const Chord &chord = closed.model->valve.chords[c];
+      const double length = (closed.state.x[chord.a] - closed.state.x[chord.b]).norm();
+      if (length > chord.rest_length - away || is_idle(closed, chord.a) || is_idle(closed, chord.b))
+        continue;
+      lengths.push_back({ParameterKind::chord_rest_length, c, 0, {}});
+    }
+    SensitivityOptions options;
+    options.with_motion = true;
+    const Sensitivity found = differentiate(*closed.model, closed.state,
+                                            {random_functional(closed, random)}, lengths, options);
+    for (size_t p = 0; p < lengths.size(); ++p) {
+      CAPTURE(lengths[p].index);
+      CHECK(found.derivative[p] == 0);
+      CHECK(found.parameter_notes[p] == 0);
+    }
+    MESSAGE(lengths.size() << " slack chordae");
+  }
+}
+
 TEST_CASE("derivatives_that_are_declared_smooth_match_central_differences") {
   const bool is_long = std::getenv("MVS_TEST_LONG") != nullptr;
   const int pairs = is_long ? 200 : 8;
@@ -335,7 +232,7 @@ TEST_CASE("derivatives_that_are_declared_smooth_match_central_differences") {
   uint64_t seed = 100;
   for (int pair = 0; pair < pairs; ++pair) {
     Random random(seed);
-    const Closed closed = some_valve(random, seed);
+    const RandomValve closed = some_valve(random, seed);
     const Parameter p = random_parameter(closed, random);
     const Quantity q = random_functional(closed, random);
     for (const bool gradient : {false, true}) {

@@ -16,6 +16,7 @@
 #include <stdexcept>
 
 #include "tests/verification/balance.h"
+#include "tests/verification/elastica.h"
 #include "tests/verification/patch.h"
 #include "tests/verification/study.h"
 
@@ -27,43 +28,6 @@ constexpr double length = 20e-3, young = 100e3;
 double rigidity(double thickness) {
   return young * thickness * thickness * thickness / (12 * 0.75);
 }
-
-// One row of shared/data/verification/e_heavy_cantilever.csv.
-struct Exact {
-  double g, drop, angle;  // w L^3 / E I, over L, rad
-};
-std::vector<Exact> table() {
-  std::vector<Exact> rows;
-  for (const test::Cells &row : test::reference_table("e_heavy_cantilever.csv")) {
-    rows.push_back({std::stod(row[0]), std::stod(row[1]), std::stod(row[3])});
-  }
-  return rows;
-}
-
-// x and z over the length along the heavy elastica, from its tip back: theta'' = -g (1 - s) cos
-// theta, theta' = 0 at the tip, whose angle the table has.
-class Elastica {
- public:
-  explicit Elastica(const Exact &exact) {
-    double theta = exact.angle, bend = 0, s = 1;
-    angle_.assign(steps + 1, theta);
-    for (int k = steps; k > 0; --k) {
-      // midpoint: 1e-6 of the length at 1000 steps, and only a start for Newton
-      const double h = 1.0 / steps;
-      const double middle = theta - 0.5 * h * bend;
-      const double half = bend + 0.5 * h * exact.g * (1 - s) * std::cos(theta);
-      bend += h * exact.g * (1 - s + 0.5 * h) * std::cos(middle);
-      theta -= h * half;
-      s -= h;
-      angle_[k - 1] = theta;
-    }
-  }
-  double angle(double s) const { return angle_[std::lround(std::clamp(s, 0.0, 1.0) * steps)]; }
-
- private:
-  static constexpr int steps = 1000;
-  std::vector<double> angle_;
-};
 
 // A strip of rows of equilateral triangles across it. The first two rows of nodes are held, and the
 // clamp is half-way between them: a hinge bends half a triangle on either side.
@@ -114,7 +78,7 @@ Positions weight(const Strip &strip, double g, double thickness) {
 }
 
 // A start for Newton: rows in the directions of the elastica, without stretch.
-Positions bent(const Strip &strip, const Exact &exact) {
+Positions bent(const Strip &strip, const HeavyBeam &exact) {
   const Elastica elastica(exact);
   Positions line = {Vec3(-0.5 * strip.spacing, 0, 0), Vec3(0.5 * strip.spacing, 0, 0)};
   for (uint32_t row = 1; row < strip.rows; ++row) {
@@ -241,7 +205,7 @@ Study cylindrical() {
   s.order_low = 1.8;
   s.order_high = 2.2;
   const double thickness = 0.1e-3;
-  for (const Exact &exact : table()) {
+  for (const HeavyBeam &exact : heavy_beams()) {
     if (!is_looked_at(exact.g)) continue;
     for (const uint32_t rows : {5u, 10u, 20u, 40u}) {
       const Strip strip = strip_of(3, rows, thickness, 0);
@@ -255,8 +219,8 @@ Study cylindrical() {
 
 // All nodes free: also to curl across. On irregular meshes stretch resists, since a sheet of
 // triangles bends without stretching only along its edges.
-Row free_strip(const std::string &name, const Exact &exact, double g, uint32_t cells, uint32_t rows,
-               double thickness, double disturbed) {
+Row free_strip(const std::string &name, const HeavyBeam &exact, double g, uint32_t cells,
+               uint32_t rows, double thickness, double disturbed) {
   const Strip strip = strip_of(cells, rows, thickness, disturbed);
   const Positions load = weight(strip, g, thickness);
   double total = 0;
@@ -274,7 +238,7 @@ Study narrow() {
   s.expects =
       "none: tends to about 1 % above that stiffness, for the width is a ninth of the "
       "length";
-  for (const Exact &exact : table()) {
+  for (const HeavyBeam &exact : heavy_beams()) {
     if (exact.g != 1) continue;
     for (const uint32_t cells : {2u, 4u, 8u}) {
       s.rows.push_back(
@@ -289,7 +253,7 @@ Study irregular() {
   s.expects =
       "none: hinges are consistent on equilateral meshes only, and triangles that do not "
       "lie along the fold must stretch; curling near the sides is in both";
-  for (const Exact &exact : table()) {
+  for (const HeavyBeam &exact : heavy_beams()) {
     if (exact.g != 5) continue;
     for (const uint32_t cells : {4u, 8u, 16u}) {
       for (const double mm : {1.0, 0.2}) {

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include "hook.h"
+#include "tests/api/check.h"
+#include "tests/api/saved.h"
 
 static void a_hook_follows_the_pose_of_its_hand(void) {
   const mvs_id tool = make_work();

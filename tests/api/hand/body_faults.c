@@ -3,6 +3,8 @@
 #include <math.h>
 
 #include "hook.h"
+#include "tests/api/check.h"
+#include "tests/api/saved.h"
 
 static int warnings;
 

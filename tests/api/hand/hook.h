@@ -2,23 +2,8 @@
 #ifndef TESTS_HOOK_H
 #define TESTS_HOOK_H
 
-#include "tests/api/saved.h"
-
-static mvs_sim *sim;
-
-static inline void start(void) {
-  mvs_parametric_desc small = {
-      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
-  mvs_load_case load = {sizeof load, 0, 2000, 0.2};
-  MUST(mvs_generate_valve(sim, &small));
-  MUST(mvs_set_load(sim, &load));
-}
-
-static inline mvs_tool_state state_of(mvs_sim *of, mvs_id tool) {
-  mvs_tool_state state = {.struct_size = sizeof state};
-  MUST(mvs_get_tool(of, tool, &state));
-  return state;
-}
+#include "tests/api/check.h"
+#include "tests/api/hand/small_valve.h"
 
 /* A shaft, a cross bar of rounded box, and a tip that is a cone. */
 static const mvs_body_desc hook[3] = {

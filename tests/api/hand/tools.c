@@ -5,22 +5,17 @@
 #include <stdlib.h>
 
 #include "tests/api/check.h"
+#include "tests/api/hand/small_valve.h"
 #include "tests/api/saved.h"
-
-static mvs_sim *sim;
 
 static void steps(mvs_sim *of, int count) {
   for (int k = 0; k < count; ++k) MUST(mvs_step(of, NULL));
 }
 
-/* A small valve under some load; the first vertex of its free edge in *node, its place in at. */
-static void start(uint32_t *node, double at[3]) {
-  mvs_parametric_desc small = {
-      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
-  mvs_load_case load = {sizeof load, 0, 2000, 0.2};
+/* The first vertex of the free edge of a small valve under some load in *node, its place in at. */
+static void start_at_edge(uint32_t *node, double at[3]) {
   mvs_view edge, x;
-  MUST(mvs_generate_valve(sim, &small));
-  MUST(mvs_set_load(sim, &load));
+  start();
   const mvs_snapshot *snapshot = present(sim);
   MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_FREE_EDGE_NODES, &edge));
   MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_NODE_POSITION, &x));
@@ -35,17 +30,11 @@ static mvs_tool_desc grasp_at(const double at[3]) {
   return desc;
 }
 
-static mvs_tool_state state_of(mvs_sim *of, mvs_id tool) {
-  mvs_tool_state state = {.struct_size = sizeof state};
-  MUST(mvs_get_tool(of, tool, &state));
-  return state;
-}
-
 static void a_grasp_takes_the_nearest_vertex_and_is_moved_and_let_go(void) {
   uint32_t node, count = 9;
   double at[3];
   mvs_id tool = 0;
-  start(&node, at);
+  start_at_edge(&node, at);
   const hash128 before = sim_hash(sim);
   at[2] += 1e-4;
   mvs_tool_desc desc = grasp_at(at);
@@ -84,7 +73,7 @@ static void what_cannot_be_is_refused_and_changes_nothing(void) {
   uint32_t node;
   double at[3], nowhere[3] = {0, NAN, 0}, flat[3] = {0, 0, 0};
   mvs_id tool = 0;
-  start(&node, at);
+  start_at_edge(&node, at);
   const hash128 before = sim_hash(sim);
   mvs_tool_desc good = grasp_at(at), bad = good;
   MUST_FAIL(mvs_add_tool(NULL, &good, &tool), MVS_E_ARGUMENT, "null");
@@ -135,7 +124,7 @@ static void a_node_of_the_annulus_cannot_be_held(void) {
   double at[3];
   mvs_view annulus;
   mvs_id tool = 0;
-  start(&node, at);
+  start_at_edge(&node, at);
   const mvs_snapshot *snapshot = present(sim);
   MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_ANNULUS_NODES, &annulus));
   mvs_tool_desc desc = grasp_at(at);
@@ -149,7 +138,7 @@ static void a_node_of_the_annulus_cannot_be_held(void) {
 static void make_work(mvs_id tools[2]) {
   uint32_t node;
   double at[3];
-  start(&node, at);
+  start_at_edge(&node, at);
   mvs_tool_desc grasp = grasp_at(at),
                 ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_KIND_BALL};
   ball.position[2] = 0.02;
@@ -219,8 +208,6 @@ static void a_plan_does_with_tools_what_was_done(void) {
   mvs_id tools[2];
   mvs_replay replay = {.struct_size = sizeof replay};
   mvs_op_annulus_scale smaller = {{sizeof smaller, MVS_OP_ANNULUS_SCALE}, 0.97, 0, 0};
-  mvs_parametric_desc small = {
-      .struct_size = sizeof small, .vertices = 200, .shape = MVS_SHAPE_FOUNDING};
   const double axis[3] = {0, 1, 1}, up[3] = {0, 0, 0.03};
   mvs_tool_desc rod = {.struct_size = sizeof rod, .kind = MVS_TOOL_KIND_ROD};
   mvs_id third = 0;
@@ -238,7 +225,7 @@ static void a_plan_does_with_tools_what_was_done(void) {
   if (!text) exit(2);
   MUST(mvs_write_plan(snapshot, NULL, text, size, &size));
   mvs_snapshot_release(snapshot);
-  MUST(mvs_generate_valve(sim, &small));
+  new_valve();
   MUST(mvs_replay_plan(sim, text, size, &replay));
   CHECK(replay.same_result == 1);
   CHECK(same_hash(done, sim_hash(sim)));
@@ -265,7 +252,7 @@ static void a_hand_moves_from_another_thread(void) {
   uint32_t node;
   pthread_t thread;
   hand h = {0, {0, 0, 0}, 0};
-  start(&node, h.at);
+  start_at_edge(&node, h.at);
   mvs_tool_desc desc = grasp_at(h.at);
   MUST(mvs_add_tool(sim, &desc, &h.tool));
   if (pthread_create(&thread, NULL, move_on, &h)) exit(2);
@@ -281,7 +268,7 @@ static void a_failed_settle_keeps_what_the_hand_wants(void) {
   uint32_t node;
   double at[3];
   mvs_id tool = 0;
-  start(&node, at);
+  start_at_edge(&node, at);
   mvs_tool_desc desc = grasp_at(at);
   MUST(mvs_add_tool(sim, &desc, &tool));
   const hash128 before = sim_hash(sim);

@@ -26,7 +26,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -39,11 +38,14 @@
 #include "tests/bench/clock.h"
 #include "tests/bench/closing.h"
 #include "tests/bench/live/step_play.h"
+#include "tests/bench/live/step_row.h"
 #include "tests/bench/live/step_watch.h"
 
 namespace {
 
+using bench::percentile;
 using bench::Phase;
+using bench::StepRow;
 using bench::StepWatch;
 
 const std::map<std::string, uint32_t> scene_vertices = {
@@ -68,55 +70,10 @@ struct Options {
   }
 };
 
-struct Row {
-  std::string scene, phase;
-  std::vector<double> active, resting;  // seconds a step
-  std::vector<double> hand;             // of both, while a hand moves
-  size_t lowered_linear = 0, lowered_step = 0, broad = 0, orderings = 0, made = 0;
-  size_t iterations = 0, served = 0;  // of conjugate gradients; steps without work on a factor
-  size_t passes = 0, factors = 0;
-  std::array<double, MVS_PHASE_COUNT> phase_s{};  // of active steps, wall time
-  size_t crossings = 0;
-  double quiet = 0, quiet_by_hand = 0;  // sums of shares over active steps, over those with a hand
-
-  size_t steps() const { return active.size() + resting.size(); }
-  void add(const Row &other) {
-    active.insert(active.end(), other.active.begin(), other.active.end());
-    resting.insert(resting.end(), other.resting.begin(), other.resting.end());
-    hand.insert(hand.end(), other.hand.begin(), other.hand.end());
-    lowered_linear += other.lowered_linear;
-    lowered_step += other.lowered_step;
-    broad += other.broad;
-    orderings += other.orderings;
-    made += other.made;
-    iterations += other.iterations;
-    served += other.served;
-    passes += other.passes;
-    factors += other.factors;
-    for (size_t p = 0; p < phase_s.size(); ++p) phase_s[p] += other.phase_s[p];
-    crossings = std::max(crossings, other.crossings);
-    quiet += other.quiet;
-    quiet_by_hand += other.quiet_by_hand;
-  }
-};
-
-double percentile(std::vector<double> of, double share) {
-  if (of.empty()) return 0;
-  std::sort(of.begin(), of.end());
-  const auto at = static_cast<size_t>(std::ceil(share * static_cast<double>(of.size())));
-  return of[std::min(of.size() - 1, at > 0 ? at - 1 : 0)];
-}
-
-std::vector<double> all_of(const Row &row) {
-  std::vector<double> all = row.active;
-  all.insert(all.end(), row.resting.begin(), row.resting.end());
-  return all;
-}
-
 // One step and its cost. Reading a valve makes a snapshot, so only awake steps are checked: steps
 // at rest are timed without a snapshot.
 void take_step(mvs::Simulator &sim, const Options &options, bool hand_moves, StepWatch &watch,
-               Row &row) {
+               StepRow &row) {
   mvs_step_options how = {};
   how.dt = dt;
   how.budget = options.budget;
@@ -144,9 +101,9 @@ void take_step(mvs::Simulator &sim, const Options &options, bool hand_moves, Ste
   row.quiet_by_hand += hand_moves ? quiet : 0;
 }
 
-Row run_phase(mvs::Simulator &sim, const Options &options, const std::string &scene,
-              const Phase &phase, int steps) {
-  Row row;
+StepRow run_phase(mvs::Simulator &sim, const Options &options, const std::string &scene,
+                  const Phase &phase, int steps) {
+  StepRow row;
   row.scene = scene;
   row.phase = phase.name;
   StepWatch watch;
@@ -164,8 +121,9 @@ Row run_phase(mvs::Simulator &sim, const Options &options, const std::string &sc
 }
 
 // A row a phase, over all its repetitions; told to `done` once it is complete.
-std::vector<Row> run_scene(const Options &options, const std::string &scene, bench::Pusher pusher,
-                           const std::function<void(const Row &)> &done) {
+std::vector<StepRow> run_scene(const Options &options, const std::string &scene,
+                               bench::Pusher pusher,
+                               const std::function<void(const StepRow &)> &done) {
   mvs_sim_desc desc = {};
   desc.workers = options.workers;
   mvs::Simulator sim(desc);
@@ -181,10 +139,10 @@ std::vector<Row> run_scene(const Options &options, const std::string &scene, ben
   const double times = std::max(1.0, std::round(options.seconds / play_s));
   const double share = options.seconds / (times * static_cast<double>(phases.size()));
   const int steps = std::max(2, static_cast<int>(std::lround(share / dt)));
-  std::vector<Row> rows(phases.size());
+  std::vector<StepRow> rows(phases.size());
   for (int time = 0; time < static_cast<int>(times); ++time) {
     for (size_t p = 0; p < phases.size(); ++p) {
-      const Row row = run_phase(sim, options, scene, phases[p], steps);
+      const StepRow row = run_phase(sim, options, scene, phases[p], steps);
       rows[p].scene = scene;
       rows[p].phase = row.phase;
       rows[p].add(row);
@@ -213,52 +171,7 @@ double explicit_step(const Options &options, const std::string &scene) {
   return percentile(took, 0.5);
 }
 
-void print_head() {
-  std::printf("%-5s %-10s %6s %8s %8s %8s %8s %9s %7s %12s %6s %6s %5s %4s\n", "scene", "phase",
-              "steps", "p50 ms", "p99 ms", "p99.9 ms", "max ms", "active ms", "asleep", "lowered",
-              "broad", "order", "cross", "made");
-}
-
-void print(const Row &row) {
-  const std::vector<double> all = all_of(row);
-  std::printf(
-      "%-5s %-10s %6zu %8.3f %8.3f %8.3f %8.3f %9.3f %6.1f%% %6zu %5zu %6zu %6zu %5zu %4zu\n",
-      row.scene.c_str(), row.phase.c_str(), row.steps(), 1e3 * percentile(all, 0.5),
-      1e3 * percentile(all, 0.99), 1e3 * percentile(all, 0.999), 1e3 * percentile(all, 1),
-      1e3 * percentile(row.active, 0.5),
-      100 * static_cast<double>(row.resting.size()) / static_cast<double>(row.steps()),
-      row.lowered_linear, row.lowered_step, row.broad, row.orderings, row.crossings, row.made);
-  std::fflush(stdout);
-}
-
-void print(const Row &whole, const char *which, const std::vector<double> &took) {
-  std::printf("%s: %zu %s, p50 %.3f ms, p99 %.3f ms, p99.9 %.3f ms, max %.3f ms\n",
-              whole.scene.c_str(), took.size(), which, 1e3 * percentile(took, 0.5),
-              1e3 * percentile(took, 0.99), 1e3 * percentile(took, 0.999),
-              1e3 * percentile(took, 1));
-}
-
-void write_head(std::ofstream &csv) {
-  csv << "scene,phase,steps,p50_ms,p99_ms,p99.9_ms,max_ms,active_p50_ms,active_p99_ms,"
-         "active_p99.9_ms,active_max_ms,hand_steps,hand_p50_ms,hand_p99_ms,hand_max_ms,"
-         "resting_p50_ms,asleep,lowered_linear,lowered_step,broad_phases,orderings,crossings,"
-         "made_energy\n";
-}
-
-void write(std::ofstream &csv, const Row &row) {
-  const std::vector<double> all = all_of(row);
-  csv << row.scene << ',' << row.phase << ',' << row.steps();
-  for (const double share : {0.5, 0.99, 0.999, 1.0}) csv << ',' << 1e3 * percentile(all, share);
-  for (const double share : {0.5, 0.99, 0.999, 1.0})
-    csv << ',' << 1e3 * percentile(row.active, share);
-  csv << ',' << row.hand.size();
-  for (const double share : {0.5, 0.99, 1.0}) csv << ',' << 1e3 * percentile(row.hand, share);
-  csv << ',' << 1e3 * percentile(row.resting, 0.5) << ',' << row.resting.size() << ','
-      << row.lowered_linear << ',' << row.lowered_step << ',' << row.broad << ',' << row.orderings
-      << ',' << row.crossings << ',' << row.made << '\n';
-}
-
-void tell(const Options &options, const std::string &scene, const Row &whole) {
+void tell(const Options &options, const std::string &scene, const StepRow &whole) {
   print(whole, "active steps", whole.active);
   print(whole, "steps with a hand moving", whole.hand);
   const auto steps = static_cast<double>(std::max<size_t>(1, whole.active.size()));
@@ -286,7 +199,7 @@ void tell(const Options &options, const std::string &scene, const Row &whole) {
       scene.c_str(), 100 * resting / active, 1e3 * founding, 125 * founding / active);
 }
 
-void compare(const std::string &scene, const Row &convex, const Row &ball) {
+void compare(const std::string &scene, const StepRow &convex, const StepRow &ball) {
   std::printf("%s: pushing with 200 vertices takes p50 %.2f, p99 %.2f, max %.2f times the ball's\n",
               scene.c_str(), percentile(convex.active, 0.5) / percentile(ball.active, 0.5),
               percentile(convex.active, 0.99) / percentile(ball.active, 0.99),
@@ -297,20 +210,20 @@ void compare(const std::string &scene, const Row &convex, const Row &ball) {
 void run(const Options &options) {
   std::ofstream csv;
   if (!options.csv.empty()) csv.open(options.csv);
-  write_head(csv);
+  bench::write_head(csv);
   for (const std::string &scene : options.scenes) {
-    print_head();
-    Row whole;
+    bench::print_head();
+    StepRow whole;
     whole.scene = scene;
     whole.phase = "all";
-    Row pushed, pushed_by_ball;
+    StepRow pushed, pushed_by_ball;
     if (options.tool == "convex") {
-      run_scene(options, scene, bench::Pusher::ball, [&](const Row &row) {
+      run_scene(options, scene, bench::Pusher::ball, [&](const StepRow &row) {
         if (row.phase == bench::push_phase) pushed_by_ball = row;
       });
     }
     const auto pusher = options.tool == "convex" ? bench::Pusher::convex : bench::Pusher::ball;
-    run_scene(options, scene, pusher, [&](const Row &row) {
+    run_scene(options, scene, pusher, [&](const StepRow &row) {
       print(row);
       write(csv, row);
       whole.add(row);

@@ -179,4 +179,21 @@ int last_error() {
   return latest_error;
 }
 
+const char *error_text(int error) {
+  switch (error) {
+    case 0:
+      return "no error";
+    case 2:
+      return "communication error";
+    case 5:
+      return "no device found";
+    case 6:
+      return "not available";
+    case 20:
+      return "device in use";
+    default:
+      return "error";
+  }
+}
+
 }  // namespace dhd

@@ -24,20 +24,7 @@ DHDAPI int dhdErrorGetLast() {
   return last_error();
 }
 DHDAPI const char *dhdErrorGetStr(int error) {
-  switch (error) {
-    case 0:
-      return "no error";
-    case 2:
-      return "communication error";
-    case 5:
-      return "no device found";
-    case 6:
-      return "not available";
-    case 20:
-      return "device in use";
-    default:
-      return "error";
-  }
+  return error_text(error);
 }
 DHDAPI const char *dhdErrorGetLastStr() {
   return dhdErrorGetStr(last_error());

@@ -49,5 +49,6 @@ int open_index(int index);
 int close_id(char id);
 int unsafe();
 int last_error();
+const char *error_text(int error);
 
 }  // namespace dhd

@@ -47,6 +47,12 @@ inline Error refusal(const SurfaceSample &sample, LengthUnit unit = LengthUnit::
   return {MVS_OK, "", ""};
 }
 
+inline std::string replaced(std::string text, const std::string &from, const std::string &to) {
+  const size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
 // The bytes of a number in little or big order.
 template <typename Number>
 std::string number_bytes(Number number, bool is_big = false) {

@@ -32,12 +32,6 @@ std::vector<std::vector<double>> corners_in_space(const SurfaceFile &file) {
   return all;
 }
 
-std::string replaced(std::string text, const std::string &from, const std::string &to) {
-  const size_t at = text.find(from);
-  REQUIRE(at != std::string::npos);
-  return text.replace(at, from.size(), to);
-}
-
 }  // namespace
 
 TEST_CASE("every_format_gives_the_same_surface") {
