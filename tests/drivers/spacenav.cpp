@@ -7,6 +7,9 @@
 #include "plugin.h"
 #include "random.h"
 #include "spacenav_daemon.h"
+#include "tests/about.h"
+
+using mvs::core::test::about;
 
 namespace {
 
@@ -33,9 +36,9 @@ TEST_CASE("spacenav: a deflection is a speed, inside a box") {
   REQUIRE_EQ(plugin.read(1000 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[0], 0);
   REQUIRE_EQ(plugin.read(1010 * kMs, state), MVS_DRIVER_OK);
-  CHECK(state.position[0] == doctest::Approx(0.001));
-  CHECK(state.position[2] == doctest::Approx(-0.0005));
-  CHECK(state.velocity[0] == doctest::Approx(0.1));
+  CHECK(state.position[0] == about(0.001));
+  CHECK(state.position[2] == about(-0.0005));
+  CHECK(state.velocity[0] == about(0.1));
   CHECK_EQ(state.time_ns, 1010 * kMs);
   // it stops at the wall, and when the puck is released
   const uint64_t sequence = state.sequence;
@@ -67,7 +70,7 @@ TEST_CASE("spacenav: a pause, and a clock that jumps back, cause no large motion
   daemon.motion({350, 0, 0, 0, 0, 0});
   REQUIRE_EQ(plugin.read(5000 * kMs, state), MVS_DRIVER_OK);
   REQUIRE_EQ(plugin.read(9000 * kMs, state), MVS_DRIVER_OK);
-  CHECK(state.position[0] == doctest::Approx(0.05 * 0.05));  // one longest step of 50 ms
+  CHECK(state.position[0] == about(0.05 * 0.05));  // one longest step of 50 ms
   const double before = state.position[0];
   REQUIRE_EQ(plugin.read(100 * kMs, state), MVS_DRIVER_OK);
   CHECK_EQ(state.position[0], before);
@@ -137,7 +140,7 @@ TEST_CASE("spacenav: the daemon ends, is old, has no mouse, does not run") {
     daemon.motion({0, 350, 0, 0, 0, 0});
     REQUIRE_EQ(plugin.read(1, state), MVS_DRIVER_OK);
     REQUIRE_EQ(plugin.read(1 + 10 * kMs, state), MVS_DRIVER_OK);
-    CHECK(state.position[1] == doctest::Approx(0.0005));
+    CHECK(state.position[1] == about(0.0005));
   }
   {
     FakeDaemon daemon(FakeDaemon::kNoMouse);

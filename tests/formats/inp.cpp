@@ -8,9 +8,11 @@
 #include <string>
 
 #include "model/model.h"
+#include "tests/about.h"
 #include "tests/formats/inp_text.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 namespace {
 
@@ -73,15 +75,15 @@ TEST_CASE("inp_leaflets_are_the_sections_with_their_laws_in_pascal") {
   CHECK(valve.leaflets[0].name == "Anterior");
   CHECK(valve.leaflets[0].law == LeafletLawId::fung);
   CHECK(valve.leaflets[0].thickness == 0.65e-3);
-  CHECK(valve.leaflets[0].constants[0] == doctest::Approx(1000).epsilon(rounding));
-  CHECK(valve.leaflets[0].constants[1] == doctest::Approx(124).epsilon(rounding));
+  CHECK(valve.leaflets[0].constants[0] == about(1000, rounding));
+  CHECK(valve.leaflets[0].constants[1] == about(124, rounding));
   CHECK(valve.leaflets[0].constants[2] == 4.5);
   CHECK(valve.leaflets[1].name == "Septal");
   CHECK(valve.leaflets[1].law == LeafletLawId::neo_hookean);
-  CHECK(valve.leaflets[1].constants[0] == doctest::Approx(40e3).epsilon(rounding));  // 2 C10
+  CHECK(valve.leaflets[1].constants[0] == about(40e3, rounding));  // 2 C10
   CHECK(valve.leaflets[2].name == "Posterior");
   CHECK(valve.leaflets[2].law == LeafletLawId::neo_hookean);
-  CHECK(valve.leaflets[2].constants[0] == doctest::Approx(100e3).epsilon(rounding));  // E / 3
+  CHECK(valve.leaflets[2].constants[0] == about(100e3, rounding));  // E / 3
   CHECK(valve.density == 1050);
 }
 
@@ -93,10 +95,10 @@ TEST_CASE("inp_normals_point_into_the_atrium_and_the_pressure_comes_from_below")
     CHECK(normal.dot(Vec3(-p.x(), -p.y(), 30e-3)) > 0);
   }
   // the file's normals point into the ventricle, and P on SPOS pushes against them
-  CHECK(loaded.state.load.pressure == doctest::Approx(3000).epsilon(rounding));
+  CHECK(loaded.state.load.pressure == about(3000, rounding));
   CHECK(loaded.state.load.boundary_fraction == 1);
   CHECK(read_inp(toy_with("All_Leaflets, SPOS", "All_Leaflets, SNEG")).loaded.state.load.pressure ==
-        doctest::Approx(-3000).epsilon(rounding));
+        about(-3000, rounding));
 }
 
 TEST_CASE("inp_a_sheet_of_the_other_winding_gives_the_same_valve") {
@@ -130,19 +132,18 @@ TEST_CASE("inp_chains_of_trusses_are_cables_with_their_slack") {
   CHECK(trunk.kind == ChordKind::trunk);
   CHECK(trunk.law == ChordLawId::ogden);
   CHECK(trunk.area == 0.5e-6);
-  CHECK(trunk.constants[0] == doctest::Approx(4e6).epsilon(rounding));
+  CHECK(trunk.constants[0] == about(4e6, rounding));
   CHECK(trunk.constants[1] == 50);
   CHECK(trunk.constants[5] == 70);
   // the path by node 911, from the coordinates of the file
   const Vec3 head = valve.rest[36], branch = valve.rest[39];
   const Vec3 between(3.5e-3, head.y(), -19.5e-3);
-  CHECK(trunk.rest_length ==
-        doctest::Approx((between - head).norm() + (branch - between).norm()).epsilon(rounding));
+  CHECK(trunk.rest_length == about((between - head).norm() + (branch - between).norm(), rounding));
   CHECK(trunk.rest_length > 1.04 * (branch - head).norm());
   const Chord &marginal = chord_between(valve, 39, 25);
   CHECK(marginal.kind == ChordKind::marginal);
   CHECK(marginal.law == ChordLawId::linear);
-  CHECK(marginal.young == doctest::Approx(40e6).epsilon(rounding));
+  CHECK(marginal.young == about(40e6, rounding));
   CHECK(chord_between(valve, 36, 14).kind == ChordKind::rough_zone);
 }
 
@@ -199,7 +200,7 @@ TEST_CASE("inp_the_texas_tricuspid_valve_is_imported") {
   CHECK(valve.annulus.size() == 244);
   CHECK(valve.heads.size() == 32);
   CHECK(valve.leaflets.size() == 3);
-  CHECK(imported.loaded.state.load.pressure == doctest::Approx(3060).epsilon(rounding));
+  CHECK(imported.loaded.state.load.pressure == about(3060, rounding));
   // node n of the file is row n - 1, so that its result frames compare node to node
   CHECK(valve.rest[0] == Vec3(-8.164562e-3, 8.880193e-3, 1.297155e-3));
   CHECK(valve.rest[8586] == Vec3(-2.117846e-3, 1.173931e-2, -4.900901e-3));
@@ -208,7 +209,7 @@ TEST_CASE("inp_the_texas_tricuspid_valve_is_imported") {
     CHECK(node < 8587);
     farthest = std::max(farthest, (valve.loaded[node] - valve.rest[node]).norm());
   }
-  CHECK(farthest == doctest::Approx(1.58e-3).epsilon(1e-2));
+  CHECK(farthest == about(1.58e-3, 1e-2));
   // 4166 trusses, of which 2330 nodes join two of a section; 19 cables would double another
   CHECK(valve.chords.size() == 4166 - 2330 + 19);
   CHECK(valve.leaflets[0].constants[2] == 17.75149);

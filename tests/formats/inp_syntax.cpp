@@ -5,9 +5,11 @@
 #include <string>
 
 #include "model/model.h"
+#include "tests/about.h"
 #include "tests/formats/inp_text.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 TEST_CASE("inp_every_ignored_keyword_is_listed_with_its_line") {
   const Imported imported = read_inp(toy_inp());
@@ -57,15 +59,14 @@ TEST_CASE("inp_units_are_those_of_a_comment_in_the_file") {
   const Loaded &kpa = imported.loaded;
   CHECK(kpa.valve.rest == mpa.valve.rest);
   CHECK(kpa.valve.density == mpa.valve.density);
-  CHECK(kpa.state.load.pressure == doctest::Approx(mpa.state.load.pressure).epsilon(rounding));
+  CHECK(kpa.state.load.pressure == about(mpa.state.load.pressure, rounding));
   for (size_t l = 0; l < 3; ++l) {
     for (size_t k = 0; k < 3; ++k) {
       CHECK(kpa.valve.leaflets[l].constants[k] ==
-            doctest::Approx(mpa.valve.leaflets[l].constants[k]).epsilon(rounding));
+            about(mpa.valve.leaflets[l].constants[k], rounding));
     }
   }
-  CHECK(kpa.valve.chords[0].constants[0] ==
-        doctest::Approx(mpa.valve.chords[0].constants[0]).epsilon(rounding));
+  CHECK(kpa.valve.chords[0].constants[0] == about(mpa.valve.chords[0].constants[0], rounding));
   const Loaded same = read_inp("** UNITS = mm MPa\r\n" + toy_inp()).loaded;
   CHECK(hash_of(*make_model(same.valve), same.state) == hash_of(*make_model(mpa.valve), mpa.state));
 }
@@ -110,7 +111,7 @@ TEST_CASE("inp_a_step_with_op_new_replaces_earlier_conditions") {
   const Valve &valve = imported.loaded.valve;
   CHECK(valve.loaded[0] == valve.rest[0]);
   CHECK((valve.loaded[36] - valve.rest[36] - Vec3(0, 0, 1e-4)).norm() < 1e-17);
-  CHECK(imported.loaded.state.load.pressure == doctest::Approx(1000).epsilon(rounding));
+  CHECK(imported.loaded.state.load.pressure == about(1000, rounding));
   CHECK(has_note(imported, "2 steps: the end of the last one is the load"));
   CHECK(has_note(imported,
                  "a node that is held in some directions is held in all of them (6 times)"));

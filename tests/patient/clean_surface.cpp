@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "model/sides.h"
 #include "patient/surface/boundary.h"
+#include "tests/about.h"
 #include "tests/patient/cleaned.h"
 #include "tests/patient/parametric_sheet.h"
 #include "tests/patient/surfaces.h"
@@ -109,7 +110,7 @@ TEST_CASE("clean_surface_drops_collapsed_double_and_flat_triangles") {
   CHECK(sheet.triangles.size() == count + 2);
   CHECK(boundary_loops(sheet).size() == 2);
   // sums of some hundred terms
-  CHECK(area_of(sheet.x, sheet.triangles) == doctest::Approx(area).epsilon(1e-12));
+  CHECK(area_of(sheet.x, sheet.triangles) == about(area, 1e-12));
   double flattest = 1;
   for (const Tri &t : sheet.triangles) flattest = std::min(flattest, triangle_area(sheet.x, t));
   CHECK(flattest > 0.1 * area / double(count));
@@ -123,7 +124,7 @@ TEST_CASE("clean_surface_drops_small_pieces_and_refuses_large_ones") {
   const LeafletSheet sheet = cleaned(s, findings);
   CHECK(sheet.triangles.size() == count);
   CHECK(find(findings, "dropped_pieces")->value[0] == 1);
-  CHECK(find(findings, "dropped_pieces")->value[1] == doctest::Approx(0.5e-6));
+  CHECK(find(findings, "dropped_pieces")->value[1] == about(0.5e-6));
   add_triangle(s, {0, 0, 5e-3}, {1e-2, 0, 5e-3}, {0, 1e-2, 5e-3});
   CHECK_THROWS_WITH_AS(cleaned(s), doctest::Contains("2 pieces"), Error);
 }
@@ -196,7 +197,7 @@ TEST_CASE("clean_surface_splits_an_edge_of_a_body_that_touches_itself") {
   CHECK(find(findings, "separated_points")->value[0] == 2);
   CHECK(wound_alike(sheet.triangles));
   CHECK(boundary_loops(sheet).empty());
-  CHECK(area_of(sheet.x, sheet.triangles) == doctest::Approx(area_of(s.x, s.triangles)));
+  CHECK(area_of(sheet.x, sheet.triangles) == about(area_of(s.x, s.triangles)));
 }
 
 TEST_CASE("clean_surface_separates_parts_that_touch_in_a_point") {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/about.h"
 #include "tests/patient/parametric_sheet.h"
 
 using namespace mvs::core;
@@ -27,8 +28,8 @@ Mat3 turn_of(double angle) {
 TEST_CASE("lengths_around_a_loop_are_wrapped") {
   CHECK(wrapped(-0.25, 1) == 0.75);
   CHECK(wrapped(2.5, 1) == 0.5);
-  CHECK(around(0.9, 0.1, 1) == doctest::Approx(0.2));
-  CHECK(around(0.1, 0.9, 1) == doctest::Approx(-0.2));
+  CHECK(around(0.9, 0.1, 1) == about(0.2));
+  CHECK(around(0.1, 0.9, 1) == about(-0.2));
 }
 
 TEST_CASE("heights_at_the_middles_of_the_leaflets_are_the_given_dimensions") {
@@ -43,7 +44,7 @@ TEST_CASE("heights_at_the_middles_of_the_leaflets_are_the_given_dimensions") {
     }
     CAPTURE(vertices);
     // defaults of 25, 14 and 8 mm; the highest place of the anterior edge is A2
-    CHECK(anterior == doctest::Approx(25e-3).epsilon(0.03));
+    CHECK(anterior == about(25e-3, 0.03));
     CHECK(lowest < 9.5e-3);
     CHECK(lowest > 6e-3);
     for (size_t i = 0; i < p.sheet.x.size(); ++i) {

@@ -16,6 +16,7 @@
 #include "patient/findings.h"
 #include "patient/leaflet_heights.h"
 #include "patient/surface/mirrored.h"
+#include "tests/about.h"
 #include "tests/patient/parametric_sheet.h"
 
 using namespace mvs::core;
@@ -92,7 +93,7 @@ TEST_CASE("commissures_given_beside_the_surface_are_doubted") {
     find_leaflets(p.sheet, p.rims, c, {moved, {}, {}}, found);
     const Finding &said = *find_finding(found, "commissures");
     CHECK(said.source == FindingSource::given);
-    CHECK(said.confidence == doctest::Approx(std::min(1.0, 3e-3 / above)).epsilon(0.02));
+    CHECK(said.confidence == about(std::min(1.0, 3e-3 / above), 0.02));
     CHECK((said.sentence.find("of this patient") != std::string::npos) == (above > 3e-3));
   }
 }
@@ -172,12 +173,12 @@ TEST_CASE("labels_give_the_commissures_also_if_some_are_wrong") {
   Findings findings;
   const LeafletArcs arcs = find_leaflets(p.sheet, p.rims, c, {}, findings);
   CHECK(findings[0].source == FindingSource::measured);
-  CHECK(findings[0].confidence == doctest::Approx(0.9).epsilon(0.03));
+  CHECK(findings[0].confidence == about(0.9, 0.03));
   const Loop annulus(p.rims.annulus, p.sheet.x);
   // the border of the labels is at x = +-17.5 mm, y of 4 mm; half a sample is 0.4 mm, a triangle 1
   // mm
   for (const double s : {arcs.from, arcs.to}) {
-    CHECK(std::abs(annulus.at(s).x()) == doctest::Approx(17.5e-3).epsilon(0.1));
+    CHECK(std::abs(annulus.at(s).x()) == about(17.5e-3, 0.1));
   }
 }
 

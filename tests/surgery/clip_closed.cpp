@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "tests/about.h"
 #include "tests/surgery/clipped.h"
 
 namespace mvs::core::test {
@@ -79,8 +80,7 @@ TEST_CASE("clips_turned_to_either_side_are_mirror_images") {
   // turns by 15, 30 and 45 degrees
   CHECK(stitches(*left.model).size() == stitches(*right.model).size());
   const double area = measure_coaptation(*left.model, left.state.x).area;
-  CHECK(measure_coaptation(*right.model, right.state.x).area ==
-        doctest::Approx(area).epsilon(0.01));
+  CHECK(measure_coaptation(*right.model, right.state.x).area == about(area, 0.01));
 }
 
 TEST_CASE("joined_places_stay_together_and_the_valve_closes") {

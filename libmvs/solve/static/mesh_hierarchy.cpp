@@ -20,7 +20,7 @@ namespace {
 
 const settings::mesh_hierarchy::Extent &extent_for(const Model &model) {
   return has_bilinear_tissue(model) ? settings::mesh_hierarchy::bilinear
-                                    : settings::mesh_hierarchy::exponential;
+                                    : settings::mesh_hierarchy::other_laws;
 }
 
 // A mesh of the hierarchy.
