@@ -6,10 +6,12 @@
 namespace mvs::core::test {
 
 // Equal to a relative tolerance. doctest's own Approx adds 1 to the factor of epsilon, so that
-// numbers in metres would always agree (tests/tolerances.py refuses it). For a value of 0 compare
-// the absolute difference.
+// numbers in metres would always agree (tests/tolerances.py refuses it). Instead a number far below
+// any other is added, so that 0 equals 0. Where rounding leaves another number than 0, compare the
+// absolute difference.
 inline doctest::Approx about(double value, double relative = 1e-5) {
-  return doctest::Approx(value).epsilon(relative).scale(0);
+  constexpr double tiny = 1e-250;
+  return doctest::Approx(value).epsilon(relative).scale(tiny);
 }
 
 }  // namespace mvs::core::test
