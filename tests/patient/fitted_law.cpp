@@ -57,10 +57,10 @@ TEST_CASE("a_fit_that_creeps_is_taken_if_none_came_to_rest") {
   CHECK(one[0].law == bilinear);
   CHECK(plausible_laws(one).size() == 1);
   fits[0].at_rest = false;
-  const std::vector<LawFit> none = in_order(fits);
-  CHECK(none[0].law == prot);
-  CHECK(plausible_laws(none).size() == 2);
-  const Finding tissue = tissue_found(none, prot);
+  const std::vector<LawFit> creeping = in_order(fits);
+  CHECK(creeping[0].law == prot);
+  CHECK(plausible_laws(creeping).size() == 2);
+  const Finding tissue = tissue_found(creeping, prot);
   CHECK(tissue.confidence == 0.2);
   CHECK(tissue.sentence.find("(not at rest)") != std::string::npos);
   CHECK(plausible_laws({}).empty());
