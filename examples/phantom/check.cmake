@@ -85,8 +85,8 @@ elseif(CASE STREQUAL "session")
   endif()
 elseif(CASE STREQUAL "instruments")
   # the push is repeated with each of them; changes are made where the hand is away
-  run(0 ${unattended} --script ${RECORDINGS}/push_p2.txt --option end=loop --option speed=2 --seconds 21
-    --every 2.625 --frames a --keys "0:a 0:7 5.2:i 10.4:i 15.7:i 20.5:s 20.7:w")
+  run(0 ${unattended} --script ${RECORDINGS}/push_p2.txt --option end=loop --option speed=4 --seconds 10.5
+    --every 1.3125 --frames a --keys "0:a 0:7 2.6:i 5.2:i 7.85:i 10.25:s 10.35:w")
   must_print("takes the hook.*takes the spatula.*takes the sizer.*takes the hook"
     "peak force [0-9.]*[1-9] N" "save the valve.*write the plan")
   must_be_pictures(9 ${DIR}/a)

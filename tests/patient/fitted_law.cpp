@@ -86,7 +86,8 @@ TEST_CASE("laws_up_to_a_quarter_farther_away_are_plausible") {
 }
 
 TEST_CASE("law_of_a_closed_valve_is_found_by_its_surface") {
-  const PatientGeometry &g = parametric_geometry(430);
+  // fewer vertices, 260 or 200, leave 0.6 mm, which is more than the noise
+  const PatientGeometry &g = parametric_geometry(320);
   const LeafletLawId truth = LeafletLawId::may_newman_yin;
   Valve valve = with_chordae(g, truth);
   for (Chord &chord : valve.chords) chord.rest_length *= 1.03;

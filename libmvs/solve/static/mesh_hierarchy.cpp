@@ -163,11 +163,11 @@ class HierarchySettling final : public Settling {
     levels_.push_back({&model, nullptr, nullptr, state, options, progress});
     if (has_tissue_with_surrogate(model)) {
       namespace set = settings::mesh_hierarchy;
-      // each begins the settle of the level where it is false
       double left_at = 0;
-      if (is_to_coarsen()) {
+      if (!begin_near_rest()) {
         left_at = set::surrogate_residual;
       } else if (is_overstretched()) {
+        running_.reset();
         left_at = set::overstretched_residual;
       }
       if (left_at > 0) {
@@ -175,7 +175,7 @@ class HierarchySettling final : public Settling {
         levels_.push_back(surrogate_of(levels_.back(), left_at, solver.coarse_levels()));
       }
     }
-    while (is_to_coarsen()) {
+    while (!begin_near_rest()) {
       std::optional<Level> next = coarser(levels_.back(), solver.coarse_levels());
       if (!next) break;
       levels_.back().has_coarser = true;
@@ -203,38 +203,37 @@ class HierarchySettling final : public Settling {
   }
 
  private:
-  // Whether the last level needs a coarser one: it is far from rest. If not, its settle has begun,
-  // since it is the settle that evaluates the forces.
-  bool is_to_coarsen() {
+  // Begins the settle of the last level, which evaluates its forces, unless the level is far from
+  // rest and a coarser one may begin instead: false then.
+  bool begin_near_rest() {
+    if (running_) return true;
     const Level &level = levels_.back();
-    if (running_ || !may_coarsen(level)) return false;
-    if (!boundary_is_there(*level.model, level.state.x, level.state.load.boundary_fraction, 0)) {
+    if (!may_coarsen(level)) {
+      begin_level();
       return true;
+    }
+    if (!boundary_is_there(*level.model, level.state.x, level.state.load.boundary_fraction, 0)) {
+      return false;
     }
     try {
       begin_level();
     } catch (const Error &error) {
       // a coarser level may lead away from positions without finite forces
-      if (error.code != MVS_E_DIVERGED) throw;
-      return far_from_rest(*level.model, level.state);
-    }
-    if (!running_->begins_far_from_rest()) return false;
-    running_.reset();
-    return true;
-  }
-
-  // Whether the last level has tissue stretched so far that its exponential law makes huge forces:
-  // Newton's method follows them in tiny steps.
-  bool is_overstretched() {
-    const Level &level = levels_.back();
-    if (level.options.solver > SolverKind::newton || !level.state.tools.empty()) return false;
-    begin_level();
-    const double rest_force = scale_of(level.state.load) * mean_area(*level.model);
-    if (running_->largest_first_force() <= settings::mesh_hierarchy::overstretched * rest_force) {
+      if (error.code != MVS_E_DIVERGED || !far_from_rest(*level.model, level.state)) throw;
       return false;
     }
+    if (!running_->begins_far_from_rest()) return true;
     running_.reset();
-    return true;
+    return false;
+  }
+
+  // Whether the settle that has begun has tissue stretched so far that its exponential law makes
+  // huge forces: Newton's method follows them in tiny steps.
+  bool is_overstretched() const {
+    const Level &level = levels_.back();
+    if (level.options.solver > SolverKind::newton || !level.state.tools.empty()) return false;
+    const double rest_force = scale_of(level.state.load) * mean_area(*level.model);
+    return running_->largest_first_force() > settings::mesh_hierarchy::overstretched * rest_force;
   }
 
   void begin_level() {

@@ -1,6 +1,8 @@
 """mvs.imaging: label maps become mid-surfaces of leaflets; faults are refused with a sentence."""
 
+import re
 import types
+from pathlib import Path
 
 import mvs
 import numpy as np
@@ -12,7 +14,7 @@ pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 
 from label_images import NAMES, VOXEL, funnel, image_of  # noqa: E402
 from mvs import imaging  # noqa: E402
-from mvs.imaging import mesh  # noqa: E402
+from mvs.imaging import mesh, open_valve  # noqa: E402
 from mvs.imaging.page import distance_histogram  # noqa: E402
 from mvs.imaging.requests import edge_of_labels, thickness_of_labels  # noqa: E402
 from mvs.imaging.tissue_sheet import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
@@ -139,6 +141,16 @@ def test_long_holes_in_one_leaflet_are_left_to_the_build_which_fills_them():
     assert len(filled.values) == 1 and filled.values[0] > 22e-3  # the rim of a hole of 7 mm
     with pytest.raises(mvs.ArgumentError, match="3 rims.*joins the leaflets"):
         imaging.check_open_valve(without_strip(found_in(labels), 2))
+
+
+def test_limits_of_long_holes_are_those_of_the_build():
+    """A hole that the image leaves to the build and the build refuses would be refused with the wrong sentence."""
+    surface = Path(__file__).parents[3] / "libmvs" / "patient" / "surface"
+    text = "".join((surface / name).read_text(encoding="utf-8") for name in ("holes.cpp", "holes.h"))
+    there = dict(re.findall(r"\b(long_hole_share|long_hole_area|other_leaflet) = ([0-9.e-]+)", text))
+    assert {name: float(value) for name, value in there.items()} == {
+        "long_hole_share": open_valve.LONG_HOLE_SHARE, "long_hole_area": open_valve.LONG_HOLE_AREA,
+        "other_leaflet": open_valve.OTHER_LEAFLET}
 
 
 def refused(labels, words, **more):
