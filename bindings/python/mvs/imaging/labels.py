@@ -19,8 +19,7 @@ from .grid import Grid, Volume, spacing_of
 from .mesh import Sheet, areas, handles, in_largest_piece, is_crumpled, largest_piece, loop_length, loops_by_length
 from .needs import need
 from .reading import LabelMap
-from .tissue_sheet import (LabelSettings, Tell, blur_for, check_sheet, fitted_sheet, grid_step, narrow_blur, silent,
-                           tissue_on_grid)
+from .tissue_sheet import LabelSettings, Tell, check_sheet, fitted_sheet, grid_step, silent, tissue_on_grid
 
 UNKNOWN, ANTERIOR, POSTERIOR = 0, 1, 2
 WORDS = {ANTERIOR: ("anterior", "aml", "ant", "a"), POSTERIOR: ("posterior", "pml", "post", "p")}
@@ -136,15 +135,12 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
     grid, tissue = tissue_on_grid(image, mask, grid_step(image, mask))
     # the first sheet without tunnels, or a later one without tears and ragged holes too
     chosen: Optional[tuple[Sheet, list[float], float]] = None
-    blur = settings.blur
     for attempt in range(4):
         radius = attempt * voxel
         if radius:
             tell(f"gaps up to {2e3 * radius:.1f} mm closed, because of tunnels, ragged holes or a ring that is torn")
         sheet, smaller = largest_piece(
-            fitted_sheet(grid, _closed(grid, tissue, radius), voxel, dataclasses.replace(settings, blur=blur), tell))
-        # closed gaps leave the thickness as it is
-        blur = blur or blur_for(sheet, narrow_blur(grid, voxel))
+            fitted_sheet(grid, _closed(grid, tissue, radius), voxel, settings, tell))
         tunnels = handles(sheet)
         if tunnels:
             continue

@@ -123,22 +123,11 @@ def fitted_sheet(grid: Grid, tissue: Volume, voxel: float,
                  settings: LabelSettings = LabelSettings(), tell: Tell = silent) -> Sheet:
     """The mid-surface with a Gaussian that fits the thickness found with a narrow one."""
     smoothing = settings.smoothing or 2 * voxel
-    narrow = settings.blur or narrow_blur(grid, voxel)
+    narrow = settings.blur or max(0.9 * voxel, 1.5 * grid.step)
     tell(f"mid-surface on voxels of {grid.step * 1e3:.2f} mm")
     sheet = mid_surface(grid, tissue, SheetSettings(narrow, smoothing))
-    wide = blur_for(sheet, narrow)
-    if settings.blur or wide == narrow:
+    wide = 0.5 * float(np.median(sheet.values["thickness"]))
+    if settings.blur or wide <= 1.1 * narrow:
         return sheet
     tell(f"mid-surface of tissue that is {2e3 * wide:.2f} mm thick")
     return mid_surface(grid, tissue, SheetSettings(wide, smoothing))
-
-
-def narrow_blur(grid: Grid, voxel: float) -> float:
-    """The standard deviation, m, of a Gaussian that spans the voxels."""
-    return max(0.9 * voxel, 1.5 * grid.step)
-
-
-def blur_for(sheet: Sheet, narrow: float) -> float:
-    """The standard deviation, m, of a Gaussian that fits the thickness of a sheet; not below `narrow`."""
-    wide = 0.5 * float(np.median(sheet.values["thickness"]))
-    return wide if wide > 1.1 * narrow else narrow
