@@ -204,7 +204,7 @@ def test_small_holes_of_a_skin_are_filled_once_and_an_open_sheet_is_no_skin(surf
 
 
 def test_chords_get_lengths_with_which_the_valve_closes_to_a_given_surface(surface):
-    surface = {**surface, "edge": 3.2e-3}  # six searches of lengths: a quarter of the time
+    surface = {**surface, "edge": 3.2e-3}  # searches of lengths take about half of the time
     _, _, closed = built({**surface, "chord_factor": 0.93})
     leaflets = np.asarray(closed.node_kind) <= mvs.NodeKind.ANNULUS
     target = np.array(closed.node_position[leaflets])
