@@ -20,6 +20,13 @@ double trunk_share(ParametricShape shape) {
   return shape == ParametricShape::founding ? 0.6 : 0.4;
 }
 
+// Rest length of a chord over the distance from its tip to the place of its vertex in the closed
+// target: loaded chordae are 1 to 2 % longer than at rest, and 2 % more keep the bellies of the
+// softest tissue below 2 mm of billow (PARAMETRIC.md).
+double rest_share(ParametricShape shape) {
+  return shape == ParametricShape::founding ? 1 : 0.97;
+}
+
 enum ScallopIndex : uint32_t { a1, a2, a3, p1, p2, p3 };
 
 // Returns the scallop at an angle: on the posteromedial half if `medial`, else on its mirror image.
@@ -111,7 +118,8 @@ struct ChordBuilder {
     chord.a = a;
     chord.b = b;
     chord.kind = kind;
-    chord.rest_length = halves.dimensions.chord_slack * length;
+    chord.rest_length =
+        rest_share(halves.dimensions.shape) * halves.dimensions.chord_slack * length;
     if (halves.dimensions.shape == ParametricShape::healthy) {
       chord.area *= static_cast<double>(branches);
     }
@@ -161,6 +169,18 @@ void add_chordae(const Halves &halves, Valve &valve) {
   }
 }
 
+// The bending stiffness of the healthy valve is that of its tissue at rest, at most that of the
+// default membrane (E = 111 kPa). A neo-Hookean constant is that of tissue under load, five times
+// as stiff.
+double bending_scale(const Dimensions &d) {
+  if (d.shape != ParametricShape::healthy) return 1;
+  const auto modulus = [](LeafletLawId id) {
+    const LeafletLaw &law = *find_leaflet_law(id);
+    return bending_modulus(law, default_constants(law.constants));
+  };
+  return std::min(1.0, modulus(LeafletLawId::bilinear) / modulus(d.law));
+}
+
 void load_boundary(const Dimensions &d, Valve &valve) {
   valve.loaded = valve.rest;
   for (uint32_t node : valve.annulus) {
@@ -178,6 +198,7 @@ Valve make_parametric_valve(const mvs_parametric_desc &desc) {
   Valve valve;
   valve.name = "parametric mitral valve";
   name_leaflets(d.law, d.thickness, valve);
+  valve.bending_scale = bending_scale(d);
   add_vertices(halves, valve);
   add_triangles(halves, valve);
   add_annulus(halves, valve);
