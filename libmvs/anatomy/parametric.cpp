@@ -21,10 +21,10 @@ double trunk_share(ParametricShape shape) {
 }
 
 // Rest length of a chord over the distance from its tip to the place of its vertex in the closed
-// target: loaded chordae are 1 to 2 % longer than at rest, and 2 % more keep the bellies of the
+// target: loaded chordae are 1 to 2 % longer than at rest, and the others keep the bellies of the
 // softest tissue below 2 mm of billow (PARAMETRIC.md).
 double rest_share(ParametricShape shape) {
-  return shape == ParametricShape::founding ? 1 : 0.97;
+  return shape == ParametricShape::founding ? 1 : 0.96;
 }
 
 enum ScallopIndex : uint32_t { a1, a2, a3, p1, p2, p3 };

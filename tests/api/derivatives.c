@@ -9,15 +9,19 @@
 
 static const mvs_settle_options tight = {.struct_size = sizeof tight, .residual = 1e-10};
 
-static mvs_sim *closed_valve(void) {
+static mvs_sim *closed_valve_of(uint32_t vertices) {
   mvs_sim *sim = NULL;
   mvs_load_case load = {sizeof load, 0, MVS_SYSTOLE_PA, 1};
-  mvs_parametric_desc desc = {.struct_size = sizeof desc, .vertices = 250};
+  mvs_parametric_desc desc = {.struct_size = sizeof desc, .vertices = vertices};
   MUST(mvs_create(NULL, &sim));
   MUST(mvs_generate_valve(sim, &desc));
   MUST(mvs_set_load(sim, &load));
   MUST(mvs_settle(sim, &tight, NULL));
   return sim;
+}
+
+static mvs_sim *closed_valve(void) {
+  return closed_valve_of(250);
 }
 
 static const mvs_snapshot *snapshot_of(mvs_sim *sim) {
@@ -162,7 +166,7 @@ static int contact_switches_within(const mvs_snapshot *closed, double slack) {
 }
 
 static void contact_about_to_switch_has_two_sides(void) {
-  mvs_sim *sim = closed_valve();
+  mvs_sim *sim = closed_valve_of(310);
   const mvs_snapshot *closed = snapshot_of(sim);
   int switches = 0;
   double slack = 2.5e-7;
