@@ -20,14 +20,15 @@ double trunk_share(ParametricShape shape) {
   return shape == ParametricShape::founding ? 0.6 : 0.4;
 }
 
-// Rest length of a chord over the distance from its tip to the place of its vertex in the closed
-// target: loaded chordae are 1 to 2 % longer than at rest, and the others keep the bellies of the
-// softest tissue below 2 mm of billow (PARAMETRIC.md).
-double rest_share(ParametricShape shape) {
-  return shape == ParametricShape::founding ? 1 : 0.96;
-}
-
 enum ScallopIndex : uint32_t { a1, a2, a3, p1, p2, p3 };
+
+// Rest length of a chord over the distance from its tip to the place of its vertex in the closed
+// target: loaded chordae are 1 to 2 % longer than at rest, and 1 % more keeps the anterior belly of
+// the softest tissue below 2 mm of billow (PARAMETRIC.md).
+double rest_share(ParametricShape shape, uint32_t scallop) {
+  if (shape == ParametricShape::founding) return 1;
+  return scallop <= a3 ? 0.97 : 0.98;
+}
 
 // Returns the scallop at an angle: on the posteromedial half if `medial`, else on its mirror image.
 uint32_t scallop_at(double theta, bool medial) {
@@ -119,7 +120,7 @@ struct ChordBuilder {
     chord.b = b;
     chord.kind = kind;
     chord.rest_length =
-        rest_share(halves.dimensions.shape) * halves.dimensions.chord_slack * length;
+        rest_share(halves.dimensions.shape, scallop) * halves.dimensions.chord_slack * length;
     if (halves.dimensions.shape == ParametricShape::healthy) {
       chord.area *= static_cast<double>(branches);
     }

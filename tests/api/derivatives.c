@@ -165,19 +165,23 @@ static int contact_switches_within(const mvs_snapshot *closed, double slack) {
   return switches && isfinite(above) && isfinite(below) && above != below;
 }
 
+/* Contact of one of these valves is about to switch. */
 static void contact_about_to_switch_has_two_sides(void) {
-  mvs_sim *sim = closed_valve_of(310);
-  const mvs_snapshot *closed = snapshot_of(sim);
+  const uint32_t vertices[] = {230, 200, 330, 310, 290, 240};
   int switches = 0;
-  double slack = 2.5e-7;
-  for (int k = 0; k < 6; ++k) {
-    switches += contact_switches_within(closed, slack);
-    slack *= 2;
+  for (size_t v = 0; v < sizeof vertices / sizeof *vertices && switches == 0; ++v) {
+    mvs_sim *sim = closed_valve_of(vertices[v]);
+    const mvs_snapshot *closed = snapshot_of(sim);
+    double slack = 2.5e-7;
+    for (int k = 0; k < 6; ++k) {
+      switches += contact_switches_within(closed, slack);
+      slack *= 2;
+    }
+    CHECK(!contact_switches_within(closed, 1e-3)); /* nearly all: no values */
+    mvs_snapshot_release(closed);
+    mvs_destroy(sim);
   }
   CHECK(switches > 0);
-  CHECK(!contact_switches_within(closed, 1e-3)); /* nearly all: no values */
-  mvs_snapshot_release(closed);
-  mvs_destroy(sim);
 }
 
 static void bad_input_is_refused(void) {
