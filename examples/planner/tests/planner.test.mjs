@@ -107,7 +107,8 @@ describe('planner', () => {
     );
     const [shape, , all] = seen;
     assert.ok(!shape.now || /Measuring…[^]*…/.test(shape.verdict), shape.verdict);
-    assert.doesNotMatch(all.verdict, /…/);
+    // a list of more chordae beyond their limit than it names ends with a line of its own
+    assert.doesNotMatch(all.verdict.replace(/\n…$/, ''), /…/);
     // while a newer value is tried, the older figures are marked as such
     const tags = await page.evaluate(async () => {
       const { state } = window.planner;
