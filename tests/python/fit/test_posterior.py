@@ -26,7 +26,7 @@ def closed(valve):
 def slack_tree():
     """A closed valve with a branch point whose chordae hang slack, and their rows."""
     with mvs.Simulator(log=lambda level, text: None) as sim:
-        sim.generate(vertices=200, annulus_scale=1.2)
+        sim.generate(vertices=200, annulus_scale=1.2, chord_slack=1.025)
         valve = mvs.valve_of(sim.snapshot())
     base = closed(valve)
     ends = np.array(valve.chord_nodes)
