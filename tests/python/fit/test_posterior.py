@@ -26,6 +26,7 @@ def closed(valve):
 def slack_tree():
     """A closed valve with a branch point whose chordae hang slack, and their rows."""
     with mvs.Simulator(log=lambda level, text: None) as sim:
+        # with the rest lengths of the default valve it leaks, and its chordae pull by little
         sim.generate(vertices=200, annulus_scale=1.2, chord_slack=1.025)
         valve = mvs.valve_of(sim.snapshot())
     base = closed(valve)

@@ -115,9 +115,9 @@ def test_speckle_is_wider_across_the_beam():
 
 
 def test_slack_chordae_of_a_phantom_pass_beside_its_leaflets():
-    """2 of 42 lie in a leaflet for more than 1 mm; more than half did when all arcs bent away from the valve's axis."""
+    """34 of 64 lay in a leaflet for more than 1 mm when all arcs bent away from the axis of the valve, now 8 of 66."""
     with mvs.Simulator(log=lambda *_: None) as sim:
-        sim.generate()
+        sim.generate(chord_slack=1.025)  # with those of the default valve 42 are slack
         settings = phantom.micro_ct(vertices=0)
         opened = true_valve(sim.snapshot(), settings, loaded=False).opened
     anatomy = anatomy_of(opened, settings)
@@ -125,7 +125,7 @@ def test_slack_chordae_of_a_phantom_pass_beside_its_leaflets():
     radius = 1e3 * np.sqrt(np.asarray(opened.chord_area) / np.pi)
     within = np.array([leaflets.within(path, r) for path, r in zip(anatomy.paths, radius)])
     slack = np.array([len(path) > 2 for path in anatomy.paths])
-    assert slack.sum() > 30
+    assert slack.sum() > 50
     # the others are in the leaflets in all planes: they insert flat, or begin behind a leaflet
     assert (within[slack] > 1).mean() < 0.15
     drawn = np.array([np.linalg.norm(np.diff(path, axis=0), axis=1).sum() for path in anatomy.paths])
