@@ -44,9 +44,9 @@ def test_one_closure_with_every_tissue(law):
 
 
 @LONG
-@pytest.mark.parametrize("vertices", [432, 1600, 6400])
 @pytest.mark.parametrize("pressure", [100, 120, 140])
 @pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("vertices", [6400, 1600, 432])  # the long ones first, for workers side by side
 def test_every_tissue_along_eight_paths(law, pressure, vertices):
     import healthy
 
