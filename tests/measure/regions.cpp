@@ -122,38 +122,6 @@ TEST_CASE("scallops_add_up_to_the_valve") {
   }
 }
 
-TEST_CASE("a_commissure_is_where_attachments_of_leaflets_meet") {
-  Valve three = valve_of(disc(16 * mm, 4 * mm, [](double, double) { return 0; }));
-  three.leaflets.resize(3);
-  three.leaflets[2].name = "S";
-  for (size_t t = 0; t < three.triangles.size(); ++t) {
-    // the half of P with y < 0 becomes a leaflet of its own
-    const Tri &c = three.triangles[t];
-    const Vec3 middle = (three.rest[c[0]] + three.rest[c[1]] + three.rest[c[2]]) / 3;
-    if (three.triangle_leaflet[t] == 1 && middle[1] < 0) three.triangle_leaflet[t] = 2;
-  }
-  const RegionMap map(*make_model(three));
-  REQUIRE(map.size() == 6);
-  CHECK(map.name(3) == "A-P");
-  CHECK(map.name(4) == "A-S");
-  CHECK(map.name(5) == "P-S");
-  // 10 % of the annulus each
-  std::vector<size_t> triangles(map.size());
-  for (uint32_t t = 0; t < three.triangles.size(); ++t) {
-    map.for_each(t, [&](uint32_t region) { ++triangles[region]; });
-  }
-  const double tenth = 0.1 * static_cast<double>(three.triangles.size());
-  for (size_t k = 3; k < 6; ++k) {
-    // 48 edges around: up to a half of one at either end
-    CHECK(std::abs(static_cast<double>(triangles[k]) - tenth) <= tenth / 4.8 + 1);
-  }
-  // one leaflet along the whole annulus has none
-  Valve one = valve_of(disc(16 * mm, 4 * mm, [](double, double) { return 0; }));
-  one.leaflets.resize(1);
-  for (size_t t = 0; t < one.triangles.size(); ++t) one.triangle_leaflet[t] = 0;
-  CHECK(RegionMap(*make_model(one)).size() == 1);
-}
-
 TEST_CASE("the_lengths_of_scallops_have_the_mean_and_minimum_of_the_line") {
   const Measured m(healthy().model, healthy().x);
   double least = 1, most = 0;

@@ -1,5 +1,6 @@
-// Commissural tissue: triangles whose nearest point of the annulus, in the rest shape, is close to
-// a commissure along the annulus.
+// Commissural tissue: triangles of the scallops that meet at a commissure, whose nearest point of
+// the annulus, in the rest shape, is close to it along the annulus. The middle of a tall leaflet
+// that hangs in a funnel may be nearest to a commissure too, and is not part of it.
 #include "measure/regions/region_map.h"
 
 #include <algorithm>
@@ -80,7 +81,9 @@ void RegionMap::find_commissures(const Model &model) {
     double least = reach;
     for (size_t k = 0; k < commissures.size(); ++k) {
       const double off = std::abs(std::remainder(s - commissures[k].at, loop.length()));
-      if (off >= least) continue;
+      const std::array<uint32_t, 2> &meet = commissures[k].scallops;
+      if (off >= least || std::find(meet.begin(), meet.end(), scallop_of_[t]) == meet.end())
+        continue;
       least = off;
       commissure_of_[t] = static_cast<uint32_t>(scallops_ + k);
     }
