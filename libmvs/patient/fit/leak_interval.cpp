@@ -179,11 +179,12 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
   const std::string ranges = ranges_of(interval, edge, thickness_error);
   Finding finding{"leak_interval", FindingSource::measured, confidence, {}, {}, "m2"};
   if (known) {
-    finding.sentence = format(
-        "%.1f to %.1f mm2 for %s%s", interval.least * 1e6, interval.most * 1e6, ranges.c_str(),
+    finding.sentence = format("%.1f to %.1f mm2 for %s", interval.least * 1e6, interval.most * 1e6,
+                              ranges.c_str());
+    finding.sentence +=
         interval.draws == 0
-            ? ": sealed with all of them"
-            : format("; %u closures with random ones are among them", interval.draws).c_str());
+            ? format(": each of these closures leaks less than %.1f mm2", sealed * 1e6)
+            : format("; %u closures with random ones are among them", interval.draws);
     if (!at_rest) {
       finding.sentence += format("; %u of %u closures did not come to rest and are left out",
                                  interval.closures - interval.rests, interval.closures);

@@ -9,6 +9,7 @@
 #include "geometry/aabb.h"
 #include "model/sides.h"
 #include "patient/findings.h"
+#include "patient/mesh/surface_pieces.h"
 #include "patient/surface/manifold.h"
 #include "patient/surface/weld.h"
 
@@ -20,6 +21,9 @@ namespace {
 constexpr double weld_share = 0.01;
 // Share of the area below which a separate piece is no leaflet.
 constexpr double spur_share = 0.01;
+// Share of the median edge within which rims of two pieces are one seam: leaflets that were
+// exported one by one, each rounded or smoothed by itself. Far below any gap that a person sees.
+constexpr double seam_share = 0.1;
 // m: the largest extent of a mitral valve. The smallest annulus of an infant is 10 mm wide; a
 // dilated annulus is 60 mm wide, with papillary muscles and a margin 150 mm.
 constexpr double least_extent = 10e-3, most_extent = 150e-3;
@@ -63,6 +67,22 @@ double extent_of(const LeafletSheet &sheet, const std::vector<uint8_t> &marks) {
     if (marks[t] != 0) box.add(aabb_of(sheet.x, sheet.triangles[t]));
   }
   return (box.high - box.low).maxCoeff();
+}
+
+// The distance of two points far apart, at most that of the farthest two: in a few sweeps from the
+// farthest point of the last. However the surface is turned, it is the same.
+double far_apart(const std::vector<Vec3> &x) {
+  constexpr int sweeps = 4;
+  Vec3 from = x.front();
+  double distance = 0;
+  for (int k = 0; k < sweeps; ++k) {
+    const auto far = std::max_element(x.begin(), x.end(), [&](const Vec3 &a, const Vec3 &b) {
+      return (a - from).squaredNorm() < (b - from).squaredNorm();
+    });
+    distance = std::max(distance, k > 0 ? (*far - from).norm() : 0.0);
+    from = *far;
+  }
+  return distance;
 }
 
 void check_extent(double extent) {
@@ -149,64 +169,37 @@ void drop_collapsed(LeafletSheet &sheet, Findings &findings) {
                {static_cast<double>(collapsed), static_cast<double>(doubled)}, "");
 }
 
-struct Pieces {
-  std::vector<uint32_t> of_triangle;
-  std::vector<double> area;  // m2
-  uint32_t largest = 0;
-};
-
-Pieces measured_pieces(const LeafletSheet &sheet, const std::vector<uint32_t> &across) {
-  Pieces pieces;
-  pieces.of_triangle = pieces_of(across);
-  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
-    const uint32_t piece = pieces.of_triangle[t];
-    if (piece == pieces.area.size()) pieces.area.push_back(0);
-    pieces.area[piece] += triangle_area(sheet.x, sheet.triangles[t]);
-  }
-  const auto most = std::max_element(pieces.area.begin(), pieces.area.end());
-  pieces.largest = static_cast<uint32_t>(most - pieces.area.begin());
-  return pieces;
-}
-
-void refuse_pieces(const std::vector<double> &area, double least, const SurfaceJoin &join) {
-  std::vector<double> large;
-  std::copy_if(area.begin(), area.end(), std::back_inserter(large),
-               [&](double a) { return a >= least; });
-  if (large.size() == 1) return;
-  MVS_MUST(
-      !large.empty(), MVS_E_OP, "triangles",
-      "the surface is a cloud of %zu pieces that are not connected, none of them above 1 %% of "
-      "its area: its triangles do not fit its points, or it has no common points where "
-      "triangles meet: weld it",
-      area.size());
-  std::sort(large.rbegin(), large.rend());
-  std::string list;
-  for (size_t k = 0; k < std::min<size_t>(large.size(), 5); ++k) {
-    list += format("%s%.0f", k > 0 ? ", " : "", large[k] * 1e6);
-  }
-  if (large.size() > 5) list += ", ...";
-  std::string where;
-  if (join.opened > 0) {
-    where = format(
-        "; at %zu edges, the first near (%.1f, %.1f, %.1f) mm, more than two triangles "
-        "meet",
-        join.opened, join.opened_at.x() * 1e3, join.opened_at.y() * 1e3, join.opened_at.z() * 1e3);
-  }
-  fail(MVS_E_OP, "triangles",
-       "the surface has %zu pieces that are not connected, of %s mm2%s: give the leaflets as one "
-       "surface from the annulus to the free edge, with common points where pieces meet",
-       large.size(), list.c_str(), where.c_str());
-}
-
-// Keeps the largest piece.
+// Keeps the largest piece; rims of two large pieces that meet within rounding are joined before.
 void drop_spurs(LeafletSheet &sheet, SurfaceJoin &join, Findings &findings) {
-  const Pieces pieces = measured_pieces(sheet, join.across);
+  SurfacePieces pieces = measured_pieces(sheet, join.across);
   const double total = std::accumulate(pieces.area.begin(), pieces.area.end(), 0.0);
   std::vector<uint8_t> kept(sheet.triangles.size(), 0);
   for (size_t t = 0; t < kept.size(); ++t) kept[t] = pieces.of_triangle[t] == pieces.largest;
   check_extent(extent_of(sheet, kept));
-  refuse_pieces(pieces.area, spur_share * total, join);
+  const double least = spur_share * total;
+  if (pieces.count(least) > 1) {
+    const double distance = seam_share * median_edge(sheet.x, sheet.triangles);
+    const size_t joined = join_rims(sheet, join.across, pieces, distance);
+    if (joined > 0) {
+      add_measured(
+          findings, "joined_pieces",
+          format("rims of separate pieces meet within %.3f mm and were joined at %zu points",
+                 distance * 1e3, joined),
+          {static_cast<double>(joined)}, "");
+      join = join_sides(sheet.x, sheet.triangles);
+      pieces = measured_pieces(sheet, join.across);
+    }
+    if (pieces.count(least) != 1) refuse_pieces(sheet, pieces, least, join);
+  }
+  MVS_MUST(
+      pieces.count(least) == 1, MVS_E_OP, "triangles",
+      "the surface is a cloud of %zu pieces that are not connected, none of them above 1 %% of "
+      "its area: its triangles do not fit its points, or it has no common points where "
+      "triangles meet: weld it",
+      pieces.area.size());
   if (pieces.area.size() == 1) return;
+  kept.assign(sheet.triangles.size(), 0);
+  for (size_t t = 0; t < kept.size(); ++t) kept[t] = pieces.of_triangle[t] == pieces.largest;
   const double dropped = total - pieces.area[pieces.largest];
   keep_triangles(sheet, kept);
   add_measured(findings, "dropped_pieces",
@@ -275,11 +268,10 @@ LeafletSheet clean_surface(const std::vector<Vec3> &points, const std::vector<Tr
   }
   drop_unused(sheet);
   const double area = surface_area(sheet.x, sheet.triangles);
-  const double extent = extent_of(sheet, std::vector<uint8_t>(sheet.triangles.size(), 1));
   add_measured(findings, "surface",
-               format("%zu triangles with sides of %.2f mm, together %.0f mm2 and %.1f mm wide",
+               format("%zu triangles with sides of %.2f mm, together %.0f mm2 and %.1f mm across",
                       sheet.triangles.size(), median_edge(sheet.x, sheet.triangles) * 1e3,
-                      area * 1e6, extent * 1e3),
+                      area * 1e6, far_apart(sheet.x) * 1e3),
                {area}, "m2");
   return sheet;
 }

@@ -118,7 +118,7 @@ bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &ti
       odds <= most_odds, MVS_E_OP, "papillary_tips",
       "the papillary tips are nearer to the boundary that is the annulus by its shape, %.0f mm "
       "from it and %.0f mm from the free edge: tips lie below the free edge; are both in one "
-      "frame (LPS or RAS)? If so, give points of the annulus",
+      "frame (LPS or RAS) and one unit? If so, give points of the annulus",
       near * 1e3, far * 1e3);
   return annulus == 0;
 }
