@@ -15,7 +15,7 @@ namespace cli {
 namespace {
 
 // A finding that says at this confidence or less that an input is wrong: given points are 97 to
-// 100 % sure beside a surface that they fit; a closed surface 1.5 mm (RMS) from the fitted valve
+// 100 % sure beside a surface that they fit; a closed surface 1.45 mm (RMS) from the fitted valve
 // has a third; a finding that is named only where something is wrong counts whenever it is there.
 struct Doubt {
   const char *name;

@@ -83,6 +83,7 @@ size_t join_rims(LeafletSheet &sheet, const std::vector<uint32_t> &across,
                  const SurfacePieces &pieces, double distance) {
   const std::vector<RimPoint> rim = rim_points(sheet, across, pieces);
   std::vector<Vec3> x;
+  x.reserve(rim.size());
   for (const RimPoint &point : rim) x.push_back(sheet.x[point.vertex]);
   const std::vector<uint32_t> first = weld_map(x, distance);
   std::vector<uint8_t> meet(rim.size(), 0);  // clusters with points of two pieces
