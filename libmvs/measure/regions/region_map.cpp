@@ -29,6 +29,7 @@ std::vector<Tri> sides_of(const Loop &loop) {
 struct Commissure {
   std::array<uint32_t, 2> scallops;  // that meet there, in their order
   double at;                         // m along the annulus
+  bool has(uint32_t scallop) const { return scallop == scallops[0] || scallop == scallops[1]; }
   bool operator<(const Commissure &other) const {
     return scallops != other.scallops ? scallops < other.scallops : at < other.at;
   }
@@ -81,9 +82,7 @@ void RegionMap::find_commissures(const Model &model) {
     double least = reach;
     for (size_t k = 0; k < commissures.size(); ++k) {
       const double off = std::abs(std::remainder(s - commissures[k].at, loop.length()));
-      const std::array<uint32_t, 2> &meet = commissures[k].scallops;
-      if (off >= least || std::find(meet.begin(), meet.end(), scallop_of_[t]) == meet.end())
-        continue;
+      if (off >= least || !commissures[k].has(scallop_of_[t])) continue;
       least = off;
       commissure_of_[t] = static_cast<uint32_t>(scallops_ + k);
     }

@@ -2,8 +2,9 @@
 #include "patient/mesh/surface_pieces.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <numeric>
+#include <string>
 
 #include "base/error.h"
 #include "geometry/triangle_bvh.h"
@@ -40,21 +41,27 @@ struct PieceGap {
   Vec3 at;
 };
 
+std::vector<Tri> triangles_of(const LeafletSheet &sheet, const SurfacePieces &pieces,
+                              uint32_t piece) {
+  std::vector<Tri> triangles;
+  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
+    if (pieces.of_triangle[t] == piece) triangles.push_back(sheet.triangles[t]);
+  }
+  return triangles;
+}
+
 // From the vertices of one piece to the triangles of another one.
 PieceGap gap_between(const LeafletSheet &sheet, const SurfacePieces &pieces, uint32_t from,
                      uint32_t to) {
-  std::vector<Tri> triangles;
-  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
-    if (pieces.of_triangle[t] == to) triangles.push_back(sheet.triangles[t]);
-  }
+  const std::vector<Tri> triangles = triangles_of(sheet, pieces, to);
   const TriangleBvh tree(triangles, sheet.x);
-  PieceGap gap{-1, Vec3::Zero()};
-  for (size_t t = 0; t < sheet.triangles.size(); ++t) {
-    if (pieces.of_triangle[t] != from) continue;
-    for (const uint32_t i : sheet.triangles[t]) {
-      const double distance = (tree.closest(sheet.x[i]).point - sheet.x[i]).norm();
-      if (gap.distance < 0 || distance < gap.distance) gap = {distance, sheet.x[i]};
-    }
+  const std::vector<uint8_t> marks =
+      vertex_marks(triangles_of(sheet, pieces, from), sheet.x.size());
+  PieceGap gap{INFINITY, Vec3::Zero()};
+  for (size_t i = 0; i < marks.size(); ++i) {
+    if (marks[i] == 0) continue;
+    const double distance = (tree.closest(sheet.x[i]).point - sheet.x[i]).norm();
+    if (distance < gap.distance) gap = {distance, sheet.x[i]};
   }
   return gap;
 }
@@ -64,6 +71,12 @@ PieceGap gap_between(const LeafletSheet &sheet, const SurfacePieces &pieces, uin
 size_t SurfacePieces::count(double least) const {
   return static_cast<size_t>(
       std::count_if(area.begin(), area.end(), [&](double a) { return a >= least; }));
+}
+
+std::vector<uint8_t> SurfacePieces::marks_of_largest() const {
+  std::vector<uint8_t> marks(of_triangle.size(), 0);
+  for (size_t t = 0; t < marks.size(); ++t) marks[t] = of_triangle[t] == largest;
+  return marks;
 }
 
 SurfacePieces measured_pieces(const LeafletSheet &sheet, const std::vector<uint32_t> &across) {
@@ -116,7 +129,6 @@ void refuse_pieces(const LeafletSheet &sheet, const SurfacePieces &pieces, doubl
   for (uint32_t k = 0; k < pieces.area.size(); ++k) {
     if (pieces.area[k] >= least) large.push_back(k);
   }
-  if (large.size() < 2) return;
   std::stable_sort(large.begin(), large.end(),
                    [&](uint32_t a, uint32_t b) { return pieces.area[a] > pieces.area[b]; });
   std::string list;

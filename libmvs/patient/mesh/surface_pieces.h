@@ -16,6 +16,8 @@ struct SurfacePieces {
 
   // How many have this area or more.
   size_t count(double least) const;
+  // Marks the triangles of the largest.
+  std::vector<uint8_t> marks_of_largest() const;
 };
 
 SurfacePieces measured_pieces(const LeafletSheet &sheet, const std::vector<uint32_t> &across);
@@ -25,9 +27,9 @@ SurfacePieces measured_pieces(const LeafletSheet &sheet, const std::vector<uint3
 size_t join_rims(LeafletSheet &sheet, const std::vector<uint32_t> &across,
                  const SurfacePieces &pieces, double distance);
 
-// Fails with MVS_E_OP: the areas of the pieces of `least` or more, and where the second largest
-// lies nearest to the largest. Returns if fewer than two have that area.
-void refuse_pieces(const LeafletSheet &sheet, const SurfacePieces &pieces, double least,
-                   const SurfaceJoin &join);
+// Fails with MVS_E_OP: the areas of the pieces of `least` or more, of which there are two or more,
+// and where the second largest lies nearest to the largest.
+[[noreturn]] void refuse_pieces(const LeafletSheet &sheet, const SurfacePieces &pieces,
+                                double least, const SurfaceJoin &join);
 
 }  // namespace mvs::core

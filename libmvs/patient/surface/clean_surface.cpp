@@ -173,9 +173,7 @@ void drop_collapsed(LeafletSheet &sheet, Findings &findings) {
 void drop_spurs(LeafletSheet &sheet, SurfaceJoin &join, Findings &findings) {
   SurfacePieces pieces = measured_pieces(sheet, join.across);
   const double total = std::accumulate(pieces.area.begin(), pieces.area.end(), 0.0);
-  std::vector<uint8_t> kept(sheet.triangles.size(), 0);
-  for (size_t t = 0; t < kept.size(); ++t) kept[t] = pieces.of_triangle[t] == pieces.largest;
-  check_extent(extent_of(sheet, kept));
+  check_extent(extent_of(sheet, pieces.marks_of_largest()));
   const double least = spur_share * total;
   if (pieces.count(least) > 1) {
     const double distance = seam_share * median_edge(sheet.x, sheet.triangles);
@@ -189,7 +187,7 @@ void drop_spurs(LeafletSheet &sheet, SurfaceJoin &join, Findings &findings) {
       join = join_sides(sheet.x, sheet.triangles);
       pieces = measured_pieces(sheet, join.across);
     }
-    if (pieces.count(least) != 1) refuse_pieces(sheet, pieces, least, join);
+    if (pieces.count(least) > 1) refuse_pieces(sheet, pieces, least, join);
   }
   MVS_MUST(
       pieces.count(least) == 1, MVS_E_OP, "triangles",
@@ -198,10 +196,8 @@ void drop_spurs(LeafletSheet &sheet, SurfaceJoin &join, Findings &findings) {
       "triangles meet: weld it",
       pieces.area.size());
   if (pieces.area.size() == 1) return;
-  kept.assign(sheet.triangles.size(), 0);
-  for (size_t t = 0; t < kept.size(); ++t) kept[t] = pieces.of_triangle[t] == pieces.largest;
   const double dropped = total - pieces.area[pieces.largest];
-  keep_triangles(sheet, kept);
+  keep_triangles(sheet, pieces.marks_of_largest());
   add_measured(findings, "dropped_pieces",
                format("%zu separate pieces of together %.2f mm2, each below 1 %% of the area, were "
                       "dropped",
