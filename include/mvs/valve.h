@@ -50,7 +50,10 @@ enum mvs_leaflet_law_e {
   /* W = c0 (exp(c1 (I1 - 3)^2 + c2 (I4 - 1)^2) - 1) (Prot et al. 2009): c0, Pa [52]; c1 [4.63]; c2
    * [22.6], the anterior leaflet; posterior 171, 5.28, 6.46. */
   MVS_LEAFLET_LAW_PROT = 5,
-  /* W = mu / 2 (I1 - 3): mu, Pa [200e3]; Young's modulus is 3 mu. */
+  /* W = mu / 2 (I1 - 3): mu, Pa [200e3]; bending, Pa [112e3]. Young's modulus of the plane sheet is
+   * 3 mu, that of the bending stiffness the lesser of 3 mu and `bending`: mu is a modulus of tissue
+   * under load, which bends as softly as tissue at rest (the default of the bilinear membrane).
+   * Give 1e12 for a plate of 3 mu. */
   MVS_LEAFLET_LAW_NEO_HOOKEAN = 6
 };
 typedef uint32_t mvs_leaflet_law;

@@ -170,18 +170,6 @@ void add_chordae(const Halves &halves, Valve &valve) {
   }
 }
 
-// The bending stiffness of the healthy valve is that of its tissue at rest, at most that of the
-// default membrane (E = 111 kPa). A neo-Hookean constant is that of tissue under load, five times
-// as stiff.
-double bending_scale(const Dimensions &d) {
-  if (d.shape != ParametricShape::healthy) return 1;
-  const auto modulus = [](LeafletLawId id) {
-    const LeafletLaw &law = *find_leaflet_law(id);
-    return bending_modulus(law, default_constants(law.constants));
-  };
-  return std::min(1.0, modulus(LeafletLawId::bilinear) / modulus(d.law));
-}
-
 void load_boundary(const Dimensions &d, Valve &valve) {
   valve.loaded = valve.rest;
   for (uint32_t node : valve.annulus) {
@@ -199,7 +187,6 @@ Valve make_parametric_valve(const mvs_parametric_desc &desc) {
   Valve valve;
   valve.name = "parametric mitral valve";
   name_leaflets(d.law, d.thickness, valve);
-  valve.bending_scale = bending_scale(d);
   add_vertices(halves, valve);
   add_triangles(halves, valve);
   add_annulus(halves, valve);

@@ -40,8 +40,9 @@ std::span<const LeafletLaw> leaflet_laws();           // in the order of their i
 const LeafletLaw *find_leaflet_law(LeafletLawId id);  // null if unknown
 Constants default_constants(std::span<const Constant> constants);
 
-// Young's modulus for the bending stiffness: the tangent at rest or, for a law without initial
-// stiffness, the secant of its uniaxial curve along the fibre at a strain of 0.1.
+// Young's modulus for the bending stiffness: the tangent at rest, for a neo-Hookean sheet at most
+// its constant "bending" (0: no limit); for a law without initial stiffness, the secant of its
+// uniaxial curve along the fibre at a strain of 0.1.
 double bending_modulus(const LeafletLaw &law, const Constants &constants);
 
 // Nominal stress of a sheet under equibiaxial stretch, Pa.

@@ -41,7 +41,8 @@ const Constant *too_small(const LeafletLaw &law, const Constants &constants, dou
   for (size_t k = 0; k < law.constants.size(); ++k) {
     const Constant &c = law.constants[k];
     value = constants[k];
-    if (*c.unit && value < little * c.fallback) return &c;
+    const bool is_none = value == 0 && c.low == 0;
+    if (*c.unit && value < little * c.fallback && !is_none) return &c;
   }
   return nullptr;
 }

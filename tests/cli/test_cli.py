@@ -54,11 +54,11 @@ class Info(Command):
         mu = float(re.search(r"law=neo_hookean.* mu=(\S+)", text)[1])
         for row in self.json("info", "neo.obj")["tissue"]:
             self.assertEqual(row["law"], "neo_hookean")
-            self.assertEqual(row["constants"], {"mu": mu})
-            self.assertEqual(row["units"], {"mu": "Pa"})
+            self.assertEqual(row["constants"], {"mu": mu, "bending": 112e3})
+            self.assertEqual(row["units"], {"mu": "Pa", "bending": "Pa"})
             self.assertAlmostEqual(row["thickness_min_mm"], 1.2)
             self.assertAlmostEqual(row["thickness_max_mm"], 1.2)
-        self.assertIn("neo_hookean, mu 200000 Pa, 1.20 mm thick", self.ok("info", "neo.obj").stdout)
+        self.assertIn("neo_hookean, mu 200000 Pa, bending 112000 Pa, 1.20 mm thick", self.ok("info", "neo.obj").stdout)
 
 
 class BadInput(Command):

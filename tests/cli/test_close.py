@@ -67,6 +67,11 @@ class Close(Command):
         self.assertIn("yields without end", done.stderr)
         self.ok("close", "v.obj", "--leaflet", "neo_hookean")
 
+    def test_a_warning_of_the_mesh_is_said_once(self):
+        self.ok("generate", "-o", "fine.obj", "--vertices", 1100)
+        done = self.ok("close", "fine.obj", "--leaflet", "neo_hookean")  # loads the valve, then changes two leaflets
+        self.assertEqual(done.stderr.count("edges are shorter than the contact thickness"), 1)
+
     def test_same_command_gives_the_same_bits(self):
         self.assertEqual(self.json("close", "v.obj")["hash"], self.closed["hash"])
 

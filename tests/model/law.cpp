@@ -125,6 +125,17 @@ TEST_CASE("exponentials_continue_past_the_range_of_leaflets_and_end_without_a_ju
   }
 }
 
+TEST_CASE("a_neo_hookean_sheet_bends_with_the_lesser_of_its_two_moduli") {
+  const LeafletLaw &law = *find_leaflet_law(LeafletLawId::neo_hookean);
+  CHECK(bending_modulus(law, {2e5, 112e3}) == 112e3);
+  CHECK(bending_modulus(law, {1e4, 112e3}) == 3e4);
+  CHECK(bending_modulus(law, {2e5, 0}) == 6e5);  // 0: no limit
+  const LeafletLaw &membrane = *find_leaflet_law(LeafletLawId::bilinear);
+  const double at_rest = bending_modulus(membrane, default_constants(membrane.constants));
+  const double limit = default_constants(law.constants)[1];
+  CHECK(std::abs(limit - at_rest) < 0.5e3);  // the default is that modulus in whole kPa
+}
+
 TEST_CASE("chord_laws_have_the_derivatives_of_their_energy") {
   Valve valve;
   valve.curves = {{0, "measured", {{0.02, 0}, {0.08, 1e6}, {0.11, 4e6}}}};

@@ -36,6 +36,16 @@ def test_the_membrane_is_the_default_and_springs_the_founding_model():
 
 
 @pytest.mark.parametrize("law", LAWS)
+def test_tissue_that_is_chosen_later_makes_the_same_valve(law):
+    with mvs.Simulator() as sim:
+        sim.generate(vertices=200, leaflet=law)
+        at_once = sim.snapshot().hash
+        sim.generate(vertices=200, leaflet="prot" if law == "fung" else "fung")
+        sim.set_leaflet(law=law)
+        assert sim.snapshot().hash == at_once
+
+
+@pytest.mark.parametrize("law", LAWS)
 def test_one_closure_with_every_tissue(law):
     import healthy
 

@@ -2,11 +2,16 @@
 
 #include <cinttypes>
 #include <cstdio>
+#include <set>
+#include <string>
 
 namespace cli {
 
+// A valve that is changed or closed several times is checked each time: a sentence is said once.
 void log_to_stderr(void *, mvs_log_level level, const char *text) {
-  if (level <= MVS_LOG_WARNING) std::fprintf(stderr, "mvs: %s\n", text);
+  static std::set<std::string> said;
+  if (level > MVS_LOG_WARNING || !said.insert(text).second) return;
+  std::fprintf(stderr, "mvs: %s\n", text);
 }
 
 mvs::Simulator make_sim(mvs_sim_desc desc) {

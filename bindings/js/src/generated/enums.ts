@@ -138,7 +138,12 @@ export const LeafletLaw = {
    * [22.6], the anterior leaflet; posterior 171, 5.28, 6.46.
    */
   prot: 5,
-  /** W = mu / 2 (I1 - 3): mu, Pa [200e3]; Young's modulus is 3 mu. */
+  /**
+   * W = mu / 2 (I1 - 3): mu, Pa [200e3]; bending, Pa [112e3]. Young's modulus of the plane sheet is
+   * 3 mu, that of the bending stiffness the lesser of 3 mu and `bending`: mu is a modulus of tissue
+   * under load, which bends as softly as tissue at rest (the default of the bilinear membrane).
+   * Give 1e12 for a plate of 3 mu.
+   */
   neo_hookean: 6,
 } as const;
 export type LeafletLaw = keyof typeof LeafletLaw;
