@@ -2,6 +2,7 @@
 #include "patient/fit/fitted_law.h"
 
 #include <doctest/doctest.h>
+#include <cstdlib>
 
 #include "patient/findings.h"
 #include "patient/fit/closure.h"
@@ -85,7 +86,10 @@ TEST_CASE("laws_up_to_a_quarter_farther_away_are_plausible") {
   CHECK(laws[1].law == prot);
 }
 
+// MVS_TEST_LONG: also the fit of the other law, two thirds of the time; tests/cli/test_surface_import.py
+// has the choice between laws in every run.
 TEST_CASE("law_of_a_closed_valve_is_found_by_its_surface") {
+  const bool is_long = std::getenv("MVS_TEST_LONG") != nullptr;
   // fewer vertices, 260 or 200, leave 0.6 mm, which is more than the noise
   const PatientGeometry &g = parametric_geometry(320);
   const LeafletLawId truth = LeafletLawId::may_newman_yin;
@@ -96,7 +100,9 @@ TEST_CASE("law_of_a_closed_valve_is_found_by_its_surface") {
   given.points.resize(g.sheet.x.size());
   std::vector<LawFit> fits;
   uint32_t searches = 0;
-  for (const LeafletLawId law : {LeafletLawId::bilinear, truth}) {
+  std::vector<LeafletLawId> laws = {truth};
+  if (is_long) laws.push_back(LeafletLawId::bilinear);
+  for (const LeafletLawId law : laws) {
     const std::optional<LawFit> fit =
         fit_law(with_chordae(g, law), g, given, false, [&](uint32_t search) {
           CHECK(search < law_searches);
@@ -105,12 +111,13 @@ TEST_CASE("law_of_a_closed_valve_is_found_by_its_surface") {
     REQUIRE(fit);
     fits.push_back(*fit);
   }
-  CHECK(searches == 2 * law_searches);
-  // its own law meets the surface as well as a fit weighs it, the other one does not
-  CHECK(fits[1].distance < FitSettings().noise);
-  CHECK(fits[0].distance > FitSettings().noise);
+  CHECK(searches == laws.size() * law_searches);
+  // its own law meets the surface as well as a fit weighs it
+  CHECK(fits[0].distance < FitSettings().noise);
+  CHECK(fits[0].rms < FitSettings().noise);
+  CHECK(fits[0].factor.size() > 4);
+  if (!is_long) return;
+  CHECK(fits[1].distance > FitSettings().noise);
   CHECK(in_order(fits)[0].law == truth);
   CHECK(tissue_found(in_order(fits), truth).confidence == 0.6);
-  CHECK(fits[1].rms < FitSettings().noise);
-  CHECK(fits[1].factor.size() > 4);
 }
