@@ -150,7 +150,8 @@ make_venv() {
 }
 
 # Has .venv import the Python module of the release tree, which compiles nothing of the library a
-# second time: python_module [TARGET ...] builds other targets beside it.
+# second time, and run the commands mvs, of that tree, and mvs-image: python_module [TARGET ...] builds
+# other targets beside it.
 python_module() {
   local site
   build_preset release -DMVS_PYTHON=ON "-DPython_EXECUTABLE=$PWD/.venv/bin/python" \
@@ -159,4 +160,7 @@ python_module() {
   .venv/bin/pip uninstall --quiet --yes libmvs 2>/dev/null
   site=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))') || return 1
   echo "$PWD/build/release/python" >"$site/libmvs.pth"
+  ln -sf "$PWD/build/release/bin/mvs" .venv/bin/mvs || return 1
+  printf '%s\n' "#!$PWD/.venv/bin/python" 'from mvs.imaging.command import main' 'raise SystemExit(main())' \
+    >.venv/bin/mvs-image && chmod +x .venv/bin/mvs-image
 }

@@ -105,6 +105,10 @@ typedef struct mvs_build_finding {
   const char *unit;          /* of the values: "m", "m2", or "" */
   double confidence;         /* 0 to 1 */
   mvs_view values;           /* F64, k x 1: points as x, y, z in turn */
+  uint32_t doubtful;         /* 1: it contradicts the surface or normal anatomy so far that an input
+                                is probably wrong (landmarks of another frame, swapped leaflets,
+                                atrial wall): show it to whoever builds */
+  uint32_t reserved;
 } mvs_build_finding;
 
 typedef struct mvs_build mvs_build;

@@ -18,11 +18,13 @@ struct BuildFinding {
   mvs_finding_source source = 0;
   double confidence = 0;
   std::vector<double> values;
+  bool doubtful = false;
 };
 
 inline BuildFinding build_finding(const mvs_build *build, std::uint32_t index) {
   const auto found = filled<mvs_build_finding>(mvs_build_get_finding, build, index);
-  BuildFinding finding{found.name, found.sentence, found.unit, found.source, found.confidence, {}};
+  BuildFinding finding{found.name, found.sentence,     found.unit, found.source, found.confidence,
+                       {},         found.doubtful != 0};
   finding.values.resize(found.values.count);
   if (!finding.values.empty()) {
     std::memcpy(finding.values.data(), found.values.data, sizeof(double) * found.values.count);

@@ -5,6 +5,7 @@
 #include "base/array_view.h"
 #include "model/law.h"
 #include "patient/build_valve.h"
+#include "patient/doubtful.h"
 #include "patient/fit/thickness_range.h"
 #include "session/commit.h"
 
@@ -173,6 +174,7 @@ mvs_result mvs_build_get_finding(const mvs_build *build, uint32_t index,
     out.unit = found.unit.c_str();
     out.confidence = found.confidence;
     out.values = {found.value.data(), found.value.size(), 1, MVS_TYPE_F64, sizeof(double)};
+    out.doubtful = is_doubtful(found) ? 1 : 0;
     write_struct(finding, out, "finding");
   });
 }

@@ -89,6 +89,7 @@ static void a_surface_becomes_a_valve_that_closes(surface *s) {
     if (at == UINT32_MAX) continue;
     CHECK(strlen(finding.sentence) > 10);
     CHECK(finding.confidence >= 0 && finding.confidence <= 1);
+    CHECK(finding.doubtful == 0);
     CHECK(finding.source >= MVS_FINDING_SOURCE_GIVEN &&
           finding.source <= MVS_FINDING_SOURCE_ASSUMED);
   }

@@ -1,7 +1,10 @@
 """README.md: its program, its links, its folders and its length."""
 import importlib.util
+import os
 import pathlib
 import re
+import subprocess
+import sys
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -19,6 +22,14 @@ class Readme(unittest.TestCase):
         names = {}
         exec(program, names)
         self.assertEqual(names["closed"].measures.regurgitant_orifice_area, 0)
+
+    @unittest.skipUnless(importlib.util.find_spec("mvs"), "the Python module is not installed here")
+    def test_commands_are_in_the_environment(self):
+        folder = pathlib.Path(sys.prefix) / "bin"
+        self.assertTrue(os.path.lexists(folder / "mvs"))  # part python alone does not build it
+        shown = subprocess.run([folder / "mvs-image", "--help"], capture_output=True, text=True)
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.assertIn("usage: mvs-image", shown.stdout)
 
     def test_links_have_targets(self):
         links = re.findall(r"\]\((?!https?:)([^)#]+)\)", README)

@@ -1,10 +1,8 @@
 // `mvs import`: builds a valve from a patient's surface and landmarks.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 
 #include "commands/commands.h"
 #include "import/findings_file.h"
@@ -13,19 +11,6 @@
 
 namespace cli {
 namespace {
-
-// A finding that says at this confidence or less that an input is wrong: given points are 97 to
-// 100 % sure beside a surface that they fit; a closed surface 1.45 mm (RMS) from the fitted valve
-// has a third; a finding that is named only where something is wrong counts whenever it is there.
-struct Doubt {
-  const char *name;
-  double guessed, given;
-};
-constexpr Doubt doubts[] = {{"annulus", 0.1, 0.5},
-                            {"commissures", 0.1, 0.5},
-                            {"anterior", 0.1, 0.5},
-                            {"closed_fit", 0.33, 0.33},
-                            {"tall_leaflets", 1, 1}};
 
 std::string findings_path(const ImportOptions &options) {
   if (!options.findings_out.empty()) return options.findings_out;
@@ -50,11 +35,7 @@ void warn_of_whole_valve(const std::string &path) {
 // another frame: the valve is written all the same, and most readers of JSON look at its values.
 void warn_of_contradictions(const std::vector<mvs::BuildFinding> &findings) {
   for (const mvs::BuildFinding &finding : findings) {
-    const auto doubt = std::find_if(std::begin(doubts), std::end(doubts),
-                                    [&](const Doubt &d) { return finding.name == d.name; });
-    if (doubt == std::end(doubts)) continue;
-    const bool given = finding.source == MVS_FINDING_SOURCE_GIVEN;
-    if (finding.confidence > (given ? doubt->given : doubt->guessed)) continue;
+    if (!finding.doubtful) continue;
     std::fprintf(stderr, "mvs: warning: %s, %.0f %% sure: %s\n", finding.name.c_str(),
                  100 * finding.confidence, finding.sentence.c_str());
   }

@@ -72,7 +72,8 @@ Json findings_json(const std::vector<mvs::BuildFinding> &findings) {
                     {"confidence", finding.confidence},
                     {"sentence", finding.sentence},
                     {"unit", finding.unit},
-                    {"values", finding.values}});
+                    {"values", finding.values},
+                    {"doubtful", finding.doubtful}});
   }
   return rows;
 }

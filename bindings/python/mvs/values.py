@@ -165,6 +165,8 @@ class Finding:
     sentence: what was seen, and what to give if it is wrong
     values: (k,) in `unit`; points as x, y, z in turn
     unit: "m", "m2" or ""
+    doubtful: it contradicts the surface or normal anatomy so far that an input is probably wrong
+        (landmarks of another frame, swapped leaflets, atrial wall)
     """
 
     name: str
@@ -173,6 +175,7 @@ class Finding:
     sentence: str
     values: NDArray[np.float64]
     unit: str
+    doubtful: bool = False
 
 
 @dataclasses.dataclass(frozen=True, eq=False)

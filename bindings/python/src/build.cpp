@@ -56,7 +56,7 @@ py::object finding_value(const mvs_build_finding &found) {
       "name"_a = found.name,
       "source"_a = py::module_::import("mvs.kinds").attr("FindingSource")(found.source),
       "confidence"_a = found.confidence, "sentence"_a = found.sentence, "values"_a = owned,
-      "unit"_a = found.unit);
+      "unit"_a = found.unit, "doubtful"_a = found.doubtful != 0);
 }
 
 py::tuple findings_of(const mvs_build *build) {

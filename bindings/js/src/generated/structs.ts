@@ -1366,6 +1366,11 @@ export interface BuildFinding {
   confidence: number;
   /** F64, k x 1: points as x, y, z in turn */
   values: ArrayView;
+  /**
+   * 1: it contradicts the surface or normal anatomy so far that an input is probably wrong
+   * (landmarks of another frame, swapped leaflets, atrial wall): show it to whoever builds
+   */
+  doubtful: number;
 }
 
 export const layouts: Record<string, Layout> = {
@@ -2262,7 +2267,7 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_build_finding: {
-    size: 64,
+    size: 72,
     sized: true,
     fields: [
       { name: "source", kind: "enum", of: "mvs_finding_source", at: 4 },
@@ -2271,6 +2276,7 @@ export const layouts: Record<string, Layout> = {
       { name: "unit", kind: "text", at: 16 },
       { name: "confidence", kind: "f64", at: 24 },
       { name: "values", kind: "view", at: 32 },
+      { name: "doubtful", kind: "u32", at: 64 },
     ],
   },
 };

@@ -23,12 +23,6 @@ LANDMARKS = {"annulus": "points or a curve along the annulus; tissue beyond it i
              "anterior": "a point of the anterior leaflet", "tips": "tips of the papillary muscles"}
 
 
-DOUBTS = {"annulus": (0.1, 0.5), "commissures": (0.1, 0.5), "anterior": (0.1, 0.5),
-          "closed_fit": (0.33, 0.33), "tall_leaflets": (1.0, 1.0)}
-"""Confidence, of a guessed and of a given one, up to which a finding says that an input is wrong
-(bindings/cli/commands/import.cpp)."""
-
-
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs the command; 0: done, 1: failed with a sentence on stderr, 2: wrong usage."""
     given = list(sys.argv[1:] if arguments is None else arguments)
@@ -144,10 +138,9 @@ def run_build(chosen: argparse.Namespace) -> int:
 
 
 def _warn_of_contradictions(findings: Iterable[mvs.Finding]) -> None:
-    """Names inputs that contradict the image, such as swapped labels; the rule of `mvs import`."""
+    """Names inputs that contradict the image, such as swapped labels, as `mvs import` does."""
     for one in findings:
-        guessed, given = DOUBTS.get(one.name, (-1.0, -1.0))
-        if one.confidence <= (given if one.source == mvs.FindingSource.GIVEN else guessed):
+        if one.doubtful:
             print(f"mvs-image: warning: {one.name}, {100 * one.confidence:.0f} % sure: {one.sentence}", file=sys.stderr)
 
 

@@ -22,5 +22,6 @@ def need(name: str) -> ModuleType:
     except ImportError as error:
         package = EXTRA.get(name.split(".")[0], name)
         raise ImportError(
-            f"mvs.imaging needs {package}: pip install 'libmvs[imaging]'"
+            f"mvs.imaging needs {package}: pip install 'libmvs[imaging]' or, beside a checkout, pip install "
+            + " ".join(EXTRA.values())
         ) from error
