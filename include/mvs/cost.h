@@ -1,6 +1,8 @@
 /* Cost of a repair: how far the valve opens in diastole, how near its coaptation lies to the
  * septum, and what chordae and annulus bear. Every valve closes in a ring that is small enough;
- * a search for a repair has to weigh these figures against the leak. */
+ * a search for a repair has to weigh these figures against the leak. Open leaflets hang in one of
+ * several folds, so that open area and gradient scatter from one repair to the next, by a tenth in
+ * some valves: compare trends over several sizes, not two neighbours. */
 #ifndef MVS_COST_H
 #define MVS_COST_H
 
@@ -24,7 +26,8 @@ typedef struct mvs_cost_options {
   double density;      /* kg/m3, of blood [1060] */
   double discharge;    /* discharge coefficient, 0.1 to 1 [0.85] */
   mvs_array septum;    /* F64 or F32, k x 3, m: points of the septum where it faces the
-                          anterior leaflet in systole [not known: no risk of SAM] */
+                          anterior leaflet in systole, within 0.1 m of the coaptation and 1 mm or
+                          more apart [not known: no risk of SAM] */
   /* As in mvs_sim_desc, of the opening. Nullable. */
   int32_t (*progress)(void *user, double share, double residual);
   void *user;

@@ -53,7 +53,8 @@ enum mvs_leaflet_law_e {
   /* W = mu / 2 (I1 - 3): mu, Pa [200e3]; bending, Pa [112e3]. Young's modulus of the plane sheet is
    * 3 mu, that of the bending stiffness the lesser of 3 mu and `bending`: mu is a modulus of tissue
    * under load, which bends as softly as tissue at rest (the default of the bilinear membrane).
-   * Give 1e12 for a plate of 3 mu. */
+   * Give 1e12 for a plate of 3 mu (0 is the default, as for all constants), and bending_scale or
+   * MVS_VALVE_FLAG_NO_BENDING for a sheet without bending stiffness. */
   MVS_LEAFLET_LAW_NEO_HOOKEAN = 6
 };
 typedef uint32_t mvs_leaflet_law;

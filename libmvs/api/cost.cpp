@@ -16,6 +16,20 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+// m. Points of the septum that lie farther from the coaptation, or nearer to each other, are in
+// another unit or frame: the distance is 0.01 to 0.04 m.
+constexpr double farthest_septum = 0.1, least_septum = 1e-3;
+
+// The greatest distance of two points along an axis.
+double extent_of(const std::vector<Vec3> &points) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const Vec3 &p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return points.empty() ? 0 : (high - low).maxCoeff();
+}
+
 // Options with their defaults in place of zeros.
 struct CostOptions {
   mvs_cost_options given;
@@ -33,6 +47,10 @@ CostOptions read_options(const mvs_cost_options *options) {
   given.density = or_default(given.density, 1060, 500, 2000, "options.density");
   given.discharge = or_default(given.discharge, 0.85, 0.1, 1, "options.discharge");
   read.septum = read_points(given.septum, "options.septum");
+  const double extent = extent_of(read.septum);
+  MVS_MUST(read.septum.size() < 2 || extent >= least_septum, MVS_E_ARGUMENT, "options.septum",
+           "options.septum: its %zu points lie within %.3g m: give points of the septum, in m",
+           read.septum.size(), extent);
   return read;
 }
 
@@ -71,6 +89,10 @@ void add_outflow(const mvs_snapshot &closed, const std::vector<Vec3> &septum, mv
   cost.posterior_length = outflow.posterior_length;
   cost.length_ratio = outflow.ratio();
   cost.septal_distance = outflow.distance_to(septum);
+  MVS_MUST(!(cost.septal_distance > farthest_septum), MVS_E_ARGUMENT, "options.septum",
+           "options.septum: its nearest point lies %.3g m from where the leaflets meet, and the "
+           "septum 0.01 to 0.04 m: give its points in m, in the frame of the valve",
+           cost.septal_distance);
   const bool is_closed = closed.state.is_at_rest() && closed.state.load.pressure > 0;
   if (!is_closed || std::isnan(cost.septal_distance)) return;
   const bool raised = cost.length_ratio <= sam_ratio || cost.septal_distance <= sam_distance;

@@ -194,6 +194,14 @@ static void bad_input_changes_nothing(void) {
             "options.discharge");
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
             "options.septum");
+  /* millimetres taken for metres, and the other way round */
+  const double far[2][3] = {{20, 0, -10}, {25, 0, -10}}, tiny[2][3] = {{2e-5, 0, 0}, {3e-5, 0, 0}};
+  points.septum = packed(far, 2, 3, MVS_TYPE_F64);
+  MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
+            "options.septum");
+  points.septum = packed(tiny, 2, 3, MVS_TYPE_F64);
+  MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
+            "options.septum");
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &stop, &cost, &opened), MVS_E_CANCELLED, "");
   MUST_FAIL(mvs_snapshot_measure_cost(NULL, NULL, &cost, NULL), MVS_E_ARGUMENT, "snapshot");
   CHECK(cost.rings == 77 && opened == NULL);

@@ -33,6 +33,12 @@ class Convert(Command):
         self.assertEqual((self.dir / "again.obj").read_bytes(),
                          (self.dir / "closed.obj").read_bytes())
 
+    def test_a_session_is_read_beside_a_file_with_the_name_of_this_command(self):
+        # HDF5 refused the image of a file in memory, which had this name
+        self.ok("convert", "v.obj", "-o", "v.h5")
+        (self.dir / "mvs").write_text("any file", encoding="ascii")
+        self.assertEqual(self.json("info", "v.h5")["hash"], self.json("info", "v.obj")["hash"])
+
     def test_vtp_is_vtk_xml(self):
         self.ok("convert", "closed.obj", "-o", "closed.vtp")
         if "hdf5" in self.ok("--version").stdout:

@@ -63,11 +63,13 @@ inline Valve leaflets_of(const PatientGeometry &g, LeafletLawId law) {
   return valve;
 }
 
-// A neo-Hookean valve with chordae of normal anatomy.
+// A neo-Hookean valve with chordae of normal anatomy. It bends with its full modulus, so that it
+// closes to one fold on every path.
 inline Valve patient_valve(uint32_t vertices) {
   const PatientGeometry g = parametric_geometry(vertices);
   Findings findings;
   Valve valve = leaflets_of(g, LeafletLawId::neo_hookean);
+  for (Leaflet &leaflet : valve.leaflets.edit()) leaflet.constants[1] = 0;
   add_chordae(valve, g, find_papillary_tips({}, g, findings), {}, findings);
   return valve;
 }

@@ -35,6 +35,10 @@ bool boundary_is_there(const Model &model, const std::vector<Vec3> &x, double fr
   return true;
 }
 
+bool BoundaryRamp::is_near(const std::vector<Vec3> &x) const {
+  return boundary_is_there(*model_, x, fraction_, settings::boundary::near_distance);
+}
+
 bool BoundaryRamp::may_move(double residual, double rest_force) {
   const bool may = residual < settings::boundary::max_static_residual * rest_force ||
                    waited_ == settings::boundary::max_static_wait;

@@ -34,6 +34,8 @@ class BoundaryRamp {
   bool is_there(const std::vector<Vec3> &x) const {
     return boundary_is_there(*model_, x, fraction_, 0);
   }
+  // Whether the way to the target is so short that the valve counts as near rest.
+  bool is_near(const std::vector<Vec3> &x) const;
   // Whether the boundary may move in this iteration. Tissue that stiffens exponentially and is held
   // by contact is overstretched when the boundary moves on; see settings::boundary.
   bool may_move(double residual, double rest_force);

@@ -212,7 +212,8 @@ class HierarchySettling final : public Settling {
       begin_level();
       return true;
     }
-    if (!boundary_is_there(*level.model, level.state.x, level.state.load.boundary_fraction, 0)) {
+    if (!boundary_is_there(*level.model, level.state.x, level.state.load.boundary_fraction,
+                           settings::boundary::near_distance)) {
       return false;
     }
     try {

@@ -32,7 +32,7 @@ NewtonSettling::NewtonSettling(const Model &model, DirectSolver &factor, const S
 }
 
 bool NewtonSettling::begins_far_from_rest() const {
-  return !ramp_.is_there(newton_.x()) || newton_.has_many_disturbed();
+  return !ramp_.is_near(newton_.x()) || newton_.has_many_disturbed();
 }
 
 bool NewtonSettling::advance() {
