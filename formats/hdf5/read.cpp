@@ -15,8 +15,7 @@ using namespace h5;
 
 constexpr size_t most_depth = 8, most_objects = 1 << 16;
 
-// The core driver refuses an image if its name is that of an existing file, so the name is none
-// that a file can have.
+// The core driver refuses an image if a file of its name exists, and no file can have this path.
 constexpr const char *name_of_image = "/dev/null/mvs";
 
 File open_image(std::string_view bytes) {

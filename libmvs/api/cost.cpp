@@ -49,7 +49,8 @@ CostOptions read_options(const mvs_cost_options *options) {
   read.septum = read_points(given.septum, "options.septum");
   const double extent = extent_of(read.septum);
   MVS_MUST(read.septum.size() < 2 || extent >= least_septum, MVS_E_ARGUMENT, "options.septum",
-           "options.septum: its %zu points lie within %.3g m: give points of the septum, in m",
+           "options.septum: its %zu points lie within %.3g m: give points of the septum in m (to "
+           "the command in mm)",
            read.septum.size(), extent);
   return read;
 }
@@ -91,7 +92,8 @@ void add_outflow(const mvs_snapshot &closed, const std::vector<Vec3> &septum, mv
   cost.septal_distance = outflow.distance_to(septum);
   MVS_MUST(!(cost.septal_distance > farthest_septum), MVS_E_ARGUMENT, "options.septum",
            "options.septum: its nearest point lies %.3g m from where the leaflets meet, and the "
-           "septum 0.01 to 0.04 m: give its points in m, in the frame of the valve",
+           "septum 0.01 to 0.04 m: give its points in m (to the command in mm), in the frame of "
+           "the valve",
            cost.septal_distance);
   const bool is_closed = closed.state.is_at_rest() && closed.state.load.pressure > 0;
   if (!is_closed || std::isnan(cost.septal_distance)) return;
