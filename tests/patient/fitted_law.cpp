@@ -86,8 +86,8 @@ TEST_CASE("laws_up_to_a_quarter_farther_away_are_plausible") {
   CHECK(laws[1].law == prot);
 }
 
-// MVS_TEST_LONG: also the fit of the other law, two thirds of the time; tests/cli/test_surface_import.py
-// has the choice between laws in every run.
+// MVS_TEST_LONG: also the fit of the other law, two thirds of the time;
+// tests/cli/test_surface_import.py has the choice between laws in every run.
 TEST_CASE("law_of_a_closed_valve_is_found_by_its_surface") {
   const bool is_long = std::getenv("MVS_TEST_LONG") != nullptr;
   // fewer vertices, 260 or 200, leave 0.6 mm, which is more than the noise

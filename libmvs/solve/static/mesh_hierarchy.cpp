@@ -12,6 +12,7 @@
 #include "model/law.h"
 #include "solve/hierarchy_settings.h"
 #include "solve/nodes.h"
+#include "solve/settings.h"
 #include "solve/static/newton.h"
 #include "solve/static/untangle.h"
 
