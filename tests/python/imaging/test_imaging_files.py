@@ -1,6 +1,8 @@
 """mvs.imaging: formats of volumes, label maps and landmarks; frames; the command on files."""
 
 import json
+import subprocess
+import sys
 
 import mvs
 import numpy as np
@@ -140,6 +142,15 @@ def test_registration_by_landmarks_recovers_a_rigid_motion():
     turn *= np.sign(np.linalg.det(turn))
     motion, rms = imaging.motion_of_landmarks(start, start @ turn.T + [0.1, 0, -0.2])
     assert motion.turn == pytest.approx(turn, abs=1e-12) and rms < 1e-12
+
+
+def test_a_missing_package_is_named_in_one_line():
+    program = ("import sys; sys.modules['scipy'] = None; from mvs.imaging.command import main; "
+               "sys.exit(main(['open.nrrd', '-o', 'valve.h5']))")
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stderr.count("\n") == 1
+    assert done.stderr.startswith("mvs-image: mvs.imaging needs SciPy: pip install 'libmvs[imaging]'")
 
 
 def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):

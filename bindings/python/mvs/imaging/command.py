@@ -17,6 +17,7 @@ from typing import Any, Optional
 
 import mvs
 from .console import Console
+from .needs import in_words
 
 LANDMARKS = {"annulus": "points or a curve along the annulus; tissue beyond it is cut off",
              "commissures": "the two commissures",
@@ -26,14 +27,14 @@ LANDMARKS = {"annulus": "points or a curve along the annulus; tissue beyond it i
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs the command; 0: done, 1: failed with a sentence on stderr, 2: wrong usage."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    parser, commands = parser_of()
-    if given and given[0] not in commands and given[0] not in ("-h", "--help", "--version"):
-        given.insert(0, "build")
-    chosen = parser.parse_args(given or ["--help"])
     try:
+        parser, commands = parser_of()
+        if given and given[0] not in commands and given[0] not in ("-h", "--help", "--version"):
+            given.insert(0, "build")
+        chosen = parser.parse_args(given or ["--help"])
         return int(chosen.run(chosen) or 0)
     except (mvs.Error, OSError, ImportError) as error:
-        print(f"mvs-image: {error}", file=sys.stderr)
+        print(f"mvs-image: {in_words(error)}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         print("mvs-image: stopped", file=sys.stderr)

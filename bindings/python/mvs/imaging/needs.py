@@ -21,7 +21,15 @@ def need(name: str) -> ModuleType:
         return importlib.import_module(name)
     except ImportError as error:
         package = EXTRA.get(name.split(".")[0], name)
-        raise ImportError(
-            f"mvs.imaging needs {package}: pip install 'libmvs[imaging]' or, beside a checkout, pip install "
-            + " ".join(EXTRA.values())
-        ) from error
+        raise ImportError(_missing(package)) from error
+
+
+def in_words(error: Exception) -> str:
+    """The sentence of an error; where a package of the extra is missing, how to install it."""
+    package = EXTRA.get(str(getattr(error, "name", "")).split(".")[0])
+    return _missing(package) if package else str(error)
+
+
+def _missing(package: str) -> str:
+    return (f"mvs.imaging needs {package}: pip install 'libmvs[imaging]' or, beside a checkout, pip install "
+            + " ".join(EXTRA.values()))
