@@ -11,6 +11,10 @@
 
 namespace mvs::core::h5 {
 
+// The name of a file in memory. The core driver looks for a file of that name: it refuses to read
+// an image beside one, and reads the other one before it writes. No file can have this path.
+inline constexpr const char *name_of_image = "/dev/null/mvs";
+
 // Closes its handle with the function of its kind.
 template <herr_t (*close)(hid_t)>
 class Handle {

@@ -15,9 +15,6 @@ using namespace h5;
 
 constexpr size_t most_depth = 8, most_objects = 1 << 16;
 
-// The core driver refuses an image if a file of its name exists, and no file can have this path.
-constexpr const char *name_of_image = "/dev/null/mvs";
-
 File open_image(std::string_view bytes) {
   const List access(read(H5Pcreate(H5P_FILE_ACCESS), "access"));
   read(H5Pset_fapl_core(access.id(), envelope_bytes, false), "access");

@@ -71,8 +71,7 @@ File create_file(Image &image) {
   wrote(H5Pset_userblock(creation.id(), envelope_bytes), "creation");
   wrote(H5Pset_obj_track_times(creation.id(), false), "creation");
   wrote(H5Pset_link_phase_change(creation.id(), UINT16_MAX, 0), "creation");
-  // a name for HDF5's list of open files; no file of that name is opened
-  return File(wrote(H5Fcreate("mvs", H5F_ACC_TRUNC, creation.id(), access.id()), "file"));
+  return File(wrote(H5Fcreate(name_of_image, H5F_ACC_TRUNC, creation.id(), access.id()), "file"));
 }
 
 template <typename Value>

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "api/structs.h"
+#include "geometry/aabb.h"
 #include "measure/cost/outflow.h"
 #include "session/recorded_event.h"
 #include "session/snapshot.h"
@@ -19,16 +20,6 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 // m. Points of the septum that lie farther from the coaptation, or nearer to each other, are in
 // another unit or frame: the distance is 0.01 to 0.04 m.
 constexpr double farthest_septum = 0.1, least_septum = 1e-3;
-
-// The greatest distance of two points along an axis.
-double extent_of(const std::vector<Vec3> &points) {
-  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const Vec3 &p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return points.empty() ? 0 : (high - low).maxCoeff();
-}
 
 // Options with their defaults in place of zeros.
 struct CostOptions {
@@ -47,7 +38,7 @@ CostOptions read_options(const mvs_cost_options *options) {
   given.density = or_default(given.density, 1060, 500, 2000, "options.density");
   given.discharge = or_default(given.discharge, 0.85, 0.1, 1, "options.discharge");
   read.septum = read_points(given.septum, "options.septum");
-  const double extent = extent_of(read.septum);
+  const double extent = aabb_of(read.septum).longest_side();
   MVS_MUST(read.septum.size() < 2 || extent >= least_septum, MVS_E_ARGUMENT, "options.septum",
            "options.septum: its %zu points lie within %.3g m: give points of the septum in m (to "
            "the command in mm)",

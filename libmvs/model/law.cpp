@@ -151,8 +151,9 @@ double bending_modulus(const LeafletLaw &law, const Constants &constants) {
   if (!law.response) return Bilinear(constants).low;
   // plane stress, incompressible: E = 6 dW/dI1 at rest
   const double at_rest = 6 * law.response(constants, 3, 1).w1;
-  const double most = constants[1];
-  if (law.id == LeafletLawId::neo_hookean && most > 0) return std::min(at_rest, most);
+  if (law.id == LeafletLawId::neo_hookean && constants[1] > 0) {
+    return std::min(at_rest, constants[1]);
+  }
   if (at_rest > 0) return at_rest;
   constexpr double strain = 0.1, l = 1 + strain;
   const Response r = law.response(constants, l * l + 2 / l, l * l);

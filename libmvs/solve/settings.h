@@ -52,8 +52,7 @@ namespace boundary {
 // m, largest increment in one static iteration. The contact thickness is 1 mm by default.
 inline constexpr double max_increment = 0.5e-3;
 // m, distance from the target up to which a valve counts as near rest: a tenth of the default
-// contact thickness. Over coarse meshes it may come to rest in another fold, and a head that was
-// moved by 1 nm changed a leak of 26.3 mm2 to 22.8.
+// contact thickness. Over coarse meshes it may come to rest in another fold, with another leak.
 inline constexpr double near_distance = 0.1e-3;
 // m/s, largest speed in live steps.
 inline constexpr double max_speed = 0.1;

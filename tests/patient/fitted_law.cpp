@@ -2,12 +2,12 @@
 #include "patient/fit/fitted_law.h"
 
 #include <doctest/doctest.h>
-#include <cstdlib>
 
 #include "patient/findings.h"
 #include "patient/fit/closure.h"
 #include "tests/about.h"
 #include "tests/patient/patient_valve.h"
+#include "tests/short_run.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;
@@ -89,7 +89,7 @@ TEST_CASE("laws_up_to_a_quarter_farther_away_are_plausible") {
 // MVS_TEST_LONG: also the fit of the other law, two thirds of the time;
 // tests/cli/test_surface_import.py has the choice between laws in every run.
 TEST_CASE("law_of_a_closed_valve_is_found_by_its_surface") {
-  const bool is_long = std::getenv("MVS_TEST_LONG") != nullptr;
+  const bool is_long = long_run();
   // fewer vertices, 260 or 200, leave 0.6 mm, which is more than the noise
   const PatientGeometry &g = parametric_geometry(320);
   const LeafletLawId truth = LeafletLawId::may_newman_yin;

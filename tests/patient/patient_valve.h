@@ -63,8 +63,8 @@ inline Valve leaflets_of(const PatientGeometry &g, LeafletLawId law) {
   return valve;
 }
 
-// A neo-Hookean valve with chordae of normal anatomy. It bends with its full modulus, so that it
-// closes to one fold on every path.
+// A neo-Hookean valve with chordae of normal anatomy. It bends with its full modulus, which
+// leaves fewer folds in which it may close.
 inline Valve patient_valve(uint32_t vertices) {
   const PatientGeometry g = parametric_geometry(vertices);
   Findings findings;

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 #include "base/error.h"
 #include "tests/sensitivity/random_valves.h"
+#include "tests/short_run.h"
 
 namespace mvs::core::test {
 namespace {
@@ -225,7 +225,7 @@ TEST_CASE("slack_chordae_change_nothing_and_are_declared_smooth") {
 }
 
 TEST_CASE("derivatives_that_are_declared_smooth_match_central_differences") {
-  const bool is_long = std::getenv("MVS_TEST_LONG") != nullptr;
+  const bool is_long = long_run();
   const int pairs = is_long ? 200 : 8;
   int smooth = 0, wrong = 0, cases = 0, switching = 0, on_sides = 0, unexplained = 0;
   double worst = 0, worst_functional = 0;

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <cstdlib>
 
 #include "geometry/intersect.h"
 #include "solve/tools/tool_stiffness.h"
@@ -131,7 +130,7 @@ State pressed(const Model &model) {
 TEST_CASE("random_pushes_at_up_to_1_m_per_s_never_cross_tissue") {
   const ModelPtr model = make_model(small_valve());
   const State start = pressed(*model);
-  const bool is_long = std::getenv("MVS_TEST_LONG") != nullptr;
+  const bool is_long = long_run();
   const uint64_t pushes = is_long ? 10000 : short_run() ? 20 : 200;
   // a small tetrahedron of corners of the difference took the origin for one inside of it
   const std::vector<uint64_t> kept = {88, 124, 125};

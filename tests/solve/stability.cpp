@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "anatomy/parametric.h"
 #include "solve/nodes.h"
 #include "tests/dense.h"
+#include "tests/short_run.h"
 #include "tests/solve/bench.h"
 
 namespace mvs::core::test {
@@ -183,7 +183,7 @@ TEST_CASE("a_strip_buckles_at_eulers_load") {
 TEST_CASE("a_settled_valve_returns_from_a_small_disturbance") {
   const LeafletLawId laws[] = {LeafletLawId::spring, LeafletLawId::bilinear, LeafletLawId::fung,
                                LeafletLawId::may_newman_yin, LeafletLawId::prot};
-  const uint32_t valves = std::getenv("MVS_TEST_LONG") != nullptr ? 200 : 10;
+  const uint32_t valves = long_run() ? 200 : 10;
   for (uint32_t k = 0; k < valves; ++k) {
     Random random(k + 1);
     mvs_parametric_desc desc = {};
