@@ -122,9 +122,13 @@ enum mvs_sensitivity_notes_e {
                                             mean stiffness of its first `slack` */
   MVS_SENSITIVITY_NOTE_KINK = 1 << 8,    /* a spring or chord passes the kink of a bilinear law: see
                                             ABOVE, BELOW */
-  MVS_SENSITIVITY_NOTE_SIDES = 1 << 9    /* of a parameter with one of these notes that was solved
+  MVS_SENSITIVITY_NOTE_SIDES = 1 << 9,   /* of a parameter with one of these notes that was solved
                                             directly: the forces confirm ABOVE and BELOW, each on its
                                             side, to 1 % */
+  MVS_SENSITIVITY_NOTE_TIED = 1 << 10    /* of the largest strain or tension of chordae: another one
+                                            reaches it within `slack`. DERIVATIVE, ABOVE and BELOW are
+                                            of the first of them: differentiate each by
+                                            MVS_QUANTITY_CHORD_STRAIN or _TENSION */
 };
 typedef uint32_t mvs_sensitivity_notes;
 

@@ -94,20 +94,32 @@ void leaflet_area(const Model &model, const std::vector<Vec3> &x, QuantityGradie
   }
 }
 
-// The first chord with the largest strain or tension.
+// The first chord with the largest strain or tension. It is tied where another one reaches it when
+// the ends of both move by `slack`.
 void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_tension,
-                       QuantityGradient &q) {
+                       double slack, QuantityGradient &q) {
   q.notes |= MVS_SENSITIVITY_NOTE_EXTREME;
   uint32_t largest = none;
+  double next = 0;  // the most that another chord reaches
+  double most = 0;  // the least to which the largest falls
   for (uint32_t c = 0; c < model.valve.chords.size(); ++c) {
-    if (model.valve.chords[c].kind == ChordKind::suture) continue;
+    const Chord &chord = model.valve.chords[c];
+    if (chord.kind == ChordKind::suture) continue;
     const ChordState at = chord_state(model, c, x);
-    const double value = is_tension ? model.valve.chords[c].area * at.response.stress : at.strain;
-    if (value <= q.value) continue;
+    const double value = is_tension ? chord.area * at.response.stress : at.strain;
+    const double slope = (is_tension ? chord.area * at.response.slope : 1) / chord.rest_length;
+    const double change = 2 * slack * slope;
+    if (value <= q.value) {
+      next = std::max(next, value + change);
+      continue;
+    }
+    if (largest != none) next = std::max(next, q.value + (q.value - most));
     q.value = value;
+    most = value - change;
     largest = c;
   }
   if (largest == none) return;
+  if (next > most) q.notes |= MVS_SENSITIVITY_NOTE_TIED;
   if (is_tension) {
     add_tension(model, largest, x, 1, q);
   } else {
@@ -117,12 +129,14 @@ void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_t
   }
 }
 
-void measure(const Model &model, const State &state, const Quantity &quantity,
+void measure(const Model &model, const State &state, const Quantity &quantity, double slack,
              const BvhTopology *sheet, QuantityGradient &q) {
   const mvs_field_info &field = *quantity.measure;
   if (is_named(field, "leaflet_area")) return leaflet_area(model, state.x, q);
-  if (is_named(field, "max_chord_tension")) return largest_of_chords(model, state.x, true, q);
-  if (is_named(field, "max_chord_strain")) return largest_of_chords(model, state.x, false, q);
+  if (is_named(field, "max_chord_tension"))
+    return largest_of_chords(model, state.x, true, slack, q);
+  if (is_named(field, "max_chord_strain"))
+    return largest_of_chords(model, state.x, false, slack, q);
   if (is_named(field, "coaptation_area")) {
     q.value = coaptation_area_gradient(model, state.x, q.by_position);
     return;
@@ -199,7 +213,7 @@ void check_quantity(const Model &model, const Quantity &q, size_t place) {
 }
 
 QuantityGradient quantity_gradient(const Model &model, const State &state, const Quantity &quantity,
-                                   const BvhTopology *sheet) {
+                                   double slack, const BvhTopology *sheet) {
   const std::vector<Vec3> &x = state.x;
   QuantityGradient q;
   q.by_position.assign(x.size(), Vec3::Zero());
@@ -240,7 +254,7 @@ QuantityGradient quantity_gradient(const Model &model, const State &state, const
       head_force(model, quantity, x, q);
       break;
     case QuantityKind::measure:
-      measure(model, state, quantity, sheet, q);
+      measure(model, state, quantity, slack, sheet, q);
       break;
   }
   return q;

@@ -61,9 +61,10 @@ struct QuantityGradient {
   std::vector<ChordEnd> by_end;  // part of by_position, for ends that leave their nodes
   mvs_sensitivity_notes notes = 0;
 };
-// `sheet`, nullable: a hierarchy of the triangles at any positions, which saves one.
+// `slack`, m: motions within which another place takes over a largest value. `sheet`, nullable: a
+// hierarchy of the triangles at any positions, which saves one.
 QuantityGradient quantity_gradient(const Model &model, const State &state, const Quantity &quantity,
-                                   const BvhTopology *sheet = nullptr);
+                                   double slack = 0, const BvhTopology *sheet = nullptr);
 
 // The derivative of a quantity at fixed positions.
 double explicit_derivative(const Model &model, const std::vector<Vec3> &x,

@@ -63,7 +63,8 @@ std::vector<QuantityGradient> Differentiation::gradients() {
   const auto &[model, state, quantities, parameters] = request_;
   std::vector<QuantityGradient> list;
   for (const Quantity &q : quantities) {
-    list.push_back(quantity_gradient(model, state, q, &tangent_.energy().broad_phase().topology()));
+    list.push_back(quantity_gradient(model, state, q, options_.slack,
+                                     &tangent_.energy().broad_phase().topology()));
     result_.value.push_back(list.back().value);
     result_.quantity_notes.push_back(list.back().notes);
   }

@@ -44,6 +44,12 @@ class Cost(Shell):
         self.assertLess(float(rows[0]["open_area_mm2"]), float(rows[1]["open_area_mm2"]))
         self.refused(1, "other options of costs", *sweep, "--cost", "--flow", 250)
 
+    def test_a_valve_without_load_is_not_said_to_be_closed(self):
+        done = mvs("cost", "v.obj", cwd=self.dir)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"^v\.obj: under no pressure, not at rest; opened by 5 mmHg\n")
+        self.assertIn("warning: v.obj is under no pressure", done.stderr)
+
     def test_wrong_input_is_named(self):
         sweep = ("sweep", "v.obj", "--op", "ring size=28", "--csv", "u.csv")
         self.refused(1, "none.txt", "cost", "closed.obj", "--septum", "none.txt")

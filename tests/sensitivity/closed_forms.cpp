@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "sensitivity/quantities.h"
 #include "tests/sensitivity/pyramid.h"
 
 namespace mvs::core::test {
@@ -239,6 +240,29 @@ TEST_CASE("an_unstable_or_moving_state_has_no_derivatives") {
   p.model = slack.model;
   p.state = slack.state;
   CHECK(message().find("unstable") != std::string::npos);
+}
+
+TEST_CASE("a_largest_value_is_tied_where_another_chord_reaches_it_within_the_slack") {
+  constexpr double slack = 1e-7;
+  for (const char *name : {"max_chord_tension", "max_chord_strain"}) {
+    CAPTURE(name);
+    Pyramid p;
+    const Quantity largest = {QuantityKind::measure, 0, 0, find_measure(name, 0), Vec3::Zero(), {}};
+    const auto notes = [&] { return quantity_gradient(p.model, p.state, largest, slack).notes; };
+    CHECK(notes() == MVS_SENSITIVITY_NOTE_EXTREME);  // one chord alone
+    std::vector<Chord> &chords = p.model.valve.chords.edit();
+    chords.push_back(Chord(chords[0]));
+    for (const size_t longer : {0, 1}) {
+      const double length = chords[longer].rest_length;
+      CHECK(notes() == (MVS_SENSITIVITY_NOTE_EXTREME | MVS_SENSITIVITY_NOTE_TIED));
+      // both chordae may change their length by 2 slack
+      chords[longer].rest_length = length + 3 * slack;
+      CHECK(notes() == (MVS_SENSITIVITY_NOTE_EXTREME | MVS_SENSITIVITY_NOTE_TIED));
+      chords[longer].rest_length = length + 5 * slack;
+      CHECK(notes() == MVS_SENSITIVITY_NOTE_EXTREME);
+      chords[longer].rest_length = length;
+    }
+  }
 }
 
 }  // namespace mvs::core::test

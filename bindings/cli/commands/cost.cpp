@@ -19,15 +19,25 @@ void run_cost(const CommandOptions &options, Console &console) {
   Progress progress(console);
   const mvs::Cost cost = meter.of(closed, &progress);
   if (!options.out.empty()) cost.opened.save(options.out);
+  const double pressure = closed.load().pressure;
+  if (pressure == 0) {
+    std::fprintf(
+        stderr,
+        "mvs: warning: %s is under no pressure: figures of the closed valve are meaningless; "
+        "close it first: mvs close %s -o closed.h5\n",
+        options.file.c_str(), options.file.c_str());
+  }
+  const std::string under =
+      pressure == 0 ? "under no pressure" : text("closed under %g mmHg", pressure / pa_per_mmhg);
   const std::string state = closed.at_rest() ? "at rest" : "not at rest";
   print(console,
         {{"file", options.file},
-         {"pressure_mmHg", closed.load().pressure / pa_per_mmhg},
+         {"pressure_mmHg", pressure / pa_per_mmhg},
          {"diastole_mmHg", options.cost.diastole_mmhg},
          {"at_rest", closed.at_rest()},
          {"cost", cost_json(cost.figures)}},
-        text("%s: closed under %g mmHg, %s; opened by %g mmHg\n", options.file.c_str(),
-             closed.load().pressure / pa_per_mmhg, state.c_str(), options.cost.diastole_mmhg) +
+        text("%s: %s, %s; opened by %g mmHg\n", options.file.c_str(), under.c_str(), state.c_str(),
+             options.cost.diastole_mmhg) +
             cost_text(cost.figures));
   if (cost.figures.opened == 0) {
     std::fprintf(stderr, "mvs: warning: the open valve did not come to rest: no open area\n");

@@ -166,7 +166,8 @@ std::vector<std::string> note_words(mvs_sensitivity_notes notes) {
       {MVS_SENSITIVITY_NOTE_ENVELOPE, "rim fixed in the tissue"},
       {MVS_SENSITIVITY_NOTE_CONTACT, "contact about to switch"},
       {MVS_SENSITIVITY_NOTE_KINK, "kink of a law"},
-      {MVS_SENSITIVITY_NOTE_SIDES, "both sides confirmed"}};
+      {MVS_SENSITIVITY_NOTE_SIDES, "both sides confirmed"},
+      {MVS_SENSITIVITY_NOTE_TIED, "several chordae have the largest value"}};
   std::vector<std::string> found;
   for (const auto &[bit, word] : words) {
     if ((notes & bit) != 0) found.emplace_back(word);

@@ -25,7 +25,7 @@ SHOWN = {"m": (1e3, "mm"), "m2": (1e6, "mm2"), "m3": (1e6, "ml"), "N": (1.0, "N"
 """Scale and unit that pictures show."""
 NOTES = {
     1: "switch", 2: "chord", 4: "snap", 8: "differences", 16: "raster", 32: "extreme", 64: "envelope",
-    128: "contact", 256: "kink", 512: "sides",
+    128: "contact", 256: "kink", 512: "sides", 1024: "tied",
 }
 """Words of MVS_SENSITIVITY_NOTE_*."""
 
@@ -40,7 +40,8 @@ class Sensitivity:
         it only where a chord, a spring or contact is about to switch
     of_notes, to_notes: words about each row and column: "switch" (both sides differ within `slack`),
         "chord", "contact", "kink" (see above and below), "sides" (the forces confirm both), "snap",
-        "differences", "raster", "extreme", "envelope" (mvs/sensitivity.h)
+        "differences", "raster", "extreme", "tied" (two chordae share the largest value; the derivative is
+        that of one of them), "envelope" (mvs/sensitivity.h)
     motion: (p, n, 3) dx/dp of all nodes, or None
     weak_contacts: vertices whose contact is about to switch
     smooth: no "switch", "chord", "contact", "kink" or "snap"

@@ -784,6 +784,12 @@ export const SensitivityNotes = {
    * BELOW, each on its side, to 1 %
    */
   note_sides: 512,
+  /**
+   * of the largest strain or tension of chordae: another one reaches it within `slack`. DERIVATIVE,
+   * ABOVE and BELOW are of the first of them: differentiate each by MVS_QUANTITY_CHORD_STRAIN or
+   * _TENSION
+   */
+  note_tied: 1024,
 } as const;
 export type SensitivityNotes = keyof typeof SensitivityNotes;
 
