@@ -230,8 +230,7 @@ void check_plan_version(const Json &json, const char *what) {
            static_cast<unsigned long long>(version), plan_version);
 }
 
-std::vector<PlanStep> read_steps(const Json &record) {
-  const Json &steps = record["steps"];
+std::vector<PlanStep> read_steps(const Json &steps) {
   MVS_MUST(steps.is_array(), MVS_E_FORMAT, "plan", "\"steps\" has to be a list");
   std::vector<PlanStep> out;
   for (size_t k = 0; k < steps.items().size(); ++k) {
@@ -249,7 +248,7 @@ Plan read_plan(std::string_view text) {
   check_format(json);
   check_plan_version(json, "plan");
   MVS_MUST(json.has("steps"), MVS_E_FORMAT, "plan", "the plan has no \"steps\"");
-  return {hash_at(json, "valve"), hash_at(json, "result"), read_steps(json)};
+  return {hash_at(json, "valve"), hash_at(json, "result"), read_steps(json["steps"])};
 }
 
 }  // namespace mvs::core

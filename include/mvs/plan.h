@@ -38,7 +38,8 @@ typedef struct mvs_replay {
   uint32_t struct_size;
   uint32_t operations;  /* operations applied */
   uint32_t same_valve;  /* 1: the plan was made on this valve */
-  uint32_t same_result; /* 1: the final hash equals that of the plan */
+  uint32_t same_result; /* 1: the final hash equals that of the plan; of a journal: its last record
+                           was whole */
 } mvs_replay;
 
 /* Replays a plan, the text of its file, on the present valve: completely, or not at all with a
@@ -54,14 +55,20 @@ MVS_API mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t
 
 /* Start and end a journal of the present valve in a new file. While it is open, each operation,
  * undo, redo and checkpoint is on the disk before its call returns, or the call fails with MVS_E_IO
- * and nothing changes. The history so far is written first. A new valve also ends the journal.
- * MVS_E_STATE if the file exists. */
+ * and nothing changes. The history so far is written first, with what was undone and with its
+ * checkpoints. MVS_E_STATE if the file exists.
+ *
+ * A new valve ends the journal, with a warning in the log: also the same valve with other tissue
+ * (mvs_set_leaflet) or another mesh, and a snapshot of another valve that is restored. Operations
+ * after it are in no journal until one is opened again. */
 MVS_API mvs_result mvs_open_journal(mvs_sim *sim, const char *path);
 MVS_API mvs_result mvs_close_journal(mvs_sim *sim);
 
 /* Repeats all records of a journal after a crash and continues the journal. The simulator must have
- * the valve on which the journal was started; MVS_E_STATE names its hash if it has another one. A
- * record truncated by the crash is dropped. `replay` is nullable. */
+ * the valve on which the history began (what mvs_set_valve or a file without a history gave), or the
+ * session on which the journal was opened, as its file has it; MVS_E_STATE names the hash otherwise.
+ * A last record that the crash cut short, or that is damaged, is dropped: replay->same_result is 0
+ * then. `replay` is nullable. */
 MVS_API mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *replay);
 
 #ifdef __cplusplus

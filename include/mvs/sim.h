@@ -231,8 +231,8 @@ typedef struct mvs_step_options {
 
 /* Advances by one time step: a bounded amount of work without progress callbacks. After a few steps
  * of a valve it makes no allocation and no system call as long as no snapshot of the valve is held.
- * An operation, mvs_end_group, or adding or removing a tool prepares the next step of a valve that
- * is being stepped within its own call. MVS_E_DIVERGED if numbers left their range: use a smaller
+ * An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing a tool
+ * prepares the next step of a valve that is being stepped within its own call. MVS_E_DIVERGED if numbers left their range: use a smaller
  * dt. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 

@@ -25,9 +25,9 @@ std::string text_at(const Json &json, const char *key) {
   return json[key].text();
 }
 
-std::vector<PlanStep> steps_at(const Json &json) {
-  MVS_MUST(json.has("steps"), MVS_E_FORMAT, "journal", "a record of the journal has no steps");
-  return read_steps(json);
+std::vector<PlanStep> steps_at(const Json &json, const char *key = "steps") {
+  MVS_MUST(json.has(key), MVS_E_FORMAT, "journal", "a record of the journal has no %s", key);
+  return read_steps(json[key]);
 }
 
 // Returns to the state after the last operation: a record has all events since then.
@@ -37,17 +37,34 @@ void rewind_moves(Snapshot &now) {
   now.history.events = {};
 }
 
-// Replays a restart record: the steps to each checkpoint, then the steps to the snapshot.
+// Replays the steps to a snapshot; then those that were undone there, so that they can be redone.
+void run_to(Replay &replay, const Json &json) {
+  replay.run(steps_at(json));
+  if (!json.has("undone")) return;
+  const Snapshot present = replay.now;
+  rewind_moves(replay.now);
+  replay.run(steps_at(json, "undone"));
+  while (replay.now.history.past.size() > present.history.past.size()) {
+    replay.now = undone(replay.now);
+  }
+  replay.now.current = present.current;
+  replay.now.history.events = present.history.events;
+}
+
+// Replays the first record or a restart record: the steps to each checkpoint, then the steps to the
+// snapshot.
 void restart(Replay &replay, const Json &record) {
   Replay there({*start_of(replay.now), {}}, replay);
-  for (const Json &checkpoint : record["checkpoints"].items()) {
+  static const Json none = Json::array();
+  for (const Json &checkpoint :
+       (record.has("checkpoints") ? record["checkpoints"] : none).items()) {
     there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.history.checkpoints, 1}};
-    there.run(steps_at(checkpoint));
+    run_to(there, checkpoint);
     there.now = with_checkpoint(there.now, text_at(checkpoint, "name"));
   }
   there.now = {*start_of(replay.now), {nullptr, {}, {}, {}, there.now.history.checkpoints, 1}};
-  there.run(steps_at(record));
-  replay.now = std::move(there.now);
+  run_to(there, record);
+  replay = std::move(there);
 }
 
 // Replays one record after the first.
@@ -72,15 +89,23 @@ void redo(Replay &replay, const Json &record) {
   }
 }
 
-void check_beginning(const Json &first, const ModelState &present) {
+// The valve where the history of a journal begins: the present one, or that of the present session
+// if it is the one on which the journal was opened. Any other session has operations that would be
+// lost.
+ModelState beginning(const Json &first, const Snapshot &present) {
   MVS_MUST(text_at(first, "do") == "begin" && first.has("valve"), MVS_E_FORMAT, "journal",
            "the journal does not begin with its valve");
   check_plan_version(first, "journal");
-  const std::string wanted = text_at(first["valve"], "hash"), found = hash_text(present);
-  MVS_MUST(wanted == found, MVS_E_STATE, "journal",
+  const std::string wanted = text_at(first["valve"], "hash"), found = hash_text(present.current);
+  if (wanted == found) return present.current;
+  const auto start = start_of(present);
+  const bool was_opened_here = first.has("present") && hash_text(*start) == wanted &&
+                               text_at(first["present"], "hash") == found;
+  MVS_MUST(was_opened_here, MVS_E_STATE, "journal",
            "the journal belongs to the valve \"%.63s\" with hash %s, the present one has %s: load "
-           "that valve first",
+           "that valve first, or the session on which the journal was opened",
            text_at(first["valve"], "name").c_str(), wanted.c_str(), found.c_str());
+  return *start;
 }
 
 }  // namespace
@@ -116,15 +141,19 @@ mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *repla
     const SnapshotPtr present = s.present();
     const JournalRecords records = read_journal(read_whole_file(path));
     const Json first = parsed(records.texts[0], 1);
-    check_beginning(first, present->value.current);
-    Replay steps({present->value.current, {}}, true, event_runner(s));
-    steps.run(steps_at(first));
+    Replay steps({beginning(first, present->value), {}}, true, event_runner(s));
+    restart(steps, first);
     for (size_t k = 1; k < records.texts.size(); ++k) {
       redo(steps, parsed(records.texts[k], k + 1));
     }
     mvs_replay how = {};
     how.operations = static_cast<uint32_t>(steps.now.history.past.size());
-    how.same_valve = how.same_result = 1;
+    how.same_valve = 1;
+    how.same_result = !records.torn;
+    if (records.torn) {
+      s.log(MVS_LOG_WARNING,
+            "the last record of the journal is cut short or damaged, and is left out");
+    }
     SnapshotPtr next = make_snapshot(std::move(steps.now));
     s.journal = std::make_unique<Journal>(Journal::reopen(path, records.bytes));
     s.replace(std::move(next));

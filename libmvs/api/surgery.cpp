@@ -47,6 +47,7 @@ mvs_result mvs_undo(mvs_sim *sim) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "undo");
     commit(s, undone(before->value), [](const Snapshot &) { return word_record("undo"); });
+    s.make_ready();
   });
 }
 
@@ -55,6 +56,7 @@ mvs_result mvs_redo(mvs_sim *sim) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "redo");
     commit(s, redone(before->value), [](const Snapshot &) { return word_record("redo"); });
+    s.make_ready();
   });
 }
 
@@ -95,6 +97,7 @@ mvs_result mvs_restore_checkpoint(mvs_sim *sim, const char *name) {
     const std::string text = checked_name(name, "checkpoint");
     commit(s, at_checkpoint(before->value, text),
            [&](const Snapshot &) { return named_record("restore_checkpoint", text, {}); });
+    s.make_ready();
   });
 }
 

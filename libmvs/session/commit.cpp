@@ -23,19 +23,42 @@ const std::vector<Checkpoint> &checkpoints_of(const Snapshot &snapshot) {
   return snapshot.history.checkpoints ? *snapshot.history.checkpoints : no_checkpoints;
 }
 
-Json restart_record(const Snapshot &snapshot) {
-  Json json = word_record("restart");
+// The operations that were undone, each after its events, in the order in which they can be redone.
+Json undone_steps(const Snapshot &snapshot) {
+  Json steps = Json::array();
+  const auto entries = snapshot.history.future.items();
+  for (size_t k = entries.size(); k-- > 0;) {
+    add_events(steps, (*entries[k])->events);
+    steps.add(entry_json(**entries[k]));
+  }
+  return steps;
+}
+
+// Adds the steps from the start of the history to a snapshot, and those that were undone there.
+void set_steps(Json &json, const Snapshot &snapshot) {
   json.set("steps", plan_steps(snapshot, {}));
+  if (!snapshot.history.future.empty()) json.set("undone", undone_steps(snapshot));
+}
+
+// Adds all that redo, undo and checkpoints of a snapshot lead to.
+void set_history(Json &json, const Snapshot &snapshot) {
+  set_steps(json, snapshot);
   Json list = Json::array();
   for (const Checkpoint &c : checkpoints_of(snapshot)) {
     Snapshot there{c.at, snapshot.history};
     there.history.past = c.past;
+    there.history.future = c.future;
     there.history.events = c.events;
     Json one = Json::object({{"name", c.name}});
-    one.set("steps", plan_steps(there, {}));
+    set_steps(one, there);
     list.add(std::move(one));
   }
   json.set("checkpoints", std::move(list));
+}
+
+Json restart_record(const Snapshot &snapshot) {
+  Json json = word_record("restart");
+  set_history(json, snapshot);
   return json;
 }
 
@@ -56,7 +79,8 @@ Json begun_record(const Snapshot &snapshot) {
   json.set("do", "begin");
   json.set("version", plan_version);
   json.set("valve", valve_json(*start_of(snapshot)));
-  json.set("steps", plan_steps(snapshot, {}));
+  json.set("present", Json::object({{"hash", hash_text(snapshot.current)}}));
+  set_history(json, snapshot);
   return json;
 }
 

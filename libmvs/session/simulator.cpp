@@ -103,7 +103,7 @@ void replace_valve(mvs_sim &sim, Snapshot snapshot) {
   sim.replace(make_snapshot(std::move(snapshot)));
   sim.group = {};
   sim.hands.forget();
-  if (sim.journal) sim.log(MVS_LOG_INFO, "the journal ends: the valve was replaced");
+  if (sim.journal) sim.log(MVS_LOG_WARNING, "the journal ends: the valve was replaced");
   sim.journal.reset();
   sim.stats.reset();
   sim.log(MVS_LOG_INFO, "valve \"%s\": %zu nodes, %zu triangles, %zu chords",

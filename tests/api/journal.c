@@ -143,11 +143,149 @@ static void a_restored_snapshot_is_recovered_with_its_history(void) {
   mvs_snapshot_release(early);
 }
 
+/* Opens the journal in a session that has a history, goes on, and recovers it on the valve where
+ * the history began and on the session as it was when the journal was opened. */
+static void is_recovered(const mvs_snapshot *began, mvs_sim *sim, void (*go_on)(mvs_sim *)) {
+  const mvs_snapshot *opened = NULL;
+  remove(path);
+  MUST(mvs_get_snapshot(sim, &opened));
+  MUST(mvs_open_journal(sim, path));
+  go_on(sim);
+  const hash128 wanted = sim_hash(sim);
+  MUST(mvs_close_journal(sim));
+  for (int k = 0; k < 2; ++k) {
+    mvs_sim *again = NULL;
+    MUST(mvs_create(NULL, &again));
+    MUST(mvs_restore(again, k == 0 ? began : opened));
+    MUST(mvs_recover_journal(again, path, NULL));
+    CHECK(same_hash(wanted, sim_hash(again)));
+    /* the same can be undone, and ends where the history began */
+    while (mvs_undo(sim) == MVS_OK) {
+      MUST(mvs_undo(again));
+      CHECK(same_hash(sim_hash(sim), sim_hash(again)));
+    }
+    MUST_FAIL(mvs_undo(again), MVS_E_STATE, "no operation to undo");
+    while (mvs_redo(sim) == MVS_OK) MUST(mvs_redo(again));
+    CHECK(same_hash(sim_hash(sim), sim_hash(again)));
+    mvs_destroy(again);
+  }
+  mvs_snapshot_release(opened);
+}
+
+static void redo_and_shorten(mvs_sim *sim) {
+  MUST(mvs_redo(sim));
+  shorten(sim, "A2/2", 1.1);
+}
+
+static void back_and_scale(mvs_sim *sim) {
+  scale(sim, 0.95);
+  MUST(mvs_restore_checkpoint(sim, "here"));
+  MUST(mvs_redo(sim));
+  scale(sim, 1.05);
+}
+
+static void only_scale(mvs_sim *sim) {
+  scale(sim, 1.05);
+}
+
+static const mvs_snapshot *undone = NULL; /* with operations to redo */
+
+static void restore_and_redo(mvs_sim *sim) {
+  scale(sim, 0.95);
+  MUST(mvs_restore(sim, undone));
+  redo_and_shorten(sim);
+}
+
+static void what_was_done_and_undone_before_is_recovered(void) {
+  const mvs_snapshot *began = NULL;
+  void (*const ways[])(mvs_sim *) = {redo_and_shorten, back_and_scale, restore_and_redo,
+                                     only_scale};
+  for (int way = 0; way < 4; ++way) {
+    mvs_sim *sim = new_valve(200);
+    MUST(mvs_get_snapshot(sim, &began));
+    close_a_bit(sim);
+    shorten(sim, "P2/3", 0.75);
+    close_a_bit(sim);
+    MUST(mvs_begin_group(sim, "two"));
+    scale(sim, 0.9);
+    scale(sim, 0.95);
+    MUST(mvs_end_group(sim));
+    MUST(mvs_undo(sim));
+    MUST(mvs_set_checkpoint(sim, "here"));
+    close_a_bit(sim); /* after the undo: redo leads away from it, and a crash must not */
+    MUST(mvs_get_snapshot(sim, &undone));
+    if (way == 1) shorten(sim, "A2/2", 0.9);
+    is_recovered(began, sim, ways[way]);
+    mvs_snapshot_release(undone);
+    mvs_snapshot_release(began);
+    mvs_destroy(sim);
+  }
+}
+
+static void a_group_that_is_open_stays_one(void) {
+  mvs_sim *sim = new_valve(200), *again = new_valve(200);
+  remove(path);
+  MUST(mvs_begin_group(sim, "two"));
+  scale(sim, 0.9);
+  MUST(mvs_open_journal(sim, path));
+  scale(sim, 0.95);
+  MUST(mvs_end_group(sim));
+  MUST(mvs_undo(sim));
+  MUST(mvs_recover_journal(again, path, NULL));
+  CHECK(same_hash(sim_hash(sim), sim_hash(again)));
+  MUST(mvs_redo(sim));
+  MUST(mvs_redo(again));
+  CHECK(same_hash(sim_hash(sim), sim_hash(again)));
+  mvs_destroy(sim);
+  mvs_destroy(again);
+}
+
+/* A session with operations that the journal does not have is not replaced. */
+static void another_session_of_the_same_valve_is_refused(void) {
+  mvs_sim *sim = new_valve(200);
+  remove(path);
+  MUST(mvs_open_journal(sim, path));
+  scale(sim, 0.9);
+  MUST(mvs_close_journal(sim));
+  const hash128 here = sim_hash(sim);
+  MUST_FAIL(mvs_recover_journal(sim, path, NULL), MVS_E_STATE, "load that valve first");
+  CHECK(same_hash(here, sim_hash(sim)));
+  mvs_destroy(sim);
+}
+
+/* The last record is whole but for one bit: the others are recovered, and the outcome says so. */
+static void a_damaged_last_record_is_reported(void) {
+  size_t size = 0;
+  mvs_replay replay = {.struct_size = sizeof replay};
+  mvs_sim *sim = new_valve(200);
+  remove(path);
+  MUST(mvs_open_journal(sim, path));
+  shorten(sim, "P2/3", 0.75);
+  const hash128 wanted = sim_hash(sim);
+  scale(sim, 0.9);
+  mvs_destroy(sim);
+  char *bytes = whole_file(&size);
+  for (int damaged = 0; damaged < 2; ++damaged) {
+    if (damaged) bytes[size - 3] ^= 1;
+    write_file(bytes, size);
+    sim = new_valve(200);
+    MUST(mvs_recover_journal(sim, path, &replay));
+    CHECK(replay.same_result == !damaged && replay.operations == 2 - (uint32_t)damaged);
+    CHECK(same_hash(wanted, sim_hash(sim)) == damaged);
+    mvs_destroy(sim);
+  }
+  free(bytes);
+}
+
 int main(void) {
   snprintf(path, sizeof path, "journal_test_%d.journal", (int)getpid());
   a_killed_process_loses_nothing();
   a_torn_record_is_dropped();
   a_restored_snapshot_is_recovered_with_its_history();
+  what_was_done_and_undone_before_is_recovered();
+  a_group_that_is_open_stays_one();
+  another_session_of_the_same_valve_is_refused();
+  a_damaged_last_record_is_reported();
   remove(path);
   return finish("journal");
 }

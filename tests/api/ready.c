@@ -40,11 +40,35 @@ static void shorten_and_lay_a_ball(void) {
   MUST(mvs_add_tool(sim, &ball, &tool));
 }
 
+static void undo_one(void) {
+  MUST(mvs_undo(sim));
+}
+
+static void shorten_and_undo(void) {
+  shorten("P2/1");
+  MUST(mvs_undo(sim));
+}
+
+static void redo_one(void) {
+  MUST(mvs_redo(sim));
+}
+
+static void back_to_the_checkpoint(void) {
+  MUST(mvs_restore_checkpoint(sim, "less"));
+}
+
 /* A simulator that starts from this state prepares everything in its first step. */
-static void the_next_step_makes_no_factor(void (*change)(void)) {
+static void the_next_step_makes_no_factor(void (*begin)(void), void (*change)(void)) {
   const mvs_snapshot *changed = NULL;
   mvs_sim *fresh = NULL;
+  const mvs_load_case less = {sizeof less, 0, 0.9 * MVS_SYSTOLE_PA, 1};
   MUST(mvs_restore(sim, closed));
+  if (begin) {
+    /* a valve at rest would sleep after undo */
+    MUST(mvs_set_load(sim, &less));
+    MUST(mvs_set_checkpoint(sim, "less"));
+    begin();
+  }
   MUST(mvs_step(sim, NULL));
   change();
   MUST(mvs_get_snapshot(sim, &changed));
@@ -68,9 +92,12 @@ int main(void) {
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, NULL));
   MUST(mvs_get_snapshot(sim, &closed));
-  the_next_step_makes_no_factor(shorten_one);
-  the_next_step_makes_no_factor(shorten_two_as_one);
-  the_next_step_makes_no_factor(shorten_and_lay_a_ball);
+  the_next_step_makes_no_factor(NULL, shorten_one);
+  the_next_step_makes_no_factor(NULL, shorten_two_as_one);
+  the_next_step_makes_no_factor(NULL, shorten_and_lay_a_ball);
+  the_next_step_makes_no_factor(shorten_one, undo_one);
+  the_next_step_makes_no_factor(shorten_and_undo, redo_one);
+  the_next_step_makes_no_factor(shorten_one, back_to_the_checkpoint);
   mvs_snapshot_release(closed);
   mvs_destroy(sim);
   return finish("ready");
