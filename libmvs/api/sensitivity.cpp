@@ -98,12 +98,12 @@ mvs_sensitivity_summary summary_of(const mvs_sensitivity &result) {
   return summary;
 }
 
-mvs_view view_of(const std::vector<double> &values, uint32_t columns) {
+mvs_view rows_view(const std::vector<double> &values, uint32_t columns) {
   const uint64_t rows = columns == 0 ? 0 : values.size() / columns;
   return {values.data(), rows, columns, MVS_TYPE_F64, columns * sizeof(double)};
 }
 
-mvs_view view_of(const std::vector<uint32_t> &values) {
+mvs_view rows_view(const std::vector<uint32_t> &values) {
   return {values.data(), values.size(), 1, MVS_TYPE_U32, sizeof(uint32_t)};
 }
 
@@ -111,21 +111,21 @@ mvs_view array_of(const mvs_sensitivity &result, mvs_sensitivity_array which) {
   const Sensitivity &found = result.found;
   switch (which) {
     case MVS_SENSITIVITY_ARRAY_VALUE:
-      return view_of(found.value, 1);
+      return rows_view(found.value, 1);
     case MVS_SENSITIVITY_ARRAY_DERIVATIVE:
-      return view_of(found.derivative, result.parameters);
+      return rows_view(found.derivative, result.parameters);
     case MVS_SENSITIVITY_ARRAY_ABOVE:
-      return view_of(found.above, result.parameters);
+      return rows_view(found.above, result.parameters);
     case MVS_SENSITIVITY_ARRAY_BELOW:
-      return view_of(found.below, result.parameters);
+      return rows_view(found.below, result.parameters);
     case MVS_SENSITIVITY_ARRAY_QUANTITY_NOTES:
-      return view_of(found.quantity_notes);
+      return rows_view(found.quantity_notes);
     case MVS_SENSITIVITY_ARRAY_PARAMETER_NOTES:
-      return view_of(found.parameter_notes);
+      return rows_view(found.parameter_notes);
     case MVS_SENSITIVITY_ARRAY_WEAK_CHORDS:
-      return view_of(found.weak_chords);
+      return rows_view(found.weak_chords);
     case MVS_SENSITIVITY_ARRAY_WEAK_CONTACTS:
-      return view_of(found.weak_contacts);
+      return rows_view(found.weak_contacts);
     case MVS_SENSITIVITY_ARRAY_MOTION:
       return {found.motion.data(), found.motion.size(), 3, MVS_TYPE_F64, sizeof(Vec3)};
     default:

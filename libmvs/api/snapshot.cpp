@@ -231,9 +231,9 @@ mvs_result mvs_snapshot_section(const mvs_snapshot *snapshot, const double point
     must_point(count, "count");
     if (capacity > 0) must_point(points, "points");
     const Vec3 at = read_vector(point, "point"), along = read_vector(normal, "normal");
-    MVS_MUST(along.norm() > 0, MVS_E_ARGUMENT, "normal", "normal has no length");
+    MVS_MUST(!along.isZero(0), MVS_E_ARGUMENT, "normal", "normal has no length");
     const std::vector<Vec3> found =
-        plane_section(*snapshot->model, snapshot->state.x, at, along.normalized());
+        plane_section(*snapshot->model, snapshot->state.x, at, along.stableNormalized());
     const size_t written = std::min<uint64_t>(capacity, found.size());
     for (size_t k = 0; k < 3 * written; ++k) points[k] = found[k / 3][k % 3];
     *count = found.size();

@@ -176,6 +176,12 @@ static void a_cut_gives_its_size_first_and_then_its_points(void) {
   MUST(mvs_snapshot_section(snapshot, at, up, points, count, &again));
   CHECK(again == count);
   for (uint64_t k = 0; k < count; ++k) CHECK(fabs(points[3 * k + 2] + 7e-3) < 1e-15);
+  /* a normal of any length, also where its square is no double */
+  for (int k = 0; k < 3; ++k) {
+    const double along[3] = {0, 0, k == 0 ? 1e300 : k == 1 ? 1e-300 : 5e-324};
+    MUST(mvs_snapshot_section(snapshot, at, along, NULL, 0, &again));
+    CHECK(again == count);
+  }
   points[3] = 42;
   /* no more points than the buffer holds */
   MUST(mvs_snapshot_section(snapshot, at, up, points, 1, &again));
