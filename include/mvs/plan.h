@@ -55,7 +55,7 @@ MVS_API mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t
 
 /* Start and end a journal of the present valve in a new file. While it is open, each operation,
  * undo, redo and checkpoint is on the disk before its call returns, or the call fails with MVS_E_IO
- * and nothing changes. The history so far is written first, with what was undone and with its
+ * and nothing changes. The history so far is written first, with its undone operations and its
  * checkpoints. MVS_E_STATE if the file exists.
  *
  * A new valve ends the journal, with a warning in the log: also the same valve with other tissue
@@ -65,10 +65,10 @@ MVS_API mvs_result mvs_open_journal(mvs_sim *sim, const char *path);
 MVS_API mvs_result mvs_close_journal(mvs_sim *sim);
 
 /* Repeats all records of a journal after a crash and continues the journal. The simulator must have
- * the valve on which the history began (what mvs_set_valve or a file without a history gave), or the
- * session on which the journal was opened, as its file has it; MVS_E_STATE names the hash otherwise.
- * A last record that the crash cut short, or that is damaged, is dropped: replay->same_result is 0
- * then. `replay` is nullable. */
+ * the valve on which the history began (given by mvs_set_valve or a file without a history), or the
+ * session on which the journal was opened, as its file has it; MVS_E_STATE names the hash
+ * otherwise. A last record that the crash cut short, or that is damaged, is dropped:
+ * replay->same_result is 0 then. `replay` is nullable. */
 MVS_API mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *replay);
 
 #ifdef __cplusplus

@@ -164,11 +164,12 @@ typedef struct mvs_settle_options {
   double damping; /* 1/s, mass-proportional, of the dynamic solvers [explicit 500] */
 } mvs_settle_options;
 
-/* Accuracy that a step gave up to stay within its budget, in this order: bits of mvs_stats.lowered.
+/* Accuracy that a step gave up, in this order: bits of mvs_stats.lowered.
  * The bounds against crossing and the bound on energy always hold. */
 enum mvs_lowered_flags_e {
-  MVS_LOWERED_LINEAR = 1 << 0, /* the linear system was solved less accurately */
-  MVS_LOWERED_STEP = 1 << 1    /* the nodes moved by a part of their step, or not at all */
+  MVS_LOWERED_LINEAR = 1 << 0, /* the linear system was solved less accurately, for the budget */
+  MVS_LOWERED_STEP = 1 << 1    /* the nodes moved by a part of their step, or not at all: for the
+                                  budget, or because contact held some of them back */
 };
 typedef uint32_t mvs_lowered_flags;
 
@@ -178,7 +179,7 @@ typedef struct mvs_stats {
   uint32_t converged;        /* 1: the residual is reached, and nothing has changed since */
   uint32_t iterations;       /* Newton iterations, or time steps */
   uint32_t contact_pairs;    /* active contact pairs at the end */
-  mvs_lowered_flags lowered; /* MVS_LOWERED_*: accuracy given up for the budget of a step */
+  mvs_lowered_flags lowered; /* MVS_LOWERED_*: accuracy that a step gave up */
   uint32_t
       stable; /* 1: the last settle found a stable equilibrium, and nothing has changed since */
   double residual; /* N, largest out-of-balance force on a free node or tool point */
@@ -224,7 +225,8 @@ typedef struct mvs_step_options {
   double damping;    /* 1/s, mass-proportional [0 implicit, 500 explicit] */
   /* Largest number of energy passes and solutions with the factor in an implicit step, 4 to 10000
    * [64]. A count, not a time, so that the same calls give the same bits on any machine;
-   * mvs_stats.lowered reports the accuracy that a short budget costs. */
+   * mvs_stats.lowered reports the accuracy that a short budget costs. Searches for contact are not
+   * counted: on thousands of vertices they may take most of a step beside a tool that moves. */
   uint32_t budget;
   uint32_t reserved;
 } mvs_step_options;
@@ -232,8 +234,8 @@ typedef struct mvs_step_options {
 /* Advances by one time step: a bounded amount of work without progress callbacks. After a few steps
  * of a valve it makes no allocation and no system call as long as no snapshot of the valve is held.
  * An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing a tool
- * prepares the next step of a valve that is being stepped within its own call. MVS_E_DIVERGED if numbers left their range: use a smaller
- * dt. `options` is nullable. */
+ * prepares the next step of a valve that is being stepped within its own call. MVS_E_DIVERGED if
+ * numbers left their range: use a smaller dt. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
 /* Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.

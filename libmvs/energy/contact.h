@@ -26,6 +26,7 @@
 #include "collision/contact_params.h"
 #include "collision/near_barriers.h"
 #include "energy/barrier.h"
+#include "energy/settings.h"
 #include "model/model.h"
 
 namespace mvs::core {
@@ -43,6 +44,12 @@ inline double vertex_strength(const Model &model, uint32_t vertex) {
 }
 inline double edge_strength(const Model &model, double first_area, double second_area) {
   return 0.25 * model.valve.contact_stiffness * (first_area + second_area);
+}
+
+// The same of the short-range barrier between a tool and a part of the sheet with this third of its
+// rest area. `max_force`, N: what the hand of the tool pulls with.
+inline double tool_barrier_strength(const Model &model, double area, double max_force) {
+  return 0.5 * model.valve.contact_stiffness * area + settings::instrument::force_share * max_force;
 }
 
 class ContactTerm {

@@ -153,7 +153,8 @@ void ConvexContactTerm::collect_body(const std::vector<Vec3> &x, const ConvexIns
   const double barrier_range = barrier_share * valve.contact_thickness;
   for (const uint32_t t : body.triangles) {
     take(x, instrument, body, valve.triangles[t],
-         {body.radius, barrier_range, 0.5 * kappa * (model_->rest_area[t] / 3)});
+         {body.radius, barrier_range,
+          tool_barrier_strength(*model_, model_->rest_area[t] / 3, instrument.tool.max_force)});
   }
   for (const uint32_t c : body.chords) {
     const Chord &chord = valve.chords[c];

@@ -5,10 +5,11 @@
 // R) / r), r half of the contact thickness, so that a pressure acts at a distance, at any mesh
 // size; the distance to a convex body has a continuous derivative, so that this force is continuous
 // as tissue slides over faces, edges and corners. Each triangle has the short-range barrier
-// kappa A / 6 r_b B((d - R) / r_b) with its distance to the body, so that corners and edges of the
-// body are held between vertices. The distance d - R of a triangle or chord is the smooth one of
-// geometry/smooth_distance.h: the force is continuous, with its point of attack, also where a facet
-// or edge of the body passes through being parallel to tissue.
+// (kappa A / 6 + F / 10) r_b B((d - R) / r_b), F the force limit of the hand, with its distance to
+// the body, so that corners and edges of the body are held between vertices. The distance d - R of
+// a triangle or chord is the smooth one of geometry/smooth_distance.h: the force is continuous,
+// with its point of attack, also where a facet or edge of the body passes through being parallel to
+// tissue.
 //
 // A chord is a capsule of its own radius R_c: kappa A_c r B((d - R - R_c) / r), A_c the area of a
 // strip of its diameter along half of its rest length.

@@ -53,7 +53,8 @@ void InstrumentTerm::take_edge(const std::vector<Vec3> &x, const InstrumentBody 
 void InstrumentTerm::finish(const std::vector<Vec3> &x, const InstrumentBody &body, ContactPair s,
                             double range, double area, bool is_barrier) {
   s.range = range;
-  s.strength = (is_barrier ? 0.5 : 1) * model_->valve.contact_stiffness * area;
+  s.strength = is_barrier ? tool_barrier_strength(*model_, area, body.tool.max_force)
+                          : model_->valve.contact_stiffness * area;
   s.is_barrier = is_barrier;
   s.radius = body.tool.radius;
   if (measure(x, s)) contact_pairs_.push_back(s);

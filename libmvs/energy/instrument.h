@@ -8,9 +8,11 @@
 // Each vertex has the energy E_v = kappa A_v r B((d - R) / r), d the distance from the vertex to
 // the centre or the axis, R the radius, r half of the contact thickness: a pressure at a distance,
 // at any mesh size. A short-range barrier of the same B keeps triangles and edges out between
-// vertices: for each end and triangle, and for each axis and edge. While all of these distances are
-// above R nothing passes through. An axial spring keeps the length of a rod. There is no
-// friction, and chordae do not collide with balls and rods. convex_contact.h has convex tools.
+// vertices: for each end and triangle, and for each axis and edge. Its strength grows with the
+// force limit of the hand (tool_barrier_strength), so that the hand presses no pair closer than a
+// tenth of its range. While all of these distances are above R nothing passes through. An axial
+// spring keeps the length of a rod. There is no friction, and chordae do not collide with balls and
+// rods. convex_contact.h has convex tools.
 #pragma once
 
 #include <vector>

@@ -27,6 +27,11 @@ inline constexpr double rod_stiffness = 2e4;
 // about a hundredth of its arm. At 1e5 a live step took 1.7 times as long as that of a ball instead
 // of 1.46 (bench_step --tool convex), and the valve did not come to rest beside a still hand.
 inline constexpr double frame_stiffness = 2e4;
+// Share of the force limit of a hand in the strength of each short-range barrier of its tool: one
+// pair bears the whole force at 0.12 of its range, 24 um in a default valve. With the strength of
+// the sheet's own barriers alone a ball pressed with 5 N was 1 um from the tissue, where steps in
+// time that would turn a triangle around the ball end after 1 um: ball and valve stood still.
+inline constexpr double force_share = 0.1;
 // Share by which the distance of a convex body depends on the place on a triangle or chord, so that
 // it has no kinks (geometry/smooth_distance.h). 60 of 60 settles of tests/solve/convex_settles.cpp
 // converge at 0.5 and at 1; lower values turn facets harder, higher ones change the gap more.

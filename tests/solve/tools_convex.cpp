@@ -82,6 +82,8 @@ TEST_CASE("polyhedral_balls_converge_to_the_ball_at_second_order") {
       options.residual = 1e-8;
       Tool tool = convex_at(Vec3(1e-3, 0.5e-3, 4e-3), {body});
       tool.axis = random.vector(0.5);
+      // little more than the disc bears: the strength of short-range barriers grows with it
+      tool.max_force = 0.2;
       add_tool(disc, state, tool);
       state.tools[0].position.z() = -3e-3;
       const Settled settled = settle(disc, state, options);
@@ -103,9 +105,11 @@ TEST_CASE("polyhedral_balls_converge_to_the_ball_at_second_order") {
   const double wanted = (1.0 / 64 - 1.0 / 250) / (1.0 / 250 - 1.0 / 1000);
   CHECK((force[1] - force[0]) / (force[2] - force[1]) == about(wanted, 0.1));
   // the limit for N to infinity: that of the ball less 0.1 %, the frame's elasticity where a force
-  // acts on its surface and not at the hand
+  // acts on its surface and not at the hand, and more by the smoothed distance, which a hull of
+  // many corners has and the ball has not: it stands off by up to 10 um more, a twentieth of the
+  // range of the barrier, and the spring of the hand has 200 N/m
   const double limit = force[2] + (force[2] - force[1]) / 3;
-  CHECK(limit == about(ball, 1.5e-3));
+  CHECK(std::abs(limit - ball) < 1.5e-3 * ball + 200 * 10e-6);
 }
 
 TEST_CASE("a_stretched_frame_keeps_its_form_to_a_per_cent") {

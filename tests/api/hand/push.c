@@ -125,11 +125,44 @@ static void a_tool_with_the_id_of_another_is_its_own(void) {
   }
 }
 
+/* A hand that jumps through the closed valve and stands still there, 45 mm below the annulus: the
+ * ball pushes its way between the leaflets, and the valve closes behind it. With weaker barriers
+ * both stood still for ever, with a force of 5 to 100 N out of balance. */
+static void a_ball_pressed_hard_does_not_stop_the_valve(void) {
+  static const struct { double stiffness, force; } presses[] = {{200, 5}, {1e5, 100}};
+  const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
+  for (size_t k = 0; k < sizeof presses / sizeof *presses; ++k) {
+    mvs_tool_desc ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_KIND_BALL};
+    mvs_tool_state state = {.struct_size = sizeof state};
+    mvs_stats stats = {.struct_size = sizeof stats};
+    const push p = {.ap = 6e-3};
+    double down[3];
+    mvs_id tool = 0;
+    MUST(mvs_generate_valve(sim, NULL));
+    MUST(mvs_set_load(sim, &systole));
+    MUST(mvs_settle(sim, NULL, NULL));
+    ball.stiffness = presses[k].stiffness;
+    ball.max_force = presses[k].force;
+    place(&p, 15e-3, ball.position);
+    place(&p, -45e-3, down);
+    MUST(mvs_add_tool(sim, &ball, &tool));
+    MUST(mvs_move_tool(sim, tool, down, NULL));
+    for (int step = 0; step < 500; ++step) MUST(mvs_step(sim, NULL));
+    MUST(mvs_get_tool(sim, tool, &state));
+    MUST(mvs_get_stats(sim, &stats));
+    printf("press %zu: ball at %.1f mm, residual %.1e N\n", k + 1, 1e3 * height(state.proxy),
+           stats.residual);
+    CHECK(fabs(height(state.proxy) + 45e-3) < 1e-3);
+    CHECK(stats.residual < 1e-2);
+  }
+}
+
 int main(void) {
   MUST(mvs_create(NULL, &sim));
   close_valve();
   a_ball_drawn_back_comes_along();
   a_tool_with_the_id_of_another_is_its_own();
+  a_ball_pressed_hard_does_not_stop_the_valve();
   mvs_snapshot_release(closed);
   mvs_destroy(sim);
   return finish("push");

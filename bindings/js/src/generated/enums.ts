@@ -259,13 +259,16 @@ export const SettleFlags = {
 export type SettleFlags = keyof typeof SettleFlags;
 
 /**
- * Accuracy that a step gave up to stay within its budget, in this order: bits of mvs_stats.lowered.
- * The bounds against crossing and the bound on energy always hold.
+ * Accuracy that a step gave up, in this order: bits of mvs_stats.lowered. The bounds against
+ * crossing and the bound on energy always hold.
  */
 export const LoweredFlags = {
-  /** the linear system was solved less accurately */
+  /** the linear system was solved less accurately, for the budget */
   linear: 1,
-  /** the nodes moved by a part of their step, or not at all */
+  /**
+   * the nodes moved by a part of their step, or not at all: for the budget, or because contact held
+   * some of them back
+   */
   step: 2,
 } as const;
 export type LoweredFlags = keyof typeof LoweredFlags;

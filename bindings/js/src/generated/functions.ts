@@ -1145,9 +1145,9 @@ export class Functions extends Calls {
   /**
    * Advances by one time step: a bounded amount of work without progress callbacks. After a few
    * steps of a valve it makes no allocation and no system call as long as no snapshot of the valve
-   * is held. An operation, mvs_end_group, or adding or removing a tool prepares the next step of a
-   * valve that is being stepped within its own call. MVS_E_DIVERGED if numbers left their range:
-   * use a smaller dt. `options` is nullable.
+   * is held. An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing
+   * a tool prepares the next step of a valve that is being stepped within its own call.
+   * MVS_E_DIVERGED if numbers left their range: use a smaller dt. `options` is nullable.
    */
   mvs_step(sim: SimHandle, options?: StepOptions | null): void {
     return this.invoke(signatures.mvs_step!, [sim, options]) as never;

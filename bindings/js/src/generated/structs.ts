@@ -331,7 +331,7 @@ export interface Stats {
   iterations: number;
   /** active contact pairs at the end */
   contact_pairs: number;
-  /** MVS_LOWERED_*: accuracy given up for the budget of a step */
+  /** MVS_LOWERED_*: accuracy that a step gave up */
   lowered: number;
   /** 1: the last settle found a stable equilibrium, and nothing has changed since */
   stable: number;
@@ -360,7 +360,8 @@ export interface StepOptions {
   /**
    * Largest number of energy passes and solutions with the factor in an implicit step, 4 to 10000
    * [64]. A count, not a time, so that the same calls give the same bits on any machine;
-   * mvs_stats.lowered reports the accuracy that a short budget costs.
+   * mvs_stats.lowered reports the accuracy that a short budget costs. Searches for contact are not
+   * counted: on thousands of vertices they may take most of a step beside a tool that moves.
    */
   budget?: number;
 }
@@ -908,7 +909,7 @@ export interface Replay {
   operations: number;
   /** 1: the plan was made on this valve */
   same_valve: number;
-  /** 1: the final hash equals that of the plan */
+  /** 1: the final hash equals that of the plan; of a journal: its last record was whole */
   same_result: number;
 }
 
