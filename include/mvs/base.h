@@ -1,7 +1,8 @@
 /* Conventions and basic types of all headers: export macro, results, errors, ids, arrays.
  *
- * Units are SI (m, kg, s, N, Pa, rad). Text is UTF-8. Pointers must not be null unless the function
- * says nullable; a null pointer gives MVS_E_ARGUMENT, never a crash.
+ * Units are SI (m, kg, s, N, Pa, rad). Text is UTF-8; other bytes of a name become U+FFFD in plans.
+ * Pointers must not be null unless the function says nullable; a null pointer gives MVS_E_ARGUMENT,
+ * never a crash.
  *
  * Structs that may grow start with `struct_size`, which the caller sets to sizeof the struct, for
  * input and output alike. They grow only at their end. Fields that an older program does not have
@@ -55,14 +56,14 @@ enum mvs_result_e {
   MVS_E_ARGUMENT = -1,     /* a null pointer, or a value out of its range */
   MVS_E_ID = -2,           /* the valve has no part of this kind with this id */
   MVS_E_STATE = -3,        /* the simulator's state forbids the call, e.g. no valve is set */
-  MVS_E_OP = -4,           /* an impossible surgical operation, or an invalid valve */
+  MVS_E_OP = -4,           /* an impossible surgical operation, or an invalid valve or tissue */
   MVS_E_DIVERGED = -5,     /* the solution diverged: numbers left their valid range */
   MVS_E_FORMAT = -6,       /* a malformed file; mvs_error.line is the line */
   MVS_E_VERSION = -7,      /* a file, struct or driver of a version this library does not know */
   MVS_E_IO = -8,           /* the operating system refused to read or write */
   MVS_E_DEVICE = -9,       /* a haptic device or its driver failed */
   MVS_E_MEMORY = -10,      /* out of memory, or above a stated limit */
-  MVS_E_UNSUPPORTED = -11, /* this build lacks the requested part */
+  MVS_E_UNSUPPORTED = -11, /* this build, solver or file format lacks the requested part */
   MVS_E_INTERNAL = -12,    /* a defect of the library: please report it */
   MVS_E_CANCELLED = -13    /* the progress callback cancelled the call */
 };

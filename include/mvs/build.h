@@ -57,12 +57,13 @@ typedef struct mvs_build_options {
                                   surface is given, that of bilinear, PROT and May-Newman and Yin
                                   with which a fitted valve closes nearest to it: finding
                                   "tissue", whose value is the law] */
-  double edge;                 /* m, length of the triangles' sides [as for 1,000 vertices] */
+  double edge;                 /* m, length of the triangles' sides, 2e-4 to 5e-3 [as for 1,000
+                                  vertices] */
   double thickness;            /* m, where it is not known per point [0.8e-3] */
   double chord_factor;         /* on all rest lengths [1] */
   double coaptation_length;    /* m, overlap of both leaflets in the middle for which rest lengths
                                   are chosen if no closed surface is given [8e-3] */
-  uint32_t chords;             /* about this number of chord segments [100] */
+  uint32_t chords;             /* about this number of chord segments, 20 to 1000 [100] */
   uint32_t reserved;
   double edge_error;      /* m, up to 5e-3: how far the free edge may lie farther out or in than
                              in the surface; widens the interval of leaks [0] */

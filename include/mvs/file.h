@@ -16,7 +16,8 @@ extern "C" {
 /* File formats. */
 enum mvs_format_e {
   MVS_FORMAT_AUTO = 0,
-  MVS_FORMAT_OBJ = 1, /* extended OBJ (formats/FORMAT.md), read and write, exact round trip */
+  MVS_FORMAT_OBJ = 1, /* extended OBJ (formats/FORMAT.md), read and write, exact round
+                         trip of valve and state without tools and history */
   MVS_FORMAT_VTP = 2, /* VTK XML PolyData, write only: for ParaView and Slicer */
   MVS_FORMAT_H5 = 3,  /* HDF5, read and write, with the history for undo and redo; ParaView and h5py
                          can open it. MVS_E_UNSUPPORTED in a build without HDF5 */

@@ -227,13 +227,13 @@ MVS_API mvs_result mvs_check_op(const mvs_sim *sim, const mvs_op *op);
  * part). Operations undone before can no longer be redone. */
 MVS_API mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made);
 
-/* Reverts the last operation, or the whole last group, bit for bit. MVS_E_STATE without an
- * operation to undo. */
+/* Reverts the last operation, or the whole last group, bit for bit: the state is that directly
+ * before it. MVS_E_STATE without an operation to undo. */
 MVS_API mvs_result mvs_undo(mvs_sim *sim);
 
-/* Repeats the operation or group undone last, bit for bit. MVS_E_STATE without an operation to
- * redo.
- */
+/* Repeats the operation or group undone last, bit for bit: the state is that directly after it, so
+ * that the settles and steps which followed are to be made again. MVS_E_STATE without an operation
+ * to redo. */
 MVS_API mvs_result mvs_redo(mvs_sim *sim);
 
 /* Begin and end a group: its operations are undone and redone together, shown as `name` in a menu.

@@ -114,7 +114,7 @@ MVS_API mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fau
  * another thickness scales that of each triangle. Constants of 0 take the law's defaults;
  * MVS_LEAFLET_LAW_BILINEAR without constants, on a leaflet of springs, becomes the membrane that
  * follows the curve of those springs. Shape, chordae and load do not change; the history is
- * emptied, because operations cannot be undone into another tissue. */
+ * emptied, because operations cannot be undone into another tissue, and an open journal ends. */
 MVS_API mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc *tissue);
 
 /* Load on the valve. */

@@ -235,7 +235,7 @@ typedef uint32_t mvs_branching;
 typedef struct mvs_parametric_desc {
   uint32_t struct_size;
   uint32_t vertices;           /* approximate number of leaflet vertices [425]; 200 to 100000 */
-  uint32_t chords;             /* approximate number of chord segments [100; 80] */
+  uint32_t chords;             /* approximate number of chord segments, 20 to 400 [100; 80] */
   mvs_branching branching;     /* MVS_BRANCHING_* [trees; straight] */
   double annulus_ap;           /* m, septal-lateral diameter */
   double annulus_cc;           /* m, intercommissural diameter */

@@ -80,7 +80,7 @@ class Replay:
 
     operations: Annotated[int, "1", "operations applied"]
     same_valve: Annotated[bool, "1", "this is the valve of the plan"]
-    same_result: Annotated[bool, "1", "the hash at the end is that of the plan"]
+    same_result: Annotated[bool, "1", "the hash at the end is that of the plan; of a journal: its last record was whole"]
 
 
 @with_field_help

@@ -14,7 +14,7 @@ export const Result = {
   e_id: -2,
   /** the simulator's state forbids the call, e.g. no valve is set */
   e_state: -3,
-  /** an impossible surgical operation, or an invalid valve */
+  /** an impossible surgical operation, or an invalid valve or tissue */
   e_op: -4,
   /** the solution diverged: numbers left their valid range */
   e_diverged: -5,
@@ -28,7 +28,7 @@ export const Result = {
   e_device: -9,
   /** out of memory, or above a stated limit */
   e_memory: -10,
-  /** this build lacks the requested part */
+  /** this build, solver or file format lacks the requested part */
   e_unsupported: -11,
   /** a defect of the library: please report it */
   e_internal: -12,
@@ -555,7 +555,10 @@ export type BodyKind = keyof typeof BodyKind;
 /** File formats. */
 export const Format = {
   auto: 0,
-  /** extended OBJ (formats/FORMAT.md), read and write, exact round trip */
+  /**
+   * extended OBJ (formats/FORMAT.md), read and write, exact round trip of valve and state without
+   * tools and history
+   */
   obj: 1,
   /** VTK XML PolyData, write only: for ParaView and Slicer */
   vtp: 2,

@@ -1085,7 +1085,7 @@ export class Functions extends Calls {
    * one; another thickness scales that of each triangle. Constants of 0 take the law's defaults;
    * MVS_LEAFLET_LAW_BILINEAR without constants, on a leaflet of springs, becomes the membrane that
    * follows the curve of those springs. Shape, chordae and load do not change; the history is
-   * emptied, because operations cannot be undone into another tissue.
+   * emptied, because operations cannot be undone into another tissue, and an open journal ends.
    */
   mvs_set_leaflet(sim: SimHandle, leaflet: bigint | number, tissue: LeafletDesc): void {
     return this.invoke(signatures.mvs_set_leaflet!, [sim, leaflet, tissue]) as never;
@@ -1351,16 +1351,17 @@ export class Functions extends Calls {
   }
 
   /**
-   * Reverts the last operation, or the whole last group, bit for bit. MVS_E_STATE without an
-   * operation to undo.
+   * Reverts the last operation, or the whole last group, bit for bit: the state is that directly
+   * before it. MVS_E_STATE without an operation to undo.
    */
   mvs_undo(sim: SimHandle): void {
     return this.invoke(signatures.mvs_undo!, [sim]) as never;
   }
 
   /**
-   * Repeats the operation or group undone last, bit for bit. MVS_E_STATE without an operation to
-   * redo.
+   * Repeats the operation or group undone last, bit for bit: the state is that directly after it,
+   * so that the settles and steps which followed are to be made again. MVS_E_STATE without an
+   * operation to redo.
    */
   mvs_redo(sim: SimHandle): void {
     return this.invoke(signatures.mvs_redo!, [sim]) as never;

@@ -237,7 +237,7 @@ export interface ValveDesc {
 export interface ParametricDesc {
   /** approximate number of leaflet vertices [425]; 200 to 100000 */
   vertices?: number;
-  /** approximate number of chord segments [100; 80] */
+  /** approximate number of chord segments, 20 to 400 [100; 80] */
   chords?: number;
   /** MVS_BRANCHING_* [trees; straight] */
   branching?: Branching | number;
@@ -1304,7 +1304,7 @@ export interface BuildOptions {
    * whose value is the law]
    */
   leaflet_law?: LeafletLaw | number;
-  /** m, length of the triangles' sides [as for 1,000 vertices] */
+  /** m, length of the triangles' sides, 2e-4 to 5e-3 [as for 1,000 vertices] */
   edge?: number;
   /** m, where it is not known per point [0.8e-3] */
   thickness?: number;
@@ -1315,7 +1315,7 @@ export interface BuildOptions {
    * surface is given [8e-3]
    */
   coaptation_length?: number;
-  /** about this number of chord segments [100] */
+  /** about this number of chord segments, 20 to 1000 [100] */
   chords?: number;
   /**
    * m, up to 5e-3: how far the free edge may lie farther out or in than in the surface; widens the
