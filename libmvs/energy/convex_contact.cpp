@@ -6,6 +6,7 @@
 
 #include "collision/contact_params.h"
 #include "collision/near_parts.h"
+#include "energy/contact.h"
 #include "energy/settings.h"
 
 namespace mvs::core {
