@@ -16,7 +16,8 @@ std::unique_ptr<Workers> make_workers(const mvs_sim_desc &desc) {
   if (desc.run_tasks) {
     return std::make_unique<Workers>(HostPool{desc.pool_width, desc.run_tasks, desc.user});
   }
-  return desc.workers > 1 ? std::make_unique<Workers>(desc.workers) : nullptr;
+  if (desc.workers > 1) return std::make_unique<Workers>(desc.workers);
+  return nullptr;
 }
 
 }  // namespace
