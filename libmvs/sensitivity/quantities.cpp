@@ -100,8 +100,8 @@ void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_t
                        double slack, QuantityGradient &q) {
   q.notes |= MVS_SENSITIVITY_NOTE_EXTREME;
   uint32_t largest = none;
-  double next = 0;  // the most that another chord reaches
-  double most = 0;  // the least to which the largest falls
+  double others_reach = 0;
+  double largest_falls_to = 0;
   for (uint32_t c = 0; c < model.valve.chords.size(); ++c) {
     const Chord &chord = model.valve.chords[c];
     if (chord.kind == ChordKind::suture) continue;
@@ -110,16 +110,16 @@ void largest_of_chords(const Model &model, const std::vector<Vec3> &x, bool is_t
     const double slope = (is_tension ? chord.area * at.response.slope : 1) / chord.rest_length;
     const double change = 2 * slack * slope;
     if (value <= q.value) {
-      next = std::max(next, value + change);
+      others_reach = std::max(others_reach, value + change);
       continue;
     }
-    if (largest != none) next = std::max(next, q.value + (q.value - most));
+    if (largest != none) others_reach = std::max(others_reach, 2 * q.value - largest_falls_to);
     q.value = value;
-    most = value - change;
+    largest_falls_to = value - change;
     largest = c;
   }
   if (largest == none) return;
-  if (next > most) q.notes |= MVS_SENSITIVITY_NOTE_TIED;
+  if (others_reach > largest_falls_to) q.notes |= MVS_SENSITIVITY_NOTE_TIED;
   if (is_tension) {
     add_tension(model, largest, x, 1, q);
   } else {
