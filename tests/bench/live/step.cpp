@@ -8,6 +8,7 @@
 //   bench_step --csv FILE            also as a table, one row a scene and phase of the play
 //   bench_step --tool convex         the ball of the play as a convex tool of 200 vertices, beside
 //                                    the play with the ball: ratios of the steps while it pushes
+//   bench_step --shape healthy       on the default valve, whose leaflets are membranes
 //
 // The play takes some ten seconds and is repeated: a valve closes under systole and beats; a hand
 // grasps the edge of A2, pulls it 10 mm into the atrium, and releases it; a ball pushes P2 down and
@@ -63,12 +64,20 @@ struct Options {
   double seconds = 60;
   uint32_t budget = 0, workers = 1;
   bool closed = false;
-  std::string csv, tool = "ball";
+  std::string csv, tool = "ball", shape = "founding";
 
+  mvs_parametric_desc valve_of(const std::string &scene) const;
   double now() const {
     return bench::read_clock(workers > 1 ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID);
   }
 };
+
+mvs_parametric_desc Options::valve_of(const std::string &scene) const {
+  mvs_parametric_desc valve = {};
+  valve.shape = shape == "founding" ? MVS_SHAPE_FOUNDING : MVS_SHAPE_HEALTHY;
+  valve.vertices = scene_vertices.at(scene);
+  return valve;
+}
 
 // One step and its cost. Reading a valve makes a snapshot, so only awake steps are checked: steps
 // at rest are timed without a snapshot.
@@ -127,10 +136,7 @@ std::vector<StepRow> run_scene(const Options &options, const std::string &scene,
   mvs_sim_desc desc = {};
   desc.workers = options.workers;
   mvs::Simulator sim(desc);
-  mvs_parametric_desc valve = {};
-  valve.shape = MVS_SHAPE_FOUNDING;
-  valve.vertices = scene_vertices.at(scene);
-  sim.generate(valve);
+  sim.generate(options.valve_of(scene));
   if (options.closed) {
     sim.set_load(MVS_SYSTOLE_PA);
     sim.settle();
@@ -154,10 +160,7 @@ std::vector<StepRow> run_scene(const Options &options, const std::string &scene,
 
 double explicit_step(const Options &options, const std::string &scene) {
   mvs::Simulator sim;
-  mvs_parametric_desc valve = {};
-  valve.shape = MVS_SHAPE_FOUNDING;
-  valve.vertices = scene_vertices.at(scene);
-  sim.generate(valve);
+  sim.generate(options.valve_of(scene));
   sim.set_load(MVS_SYSTOLE_PA);
   sim.settle();
   std::vector<double> took;
@@ -258,6 +261,9 @@ int main(int argc, char **argv) {
     app.add_option("--tool", options.tool, "that pushes P2")
         ->capture_default_str()
         ->check(CLI::IsMember({"ball", "convex"}));
+    app.add_option("--shape", options.shape, "springs, or the default valve with its membranes")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"founding", "healthy"}));
     app.add_option("--csv", options.csv, "write the table there too");
     CLI11_PARSE(app, argc, argv);
     run(options);
