@@ -36,7 +36,6 @@ mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
     const std::shared_ptr<const HistoryEntry> entry = after.history.past.top();
     commit(s, std::move(after),
            [&](const Snapshot &next) { return steps_record(before->value, next); });
-    if (s.group.number == 0) s.make_ready();
     if (made) *made = entry->made;
     s.log(MVS_LOG_INFO, "%s", entry->title.c_str());
   });
@@ -47,7 +46,6 @@ mvs_result mvs_undo(mvs_sim *sim) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "undo");
     commit(s, undone(before->value), [](const Snapshot &) { return word_record("undo"); });
-    s.make_ready();
   });
 }
 
@@ -56,7 +54,6 @@ mvs_result mvs_redo(mvs_sim *sim) {
     const SnapshotPtr before = s.present();
     must_be_no_group(s, "redo");
     commit(s, redone(before->value), [](const Snapshot &) { return word_record("redo"); });
-    s.make_ready();
   });
 }
 
@@ -97,7 +94,6 @@ mvs_result mvs_restore_checkpoint(mvs_sim *sim, const char *name) {
     const std::string text = checked_name(name, "checkpoint");
     commit(s, at_checkpoint(before->value, text),
            [&](const Snapshot &) { return named_record("restore_checkpoint", text, {}); });
-    s.make_ready();
   });
 }
 

@@ -14,6 +14,7 @@ void commit(mvs_sim &sim, Snapshot after, const Record &record) {
   SnapshotPtr next = make_snapshot(std::move(after));
   if (sim.journal) sim.journal->append(record(next->value).line());
   sim.replace(std::move(next));
+  if (sim.group.number == 0) sim.make_ready();
 }
 
 namespace {

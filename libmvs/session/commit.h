@@ -11,7 +11,7 @@ namespace mvs::core {
 int64_t now_ms();
 
 // Makes `after` the present snapshot. If a journal is open, its record is built and written first;
-// a failure leaves the simulator unchanged.
+// a failure leaves the simulator unchanged. Prepares the next time step, unless a group is open.
 using Record = std::function<Json(const Snapshot &after)>;
 void commit(mvs_sim &sim, Snapshot after, const Record &record);
 
