@@ -27,18 +27,13 @@ std::vector<LawFit> fits_of_laws(const std::vector<LeafletLawId> &laws, const Pa
   const PatientGeometry g = patient_geometry(patient.mid, edge, of_coarse);
   const bool edge_is_exact =
       find_edge_range(settings.edge_error, settings.edge_lost, g, of_coarse).geometry == nullptr;
-  std::vector<LawFit> fits;
-  for (size_t k = 0; k < laws.size(); ++k) {
+  std::vector<Valve> valves;
+  valves.reserve(laws.size());
+  for (const LeafletLawId law : laws) {
     Findings of_law = of_coarse;
-    Valve valve = patient_valve(settings, laws[k], g, patient.tips, of_law);
-    const std::optional<LawFit> fit =
-        fit_law(std::move(valve), g, patient.closed, edge_is_exact, [&](uint32_t search) {
-          const double of_this = static_cast<double>(search) / law_searches;
-          tell((static_cast<double>(k) + of_this) / static_cast<double>(laws.size()));
-        });
-    if (fit) fits.push_back(*fit);
+    valves.push_back(patient_valve(settings, law, g, patient.tips, of_law));
   }
-  return fits;
+  return fit_laws(std::move(valves), g, patient.closed, edge_is_exact, tell);
 }
 
 // Coarse fits, the nearest first: with the given law, so that its fine fit begins at the same

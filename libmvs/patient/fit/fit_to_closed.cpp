@@ -13,6 +13,16 @@
 #include "patient/surface/rims.h"
 
 namespace mvs::core {
+
+// One search: factors of groups and of chordae, and the valve closed with them from open.
+struct FoundLengths {
+  std::vector<double> group, group_deviation;
+  std::vector<double> chord_deviation;
+  FitTrial trial;  // its factors are those of chordae if they are sought one by one
+  double rms = 0;
+  uint32_t rounds = 0;
+};
+
 namespace {
 
 // Step of the differences: 0.15 mm of a chord of 15 mm, far above the error of a settled valve.
@@ -21,7 +31,8 @@ constexpr double difference = 0.01;
 constexpr double nearest_open = 1e-3;
 constexpr uint64_t start_seed = 22;  // of the other starts
 
-void check_surface(const ClosedSurface &given, const Model &model) {
+// The model of a valve, whose annulus the surface must meet.
+ModelPtr checked_model(const ClosedSurface &given, const Valve &valve) {
   MVS_MUST(!given.triangles.empty(), MVS_E_ARGUMENT, "closed_triangles",
            "the closed surface has no triangles");
   for (const Tri &t : given.triangles) {
@@ -30,6 +41,8 @@ void check_surface(const ClosedSurface &given, const Model &model) {
                "the closed surface names point %u of %zu", i, given.points.size());
     }
   }
+  ModelPtr made = make_model(valve);
+  const Model &model = *made;
   const TriangleBvh tree(given.triangles, given.points);
   double sum = 0;
   for (const uint32_t i : model.valve.annulus) sum += tree.closest(model.target(i, 1)).distance2;
@@ -51,18 +64,10 @@ void check_surface(const ClosedSurface &given, const Model &model) {
            "the closed surface lies on the open one, %.2f mm away in the mean (RMS): give the "
            "leaflets closed under pressure, or leave them out",
            off * 1e3);
+  return made;
 }
 
-// One search: factors of groups and of chordae, and the valve closed with them from open.
-struct Found {
-  std::vector<double> group, group_deviation;
-  std::vector<double> chord_deviation;
-  FitTrial trial;  // its factors are those of chordae if they are sought one by one
-  double rms = 0;
-  uint32_t rounds = 0;
-};
-
-double loss(const Found &found) {
+double loss(const FoundLengths &found) {
   return loss_of(found.rms, found.trial.closed.stats.converged);
 }
 
@@ -83,12 +88,12 @@ FitParameters singles_of(const FitParameters &groups, const std::vector<double> 
 // Searches from a closed trial. A search follows one fold; the valve is closed from open
 // afterwards, and if that is another fold, which is farther from the surface, the search goes on
 // from there.
-Found search(const FitSearch &fit, const FitParameters &groups, const FitSettings &s,
-             FitTrial start) {
-  Found best;
+FoundLengths search_from(const FitSearch &fit, const FitParameters &groups, const FitSettings &s,
+                         FitTrial start) {
+  FoundLengths best;
   uint32_t rounds = 0;
   for (int pass = 0; pass < 2; ++pass) {
-    Found here;
+    FoundLengths here;
     rounds += fit.improve(groups, start, here.group_deviation);
     here.group = start.factor;
     double followed = rms_distance(start.matches);
@@ -144,9 +149,9 @@ double combined(double a, double b, double c = 0) {
 }
 
 // Puts the searches that are as good as the best one into the fit, with deviations and spread.
-void collect(const std::vector<Found> &found, size_t best, const FitParameters &groups,
+void collect(const std::vector<FoundLengths> &found, size_t best, const FitParameters &groups,
              const FitSettings &s, size_t chords, ChordFit &fit) {
-  const Found &taken = found[best];
+  const FoundLengths &taken = found[best];
   const Model &model = *taken.trial.closed.model;
   const double limit = as_good_as(taken.rms);
   fit.leak = measure_orifice(model, taken.trial.closed.state.x).area;
@@ -202,33 +207,70 @@ ClosedJacobian jacobian_by_differences(Solver &solver) {
   };
 }
 
+struct FitSearches::Work {
+  Valve valve;
+  FitSettings settings;
+  Solver solver{Backend::fastest};
+  ClosedJacobian jacobian;
+  ClosedValve first;  // as it is given
+  SurfaceMatcher matcher;
+  FitParameters groups;
+  FitSearch from;
+  FitTrial as_it_is;
+  std::vector<FoundLengths> found;
+  size_t best = 0;
+
+  Work(Valve given_valve, const ClosedSurface &given, const FitSettings &s, ClosedJacobian j)
+      : valve(std::move(given_valve)),
+        settings(s),
+        jacobian(j ? std::move(j) : jacobian_by_linearisation()),
+        first(close_open(solver, checked_model(given, valve), s.pressure)),
+        matcher(given, *first.model, first.state.x),
+        groups{chord_groups(*first.model, s.grouping), {}, s.prior},
+        from(valve, matcher, settings, solver, jacobian) {
+    groups.mean.assign(groups.groups.size(), 1);
+    as_it_is = from.judged(groups, groups.mean, first);
+  }
+};
+
+FitSearches::FitSearches(Valve valve, const ClosedSurface &given, const FitSettings &settings,
+                         ClosedJacobian jacobian)
+    : work_(std::make_unique<Work>(std::move(valve), given, settings, std::move(jacobian))) {}
+
+FitSearches::~FitSearches() = default;
+
+void FitSearches::search(uint32_t start) {
+  Work &w = *work_;
+  FitTrial begin = start == 0 && w.settings.known.empty()
+                       ? w.as_it_is
+                       : w.from.from_open(w.groups, start_factors(w.groups, w.settings, start));
+  w.found.push_back(search_from(w.from, w.groups, w.settings, std::move(begin)));
+  if (loss(w.found.back()) < loss(w.found[w.best])) w.best = w.found.size() - 1;
+}
+
+const ClosedValve &FitSearches::closed() const {
+  return work_->found[work_->best].trial.closed;
+}
+
+ChordFit FitSearches::fit() const {
+  const Work &w = *work_;
+  ChordFit made;
+  made.rms_before = rms_distance(w.as_it_is.matches);
+  for (const FoundLengths &found : w.found) made.rounds += found.rounds;
+  collect(w.found, w.best, w.groups, w.settings, w.valve.chords.size(), made);
+  made.rms = w.found[w.best].rms;
+  made.at_rest = closed().stats.converged;
+  return made;
+}
+
 ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettings &s,
                        Findings &findings, ClosedJacobian jacobian, const FitProgress &progress) {
-  Solver solver(Backend::fastest);
-  if (!jacobian) jacobian = jacobian_by_linearisation();
-  const ModelPtr model = make_model(valve);
-  check_surface(given, *model);
-  const ClosedValve first = close_open(solver, model, s.pressure);
-  const SurfaceMatcher matcher(given, *model, first.state.x);
-  FitParameters groups{chord_groups(*model, s.grouping), {}, s.prior};
-  groups.mean.assign(groups.groups.size(), 1);
-  const FitSearch fit(valve, matcher, s, solver, jacobian);
-  ChordFit done;
-  const FitTrial as_it_is = fit.judged(groups, groups.mean, first);
-  done.rms_before = rms_distance(as_it_is.matches);
-  std::vector<Found> found;
-  size_t best = 0;
+  FitSearches searches(valve, given, s, std::move(jacobian));
   for (uint32_t k = 0; k < std::max(1u, s.starts); ++k) {
     if (progress) progress(k);
-    FitTrial start =
-        k == 0 && s.known.empty() ? as_it_is : fit.from_open(groups, start_factors(groups, s, k));
-    found.push_back(search(fit, groups, s, std::move(start)));
-    done.rounds += found.back().rounds;
-    if (loss(found.back()) < loss(found[best])) best = k;
+    searches.search(k);
   }
-  collect(found, best, groups, s, valve.chords.size(), done);
-  done.rms = found[best].rms;
-  done.at_rest = found[best].trial.closed.stats.converged;
+  ChordFit done = searches.fit();
   for (size_t c = 0; c < valve.chords.size(); ++c)
     valve.chords[c].rest_length *= done.chord_factor[c];
   report_fit(done, s, findings);

@@ -11,7 +11,9 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "patient/chordae/chord_groups.h"
 #include "patient/fit/closure.h"
@@ -78,7 +80,26 @@ inline double loss_of(double rms, bool at_rest) {
 // Called before each search with its number, from 0; may throw to end the fit.
 using FitProgress = std::function<void(uint32_t start)>;
 
-// Changes the rest lengths of `valve`. Throws if the surface is empty or lies elsewhere.
+// The searches of a fit, one by one, so that a caller can give up a fit that falls behind another.
+class FitSearches {
+ public:
+  // Throws if the surface is empty or lies elsewhere. Keeps a reference to `given`.
+  FitSearches(Valve valve, const ClosedSurface &given, const FitSettings &settings,
+              ClosedJacobian jacobian = {});
+  ~FitSearches();
+  // Search number `start`, from 0, in order.
+  void search(uint32_t start);
+  // Of the best search so far: its valve, closed from open.
+  const ClosedValve &closed() const;
+  // The best search so far, and how far those as good as it lie from it.
+  ChordFit fit() const;
+
+ private:
+  struct Work;
+  std::unique_ptr<Work> work_;
+};
+
+// All searches. Changes the rest lengths of `valve`. Throws as FitSearches does.
 ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettings &settings,
                        Findings &findings, ClosedJacobian jacobian = {},
                        const FitProgress &progress = {});

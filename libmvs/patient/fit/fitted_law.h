@@ -7,7 +7,8 @@
 #pragma once
 
 #include <array>
-#include <optional>
+#include <functional>
+#include <vector>
 
 #include "patient/fit/fit_to_closed.h"
 #include "patient/leaflet_sheet.h"
@@ -32,16 +33,19 @@ struct LawFit {
   double rms = 0;       // m: that of the fit (ChordFit)
   GroupFactors factor;  // on the lengths of chordae
   bool at_rest = true;
+  bool given_up = false;  // before its last search
 };
 
-// Fits `valve`, on the sheet of `g`. Empty if it diverges or crosses itself.
+// Fits each of `valves`, on the sheet of `g`, each with a law of its own. A valve is left out if it
+// diverges or crosses itself. Their searches take turns, and a law that falls far behind another is
+// given up.
 //
 // The distance is that of the given surface from the valve, not the other way round: where the
 // surface lacks tissue, as along the free edge, a valve without error is far from it whatever its
-// tissue. `tell` is called before each of law_searches searches and may throw to end the fit.
-inline constexpr uint32_t law_searches = 4;
-std::optional<LawFit> fit_law(Valve valve, PatientGeometry g, const ClosedSurface &given,
-                              bool edge_is_exact, const FitProgress &tell);
+// tissue. `tell` receives the share done before each search and may throw to end the fits.
+std::vector<LawFit> fit_laws(std::vector<Valve> valves, const PatientGeometry &g,
+                             const ClosedSurface &given, bool edge_is_exact,
+                             const std::function<void(double)> &tell);
 
 // Distance and moved edge together, m.
 double misfit_of(const LawFit &fit);
