@@ -77,11 +77,15 @@ Snapshot read_session(std::string_view bytes);
 // Reads a file or pipe of at most `limit` bytes.
 std::string read_whole_file(const std::string &path, size_t limit = max_file_bytes);
 
-// Creates a folder, unless it is there.
-void make_folder(const std::string &path);
+// Creates a folder; false if it is there.
+bool make_folder(const std::string &path);
+void remove_empty_folder(const std::string &path);
 
 // Replaces a file atomically: at every moment, also after a power loss, the target is either the
 // old file or the whole new one. A failure removes the temporary file.
 void write_whole_file(const std::string &path, std::string_view bytes);
+// The same for files in a folder (their paths are relative to it; "": the present one). All are
+// written before the first takes the place of its target.
+void write_whole_files(const std::vector<NamedFile> &files, const std::string &folder);
 
 }  // namespace mvs::core

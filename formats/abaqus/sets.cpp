@@ -27,6 +27,11 @@ struct Kind {
   const Numbers &numbers;
   const InpSets &sets;
   const std::set<uint64_t> *skipped;
+
+  // A set names each part of the file once, or a few times where its ranges overlap.
+  size_t most_named() const {
+    return 10 * (numbers.size() + (skipped ? skipped->size() : 0)) + 1000;
+  }
 };
 
 std::vector<uint32_t> named(std::string_view word, int32_t line, const InpMesh &mesh,
@@ -54,8 +59,15 @@ Kind element_kind(const InpMesh &mesh) {
   return {"element", mesh.element_of, mesh.element_sets, &mesh.skipped};
 }
 
+void check_named(size_t named_so_far, int32_t line, const Kind &kind) {
+  if (named_so_far <= kind.most_named()) return;
+  inp_fail(line, "the set names more than ten times the %ss of the file: name each once",
+           kind.thing);
+}
+
 // Reads a range (first, last, step); every number of it has to exist.
-void add_range(InpRow row, const InpMesh &mesh, const Kind &kind, std::vector<uint32_t> &items) {
+void add_range(InpRow row, const InpMesh &mesh, const Kind &kind, size_t &named_so_far,
+               std::vector<uint32_t> &items) {
   const uint64_t first = row.whole("the first number of a range");
   const uint64_t last = row.whole("the last number of a range");
   const std::string_view word = row.word();
@@ -69,6 +81,7 @@ void add_range(InpRow row, const InpMesh &mesh, const Kind &kind, std::vector<ui
              static_cast<unsigned long long>(step));
   }
   for (uint64_t number = first; number <= last; number += step) {
+    check_named(++named_so_far, row.line(), kind);
     const std::vector<uint32_t> found = named(std::to_string(number), row.line(), mesh, kind);
     items.insert(items.end(), found.begin(), found.end());
     if (last - number < step) break;
@@ -93,11 +106,12 @@ void read_set(InpCard &card, const char *key, const std::string &level, const In
   const std::string_view name = *card.take(key);
   const bool generate = card.take("GENERATE").has_value();
   std::vector<uint32_t> items;
+  size_t named_so_far = 0;
   if (card.is("NSET")) add_nodes_of(card, mesh, items);
   for (size_t k = 0; k < card.data.size(); ++k) {
     InpRow row = card.row(k);
     if (generate) {
-      add_range(row, mesh, kind, items);
+      add_range(row, mesh, kind, named_so_far, items);
       continue;
     }
     while (!row.at_end()) {
@@ -105,7 +119,7 @@ void read_set(InpCard &card, const char *key, const std::string &level, const In
       if (word.empty()) continue;
       const std::vector<uint32_t> found = named(word, row.line(), mesh, kind);
       items.insert(items.end(), found.begin(), found.end());
-      if (items.size() > longest_range) inp_fail(row.line(), "the set has too many members");
+      check_named(named_so_far += found.size() + 1, row.line(), kind);
     }
   }
   add_to_inp_set(into, level, name, card.line, items);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "formats/formats.h"
 #include "formats/text/checksum.h"
 #include "formats/text/line.h"
 
@@ -15,7 +16,8 @@ namespace mvs::core {
 namespace {
 
 constexpr std::string_view mark = "mvsj ";
-constexpr size_t longest_record = size_t{64} << 20;
+// Of a whole journal: what read_whole_file reads.
+constexpr size_t most_bytes = max_file_bytes;
 
 [[noreturn]] void fail_journal(const char *verb, const std::string &path, int error) {
   fail_io(verb, "the journal " + path, error, "journal");
@@ -38,7 +40,7 @@ bool take_record(std::string_view &rest, std::string &text) {
   uint64_t length = 0;
   if (!parse_whole(take_word(r), length)) return false;
   const std::string_view checksum = take_word(r);
-  if (length > longest_record || r.size() < length + 1 || r[length] != '\n') return false;
+  if (length >= r.size() || r[length] != '\n') return false;
   if (checksum_digits(r.substr(0, length)) != checksum) return false;
   text = r.substr(0, length);
   rest = r.substr(length + 1);
@@ -70,13 +72,20 @@ std::string journal_line(std::string_view text) {
          std::string(text) + "\n";
 }
 
-Journal Journal::create(const std::string &path) {
+Journal Journal::create(const std::string &path, std::string_view first) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   MVS_MUST(file.number() >= 0 || errno != EEXIST, MVS_E_STATE, "journal",
            "the journal %s is there already: recover it, or move it away", path.c_str());
   if (file.number() < 0) fail_journal("create", path, errno);
-  sync_folder(folder_of(path));
-  return {path, std::move(file), 0};
+  try {
+    sync_folder(folder_of(path));
+    Journal journal(path, std::move(file), 0);
+    journal.append(first);
+    return journal;
+  } catch (...) {
+    ::unlink(path.c_str());
+    throw;
+  }
 }
 
 Journal Journal::reopen(const std::string &path, size_t bytes) {
@@ -88,6 +97,10 @@ Journal Journal::reopen(const std::string &path, size_t bytes) {
 
 void Journal::append(std::string_view text) {
   const std::string line = journal_line(text);
+  MVS_MUST(line.size() <= most_bytes - size_, MVS_E_STATE, "journal",
+           "the journal %s would have more than %zu bytes, which libmvs does not read: save the "
+           "session, close the journal, and open another",
+           path_.c_str(), most_bytes);
   size_t written = 0;
   while (written < line.size()) {
     const ssize_t count = ::pwrite(file_.number(), line.data() + written, line.size() - written,

@@ -28,12 +28,13 @@ std::string journal_line(std::string_view text);
 
 class Journal {
  public:
-  // Creates a file; MVS_E_STATE if it exists.
-  static Journal create(const std::string &path);
+  // Creates a file with its first record; MVS_E_STATE if it exists. If this fails, no file remains.
+  static Journal create(const std::string &path, std::string_view first);
   // Opens a file for appending after its first `bytes` and drops the rest.
   static Journal reopen(const std::string &path, size_t bytes);
 
-  // Appends a record. If this fails, throws MVS_E_IO and leaves the file unchanged.
+  // Appends a record. If this fails, throws MVS_E_IO, or MVS_E_STATE if the file would be too long
+  // to be read again, and leaves it unchanged.
   void append(std::string_view text);
   const std::string &path() const { return path_; }
 

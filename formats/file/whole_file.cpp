@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <deque>
 #include <memory>
 
 #include "base/error.h"
@@ -18,25 +19,6 @@ namespace mvs::core {
 namespace {
 
 using Status = struct stat;
-
-// A file name that is unlinked on destruction unless the file was renamed.
-class Temporary {
- public:
-  explicit Temporary(const std::string &path) : path_(path) {}
-  Temporary(const Temporary &) = delete;
-  Temporary &operator=(const Temporary &) = delete;
-  ~Temporary() {
-    if (!renamed_) ::unlink(path_.c_str());
-  }
-  void rename_to(const std::string &target) {
-    if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write("replace", target, errno);
-    renamed_ = true;
-  }
-
- private:
-  const std::string &path_;
-  bool renamed_ = false;
-};
 
 // Creates a file with a new name in `folder` (O_EXCL), with the mode of the umask.
 int open_new(const std::string &folder, std::string &path) {
@@ -77,6 +59,42 @@ bool find_old(const std::string &target, Status &old) {
   return true;
 }
 
+// A whole new file beside its target. Removed with this object unless it took the target's place.
+class Replacement {
+ public:
+  Replacement(const std::string &path, std::string_view bytes)
+      : target_(follow_links(path)), folder_(folder_of(target_)) {
+    Status old;
+    const bool replaces = find_old(target_, old);
+    Descriptor file(open_new(folder_, path_));
+    try {
+      write_all(file, bytes, target_);
+      if (replaces && ::fchmod(file.number(), old.st_mode & 07777) != 0) {
+        fail_to_write("keep the mode of", target_, errno);
+      }
+      if (::fsync(file.number()) != 0) fail_to_write("write", target_, errno);
+      if (!file.close()) fail_to_write("write", target_, errno);
+    } catch (...) {
+      ::unlink(path_.c_str());
+      throw;
+    }
+  }
+  Replacement(const Replacement &) = delete;
+  Replacement &operator=(const Replacement &) = delete;
+  ~Replacement() {
+    if (!renamed_) ::unlink(path_.c_str());
+  }
+  void take_place() {
+    if (::rename(path_.c_str(), target_.c_str()) != 0) fail_to_write("replace", target_, errno);
+    renamed_ = true;
+    sync_folder(folder_);
+  }
+
+ private:
+  std::string target_, folder_, path_;
+  bool renamed_ = false;
+};
+
 // Returns the initial buffer size; fails for a folder or a file that is too large.
 size_t size_to_read(const Descriptor &file, const std::string &path, size_t limit) {
   Status status;
@@ -112,29 +130,26 @@ std::string read_whole_file(const std::string &path, size_t limit) {
   }
 }
 
-void make_folder(const std::string &path) {
+bool make_folder(const std::string &path) {
   Status found;
-  if (::mkdir(path.c_str(), 0777) == 0) return;
+  if (::mkdir(path.c_str(), 0777) == 0) return true;
   const int error = errno;
-  if (error == EEXIST && ::stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) return;
+  if (error == EEXIST && ::stat(path.c_str(), &found) == 0 && S_ISDIR(found.st_mode)) return false;
   fail_to_write("create folder", path, error);
 }
 
+void remove_empty_folder(const std::string &path) {
+  ::rmdir(path.c_str());
+}
+
 void write_whole_file(const std::string &path, std::string_view bytes) {
-  const std::string target = follow_links(path), folder = folder_of(target);
-  Status old;
-  const bool replaces = find_old(target, old);
-  std::string path_of_new;
-  Descriptor file(open_new(folder, path_of_new));
-  Temporary temporary(path_of_new);
-  write_all(file, bytes, target);
-  if (replaces && ::fchmod(file.number(), old.st_mode & 07777) != 0) {
-    fail_to_write("keep the mode of", target, errno);
-  }
-  if (::fsync(file.number()) != 0) fail_to_write("write", target, errno);
-  if (!file.close()) fail_to_write("write", target, errno);
-  temporary.rename_to(target);
-  sync_folder(folder);
+  Replacement(path, bytes).take_place();
+}
+
+void write_whole_files(const std::vector<NamedFile> &files, const std::string &folder) {
+  std::deque<Replacement> all;
+  for (const NamedFile &file : files) all.emplace_back(folder + file.path, file.bytes);
+  for (Replacement &one : all) one.take_place();
 }
 
 }  // namespace mvs::core

@@ -170,6 +170,7 @@ void ObjReader::curve(Line &line) {
   Fields fields(line);
   read_named(fields, curve);
   fields.end();
+  curves_.emplace(curve.name, static_cast<uint32_t>(valve.curves.size()));
   valve.curves.push_back(std::move(curve));
 }
 
@@ -206,10 +207,7 @@ void ObjReader::fibre(Line &line) {
 uint32_t ObjReader::curve_of(Fields &fields, const Line &line) const {
   std::string name;
   fields.need(fields.text("curve", name), "curve");
-  const auto &curves = out_.valve.curves.get();
-  for (uint32_t c = 0; c < curves.size(); ++c) {
-    if (curves[c].name == name) return c;
-  }
+  if (const auto found = curves_.find(name); found != curves_.end()) return found->second;
   line.fail("there is no curve %s above this line", quoted(name).c_str());
 }
 

@@ -97,7 +97,7 @@ class ObjReader {
   void check_complete(const Line &last) const;
 
   Loaded out_;
-  std::map<std::string, uint32_t, std::less<>> leaflets_, scallops_;
+  std::map<std::string, uint32_t, std::less<>> leaflets_, scallops_, curves_;
   ObjGroup group_;
   size_t segments_in_line_ = 0;
   GivenAttributes given_;

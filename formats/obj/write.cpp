@@ -42,14 +42,16 @@ void write_valve(LineWriter &out, const Valve &valve) {
   out.end_line();
 }
 
-// A state with tools is not written in full, so steps from the file begin without a solver cache.
+// A state with tools is not written in full: without them it is not at rest, and steps from the
+// file begin without a solver cache.
 void write_state(LineWriter &out, const State &state) {
   out.record("state");
   out.key_number("time", state.time);
   out.key_whole("steps", state.steps);
   out.key_number("pressure", state.load.pressure);
   out.key_number("boundary_fraction", state.load.boundary_fraction);
-  if (state.is_at_rest()) out.key_number("rest_tolerance", state.rest_tolerance);
+  if (state.is_at_rest() && state.tools.empty())
+    out.key_number("rest_tolerance", state.rest_tolerance);
   out.end_line();
   if (state.tools.empty() && !state.cache.empty()) write_solver_cache(out, state.cache);
 }

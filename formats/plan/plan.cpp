@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "formats/plan/tool.h"
 #include "formats/text/checksum.h"
+#include "history/event_limits.h"
 
 namespace mvs::core {
 namespace {
@@ -73,7 +74,7 @@ void read_step_options(const Json &json, RecordedEvent &event) {
   event.budget = static_cast<uint32_t>(whole_at(json, "budget", 0, UINT32_MAX));
 }
 
-std::optional<RecordedEvent> read_event(const Json &json) {
+std::optional<RecordedEvent> unchecked_event(const Json &json) {
   const std::string word = json["do"].text();
   RecordedEvent event;
   if (word == "load") {
@@ -102,6 +103,14 @@ std::optional<RecordedEvent> read_event(const Json &json) {
   event.max_iterations = static_cast<uint32_t>(whole_at(json, "max_iterations", 0, UINT32_MAX));
   event.residual = number_at(json, "residual_N");
   read_step_options(json, event);
+  return event;
+}
+
+std::optional<RecordedEvent> read_event(const Json &json) {
+  std::optional<RecordedEvent> event = unchecked_event(json);
+  if (!event) return event;
+  const std::string fault = fault_of(*event);
+  MVS_MUST(fault.empty(), MVS_E_FORMAT, "plan", "%s: %s", json["do"].text().c_str(), fault.c_str());
   return event;
 }
 

@@ -2,6 +2,7 @@
 #include "formats/session/checks.h"
 
 #include "base/error.h"
+#include "history/event_limits.h"
 #include "history/tool_trajectory.h"
 
 namespace mvs::core {
@@ -36,6 +37,9 @@ void check_event(const RecordedEvent &event) {
   }
   MVS_MUST(is_good, MVS_E_FORMAT, "history",
            "the history of the file has an event whose tools and numbers do not agree");
+  const std::string fault = fault_of(event);
+  MVS_MUST(fault.empty(), MVS_E_FORMAT, "history", "an event of the history of the file: %s",
+           fault.c_str());
 }
 
 }  // namespace mvs::core

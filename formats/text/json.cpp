@@ -1,16 +1,15 @@
 // JSON parser (nlohmann SAX events to values) and writer.
 #include "formats/text/json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "base/error.h"
 
 namespace mvs::core {
-namespace {
 
 using Library = nlohmann::json;
-
-constexpr size_t deepest = 64;
 
 // Builds a value from the events of the parser.
 class JsonBuilder : public nlohmann::json_sax<Library> {
@@ -42,9 +41,15 @@ class JsonBuilder : public nlohmann::json_sax<Library> {
   size_t at = 0;
   bool too_deep = false;
 
+  std::string depth_error() const {
+    return format("the JSON is nested deeper than %zu levels", deepest);
+  }
+
  private:
   // Open values, each with the key of its next member.
   std::vector<std::pair<Json, std::string>> open_;
+
+  static constexpr size_t deepest = 64;
 
   bool open(Json value) {
     too_deep = open_.size() >= deepest;
@@ -55,6 +60,7 @@ class JsonBuilder : public nlohmann::json_sax<Library> {
   bool close() {
     Json done = std::move(open_.back().first);
     open_.pop_back();
+    done.drop_repeated();
     return put(std::move(done));
   }
   bool put(Json value) {
@@ -63,11 +69,13 @@ class JsonBuilder : public nlohmann::json_sax<Library> {
     } else if (open_.back().first.is_array()) {
       open_.back().first.add(std::move(value));
     } else {
-      open_.back().first.set(open_.back().second, std::move(value));
+      open_.back().first.append(std::move(open_.back().second), std::move(value));
     }
     return true;
   }
 };
+
+namespace {
 
 void new_line(std::string &out, int indent) {
   if (indent < 0) return;
@@ -96,8 +104,7 @@ Json Json::numbers(std::initializer_list<double> values) {
 Json Json::parse(std::string_view text) {
   JsonBuilder builder;
   const bool good = Library::sax_parse(text.begin(), text.end(), &builder);
-  MVS_MUST(!builder.too_deep, MVS_E_FORMAT, "json", "the JSON is nested deeper than %zu levels",
-           deepest);
+  MVS_MUST(!builder.too_deep, MVS_E_FORMAT, "json", "%s", builder.depth_error().c_str());
   MVS_MUST(good, MVS_E_FORMAT, "json",
            "the text is not JSON: error at byte %zu; it may be cut short", builder.at);
   return std::move(builder.result);
@@ -126,6 +133,29 @@ const Json &Json::operator[](std::string_view key) const {
   static const Json nothing;
   const Json *found = find(key);
   return found ? *found : nothing;
+}
+
+void Json::drop_repeated() {
+  if (members_.size() < 2) return;
+  std::vector<size_t> order(members_.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+    const int order_of_keys = members_[a].first.compare(members_[b].first);
+    return order_of_keys != 0 ? order_of_keys < 0 : a < b;
+  });
+  std::vector<uint8_t> repeated(members_.size(), 0);
+  for (size_t k = order.size(); k-- > 1;) {
+    if (members_[order[k - 1]].first != members_[order[k]].first) continue;
+    members_[order[k - 1]].second = std::move(members_[order[k]].second);
+    repeated[order[k]] = 1;
+  }
+  size_t kept = 0;
+  for (size_t k = 0; k < members_.size(); ++k) {
+    if (repeated[k]) continue;
+    if (kept != k) members_[kept] = std::move(members_[k]);
+    ++kept;
+  }
+  members_.resize(kept);
 }
 
 void Json::set(std::string_view key, Json value) {

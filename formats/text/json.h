@@ -63,7 +63,14 @@ class Json {
   void add(Json value);
 
  private:
+  friend class JsonBuilder;
   explicit Json(Type type) : type_(type) {}
+  // While an object is parsed: the member at its end, though its key may be there already.
+  void append(std::string key, Json value) {
+    members_.emplace_back(std::move(key), std::move(value));
+  }
+  // Keeps the first place and the last value of each key.
+  void drop_repeated();
   void write(std::string &out, int indent) const;
 
   Type type_ = Type::null;

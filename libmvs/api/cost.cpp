@@ -6,6 +6,7 @@
 
 #include "api/structs.h"
 #include "geometry/aabb.h"
+#include "history/event_limits.h"
 #include "measure/cost/outflow.h"
 #include "session/recorded_event.h"
 #include "session/snapshot.h"
@@ -33,7 +34,7 @@ CostOptions read_options(const mvs_cost_options *options) {
   must_be_backend(given.backend, "options.backend");
   // up to 100 mmHg
   given.pressure = or_default(given.pressure, MVS_DIASTOLE_PA, 1, 13332.2, "options.pressure");
-  must_be_in(given.residual, 1e-12, 1e3, "options.residual");
+  must_be_in(given.residual, limits::residual, "options.residual");
   must_be_in(given.flow, 1e-9, 1, "options.flow");
   given.density = or_default(given.density, 1060, 500, 2000, "options.density");
   given.discharge = or_default(given.discharge, 0.85, 0.1, 1, "options.discharge");

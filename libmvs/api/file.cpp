@@ -154,8 +154,13 @@ void save_vtm(const mvs_snapshot &s, const std::string &path) {
   if (!s.orifice().triangles.empty()) blocks.push_back(orifice_block(s));
   if (!s.coaptation().line.empty()) blocks.push_back(coaptation_block(s));
   const std::vector<NamedFile> files = write_vtm(name, *s.model, s.state, result_arrays(s), blocks);
-  make_folder(stem);
-  for (const NamedFile &file : files) write_whole_file(folder + file.path, file.bytes);
+  const bool is_new = make_folder(stem);
+  try {
+    write_whole_files(files, folder);
+  } catch (...) {
+    if (is_new) remove_empty_folder(stem);
+    throw;
+  }
 }
 
 std::string written(const mvs_snapshot &s, uint32_t format_given) {

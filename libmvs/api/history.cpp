@@ -1,21 +1,13 @@
 // Enumerates the history of a snapshot, its checkpoints, and the kinds of operations.
 #include <mvs/op.h>
 
-#include <cstring>
-
 #include "api/structs.h"
+#include "base/utf8.h"
 #include "session/snapshot.h"
 
 using namespace mvs::core;
 
 namespace {
-
-template <size_t size>
-void copy_text(char (&to)[size], const std::string &from) {
-  const size_t length = std::min(from.size(), size - 1);
-  std::memcpy(to, from.data(), length);
-  to[length] = 0;
-}
 
 // Returns entry `index`: applied operations, oldest first, then undone ones in the order of redo.
 const HistoryEntry &entry_at(const History &history, uint32_t index) {

@@ -119,9 +119,7 @@ mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
              s.journal->path().c_str());
     const SnapshotPtr present = s.present();
     const std::string first = begun_record(present->value).line();
-    auto journal = std::make_unique<Journal>(Journal::create(path));
-    journal->append(first);
-    s.journal = std::move(journal);
+    s.journal = std::make_unique<Journal>(Journal::create(path, first));
   });
 }
 

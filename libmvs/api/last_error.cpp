@@ -3,26 +3,14 @@
 
 #include <array>
 #include <cstdio>
-#include <cstring>
 
 #include "api/exception_boundary.h"
+#include "base/utf8.h"
 #include "linalg/direct_solver.h"
 
 namespace {
 
 thread_local mvs_error last_error = {};
-
-// Copies a text, shortened to the array; does not split a UTF-8 character.
-template <size_t size>
-void copy_text(char (&to)[size], const char *from) noexcept {
-  size_t length = std::strlen(from);
-  if (length >= size) {
-    length = size - 1;
-    while (length > 0 && (static_cast<unsigned char>(from[length]) & 0xc0) == 0x80) --length;
-  }
-  std::memcpy(to, from, length);
-  std::memset(to + length, 0, size - length);
-}
 
 }  // namespace
 

@@ -4,25 +4,19 @@
 #include <cmath>
 
 #include "api/sim_call.h"
+#include "history/event_limits.h"
 #include "session/recorded_event.h"
 #include "session/simulator.h"
 #include "session/unit_warnings.h"
 #include "solve/static/mesh_hierarchy.h"
 
 namespace mvs::core {
-namespace {
-
-// Pa, ten times the highest pressure of a heart: a larger one is in the wrong unit.
-constexpr double pressure_limit = 400e3;
-
-}  // namespace
-
 Load read_load(const mvs_load_case *given) {
   const mvs_load_case load = read_struct(given, "load");
   must_be_zero(load.reserved, "load.reserved");
-  MVS_MUST(std::abs(load.pressure) <= pressure_limit, MVS_E_ARGUMENT, "load.pressure",
+  MVS_MUST(std::abs(load.pressure) <= limits::pressure, MVS_E_ARGUMENT, "load.pressure",
            "load.pressure is %g Pa: it has to be within %g Pa; 120 mmHg are 15998.64 Pa",
-           load.pressure, pressure_limit);
+           load.pressure, limits::pressure);
   MVS_MUST(load.boundary_fraction >= 0 && load.boundary_fraction <= 1, MVS_E_ARGUMENT,
            "load.boundary_fraction",
            "load.boundary_fraction is %g: it has to be 0 (open) to 1 (loaded)",
@@ -36,9 +30,9 @@ SolveOptions read_options(const mvs_settle_options *given) {
            "options.flags is %#x: it has to be 0 or MVS_SETTLE_NO_MARGINS", options.flags);
   MVS_MUST(options.solver <= MVS_SOLVER_EXPLICIT, MVS_E_ARGUMENT, "options.solver",
            "options.solver is %u: it has to be one of MVS_SOLVER_*, or 0", options.solver);
-  must_be_in(options.residual, 1e-12, 1e3, "options.residual");
-  must_be_in(options.dt, 1e-9, 1, "options.dt");
-  must_be_in(options.damping, 1e-6, 1e6, "options.damping");
+  must_be_in(options.residual, limits::residual, "options.residual");
+  must_be_in(options.dt, limits::dt, "options.dt");
+  must_be_in(options.damping, limits::damping, "options.damping");
   SolveOptions how{static_cast<SolverKind>(options.solver), options.max_iterations,
                    options.residual, options.dt, options.damping};
   how.margins = (options.flags & MVS_SETTLE_NO_MARGINS) == 0;
@@ -91,15 +85,15 @@ SolveOptions read_options(const mvs_step_options *given) {
            MVS_E_ARGUMENT, "options.solver",
            "options.solver is %u: a step is MVS_SOLVER_IMPLICIT or MVS_SOLVER_EXPLICIT",
            options.solver);
-  must_be_in(options.dt, 1e-9, 1, "options.dt");
-  must_be_in(options.damping, 1e-6, 1e6, "options.damping");
+  must_be_in(options.dt, limits::dt, "options.dt");
+  must_be_in(options.damping, limits::damping, "options.damping");
   must_be_zero(options.reserved, "options.reserved");
-  MVS_MUST(
-      options.budget == 0 || (options.budget >= 4 && options.budget <= 10000), MVS_E_ARGUMENT,
-      "options.budget",
-      "options.budget is %u: a step needs 4 passes over the terms and may take 10000; 0 is the "
-      "default",
-      options.budget);
+  MVS_MUST(options.budget == 0 ||
+               (options.budget >= limits::least_budget && options.budget <= limits::most_budget),
+           MVS_E_ARGUMENT, "options.budget",
+           "options.budget is %u: a step needs %u passes over the terms and may take %u; 0 is the "
+           "default",
+           options.budget, limits::least_budget, limits::most_budget);
   return {
       static_cast<SolverKind>(options.solver), 0, 0, options.dt, options.damping, options.budget};
 }

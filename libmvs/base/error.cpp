@@ -4,12 +4,14 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "base/utf8.h"
+
 namespace mvs::core {
 
 std::string vformat(const char *pattern, va_list arguments) {
   char text[sizeof(mvs_error::message)];
   std::vsnprintf(text, sizeof text, pattern, arguments);
-  return text;
+  return without_cut_characters(text);
 }
 
 std::string format(const char *pattern, ...) {

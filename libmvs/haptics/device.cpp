@@ -3,7 +3,9 @@
 
 #include <chrono>
 #include <cmath>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #include "base/error.h"
 #include "haptics/device_core.h"
@@ -48,15 +50,16 @@ Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
   MVS_MUST(core_->clock == DeviceClock::real || plugin.api().read, MVS_E_UNSUPPORTED, plugin.name(),
            "the driver %s has a clock of its own: it cannot be turned by hand",
            plugin.name().c_str());
-  plugin.call("open", nullptr, [core, name](const mvs_driver_api &api) {
-    return api.open(core->plugin->host(), name.empty() ? nullptr : name.c_str(), &core->handle);
-  });
-  MVS_MUST(core_->handle, MVS_E_DEVICE, plugin.name(),
-           "the driver %s reports success of open and returns no device: do not use it",
-           plugin.name().c_str());
   const auto info = std::make_shared<mvs_driver_info>();
   info->struct_size = sizeof(mvs_driver_info);
   try {
+    core_->prepare_close();
+    plugin.call("open", nullptr, [core, name](const mvs_driver_api &api) {
+      return api.open(core->plugin->host(), name.empty() ? nullptr : name.c_str(), &core->handle);
+    });
+    MVS_MUST(core_->handle, MVS_E_DEVICE, plugin.name(),
+             "the driver %s reports success of open and returns no device: do not use it",
+             plugin.name().c_str());
     plugin.call("info", core_->handle, [core, info](const mvs_driver_api &api) {
       return api.info(core->handle, info.get());
     });
@@ -64,22 +67,21 @@ Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
     if (desc.rate > 0) core_->traits.info.rate = desc.rate;
     core_->traits.info.clock = desc.clock;
     limits_ = resolve_limits({}, core_->traits.info);
+    core_->links = std::make_unique<ServoLinks>();
+    core_->servo = std::make_unique<Servo>(core_->traits, limits_, *core_->links);
   } catch (...) {
-    core_->close();
+    if (core_->handle) core_->close();
+    core_->close_call = {};
     throw;
   }
-  core_->links = std::make_unique<ServoLinks>();
-  core_->servo = std::make_unique<Servo>(core_->traits, limits_, *core_->links);
 }
 
 // If the servo thread hangs in the driver it still uses the device: close() is then skipped, and
 // the thread keeps its share of the core.
 Device::~Device() {
-  try {
-    stop();
-  } catch (const Error &) {
-  }
+  if (started_.exchange(false)) end_servo();
   if (!core_->is_running()) core_->close();
+  core_->stop_call = core_->close_call = {};
 }
 
 mvs_device_info Device::info() const {
@@ -108,37 +110,53 @@ void Device::start() {
     plugin.call("calibrate", core_->handle,
                 [core](const mvs_driver_api &api) { return api.calibrate(core->handle); });
   }
+  core_->stop_call = plugin.prepare(
+      core_->handle, [core](const mvs_driver_api &api) { return api.stop(core->handle); });
   plugin.call("start", core_->handle,
               [core](const mvs_driver_api &api) { return api.start(core->handle); });
   core_->servo->start();
   core_->stopping = false;
-  core_->lost.clear();
+  *core_->lost = 0;
   core_->now_ns = 0;
   core_->due = 0;
-  register_device(plugin.api(), core_->handle);
-  if (core_->clock == DeviceClock::real) start_thread();
+  try {
+    register_device(plugin.api(), core_->handle);
+    if (core_->clock == DeviceClock::real) start_thread();
+  } catch (...) {
+    core_->running = false;
+    end_servo();
+    throw;
+  }
   started_ = true;
 }
 
 void Device::start_thread() {
   core_->running = true;
   core_->last_tick_ns = static_cast<int64_t>(clock_ns());
-  std::thread([core = core_] { core->serve(); }).detach();
+  try {
+    std::thread([core = core_] { core->serve(); }).detach();
+  } catch (const std::system_error &error) {
+    fail(MVS_E_MEMORY, core_->plugin->name(),
+         "%s: the system starts no thread for its servo (%s): end other programs, and start anew",
+         core_->plugin->name().c_str(), error.code().message().c_str());
+  }
 }
 
 void Device::stop() {
   if (!started_) return;
   started_ = false;
+  MVS_MUST(end_servo(), MVS_E_DEVICE, core_->plugin->name(),
+           "%s: its driver does not come back from its loop: unplug the device, and start anew",
+           core_->plugin->name().c_str());
+}
+
+// Returns false if the servo thread does not end.
+bool Device::end_servo() noexcept {
   core_->stopping = true;
-  DriverPlugin &plugin = *core_->plugin;
-  plugin.ask("stop", core_->handle,
-             [core = core_](const mvs_driver_api &api) { return api.stop(core->handle); });
+  core_->plugin->run(std::exchange(core_->stop_call, {}));
   unregister_device(core_->handle);
   std::unique_lock<std::mutex> lock(core_->mutex);
-  const bool ended = core_->ended.wait_for(lock, stop_timeout, [&] { return !core_->running; });
-  MVS_MUST(ended, MVS_E_DEVICE, plugin.name(),
-           "%s: its driver does not come back from its loop: unplug the device, and start anew",
-           plugin.name().c_str());
+  return core_->ended.wait_for(lock, stop_timeout, [&] { return !core_->running; });
 }
 
 void Device::must_be_started(const char *call) const {
@@ -150,9 +168,9 @@ void Device::arm() {
   const ServoStatus now = status();
   {
     const std::lock_guard<std::mutex> lock(core_->mutex);
-    MVS_MUST(core_->lost.empty(), MVS_E_DEVICE, core_->plugin->name(),
+    MVS_MUST(!core_->is_lost(), MVS_E_DEVICE, core_->plugin->name(),
              "%s is lost (%s): close it, and open it again", core_->plugin->name().c_str(),
-             core_->lost.c_str());
+             core_->lost);
   }
   MVS_MUST(now.device_cause == Cause::nothing, MVS_E_DEVICE, core_->plugin->name(),
            "%s cannot be armed: %s", core_->plugin->name().c_str(), sentence_of(now.device_cause));
@@ -174,7 +192,7 @@ void Device::advance(double seconds) {
   core_->due += seconds;
   while (core_->due > (1 - 1e-6) * period) {
     core_->due -= period;
-    if (!core_->lost.empty()) continue;
+    if (core_->is_lost()) continue;
     core_->now_ns += static_cast<uint64_t>(std::llround(1e9 * period));
     core_->poll(core_->now_ns);
   }

@@ -32,11 +32,11 @@ class Device {
   ServoStatus status();
   // For use by one thread.
   ServoLinks &links();
-  bool is_started() const { return started_; }
 
  private:
   struct Core;
   void start_thread();
+  bool end_servo() noexcept;
   void must_be_started(const char *call) const;
 
   std::shared_ptr<Core> core_;  // shared with the servo thread, which may hang in the driver

@@ -15,7 +15,9 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
   void poll(uint64_t now_ns);
   // Returns whether the servo thread exists; true also while it hangs.
   bool is_running();
-  void close();
+  bool is_lost() const { return *lost; }
+  void prepare_close();
+  void close() noexcept;
 
   std::shared_ptr<DriverPlugin> plugin;
   mvs_driver_device *handle = nullptr;
@@ -32,7 +34,10 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
   std::mutex mutex;                      // protects `running` and `lost`
   std::condition_variable ended;
   bool running = false;
-  std::string lost;  // the driver's error message if its loop ended unasked
+  char lost[200] = "";  // the driver's error message if its loop ended unasked
+  // Calls of the driver that are made ready before they are needed, so that a device can be stopped
+  // and closed without memory. They share this core, until they are made or dropped.
+  DriverPlugin::Prepared stop_call, close_call;
 
  private:
   static int32_t serve_sample(void *core, const mvs_driver_state *state, mvs_driver_force *force);

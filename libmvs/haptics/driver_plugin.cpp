@@ -197,17 +197,24 @@ void DriverPlugin::log(void *host, const char *sentence) {
   }
 }
 
-DriverPlugin::Answer DriverPlugin::ask(const char *what, mvs_driver_device *device, Work work) {
+DriverPlugin::Prepared DriverPlugin::prepare(mvs_driver_device *device, Work work) {
   const auto answer = std::make_shared<Answer>();
-  const bool came_back = worker_.run(
-      [answer, device, work = std::move(work), self = shared_from_this()] {
-        answer->code = work(self->api_);
-        if (answer->code >= 0) return;
-        const char *const text = self->api_.error(device);
-        answer->sentence = text ? text : "the driver does not say why";
-      },
-      call_timeout);
-  if (came_back) return *answer;
+  return {answer, [answer, device, work = std::move(work), self = shared_from_this()] {
+            answer->code = work(self->api_);
+            if (answer->code >= 0) return;
+            const char *const text = self->api_.error(device);
+            answer->sentence = text ? text : "the driver does not say why";
+          }};
+}
+
+bool DriverPlugin::run(Prepared prepared) {
+  return prepared.call && worker_.run(std::move(prepared.call), call_timeout);
+}
+
+DriverPlugin::Answer DriverPlugin::ask(const char *what, mvs_driver_device *device, Work work) {
+  Prepared prepared = prepare(device, std::move(work));
+  const std::shared_ptr<Answer> answer = prepared.answer;
+  if (run(std::move(prepared))) return *answer;
   return {
       MVS_DRIVER_E_LOST,
       format("the driver does not come back from %s(): unplug the device, and start anew", what)};

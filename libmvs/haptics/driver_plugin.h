@@ -40,6 +40,15 @@ class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
     std::string sentence;                  // the driver's error message if the code is a failure
   };
   using Work = std::function<int32_t(const mvs_driver_api &)>;
+  // A call that is ready to be made: run() allocates nothing.
+  struct Prepared {
+    std::shared_ptr<Answer> answer;
+    std::function<void()> call;
+  };
+  Prepared prepare(mvs_driver_device *device, Work work);
+  // False if it does not return in time, or was made before.
+  bool run(Prepared prepared);
+
   // Calls work(api) on the worker thread. After a failure the error message is read from `device`.
   // A call that does not return in 10 s gives MVS_DRIVER_E_LOST; the work must own all data it
   // uses.

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
+#include "base/utf8.h"
 #include "haptics/device_core.h"
 
 namespace mvs::core {
@@ -62,7 +64,7 @@ void Device::Core::lose(int32_t code, const char *otherwise) {
   const char *const why = code < 0 ? plugin->api().error(handle) : nullptr;
   servo->lose(cause_of(code));
   const std::lock_guard<std::mutex> lock(mutex);
-  lost = why ? why : otherwise;
+  copy_text(lost, why ? why : otherwise);
 }
 
 bool Device::Core::is_running() {
@@ -70,11 +72,15 @@ bool Device::Core::is_running() {
   return running;
 }
 
-void Device::Core::close() {
-  plugin->ask("close", nullptr, [self = shared_from_this()](const mvs_driver_api &api) {
+void Device::Core::prepare_close() {
+  close_call = plugin->prepare(nullptr, [self = shared_from_this()](const mvs_driver_api &api) {
     api.close(self->handle);
     return MVS_DRIVER_OK;
   });
+}
+
+void Device::Core::close() noexcept {
+  plugin->run(std::exchange(close_call, {}));
 }
 
 int32_t Device::Core::serve_sample(void *core, const mvs_driver_state *state,

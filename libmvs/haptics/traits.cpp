@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/option_checks.h"
+#include "base/utf8.h"
 #include "haptics/servo_types.h"
 
 namespace mvs::core {
@@ -81,9 +82,9 @@ void read_torque(const mvs_driver_info &given, const char *driver, DeviceTraits 
   info.max_angular_damping = damping;
 }
 
-// Copies a text that may lack its terminating zero.
-void copy_text(const char *from, char (&to)[64]) {
-  std::memcpy(to, from, strnlen(from, sizeof to - 1));
+// Copies a text of a driver, which may lack its terminating zero.
+void copy_name(const char *from, char (&to)[64]) {
+  copy_text(to, {from, strnlen(from, sizeof to - 1)});
 }
 
 }  // namespace
@@ -115,10 +116,10 @@ DeviceTraits read_traits(const mvs_driver_info &given, const char *driver) {
            slowest_rate);
   read_torque(given, driver, traits);
   traits.has_deadman = given.has_deadman != 0;
-  copy_text(driver, info.driver);
-  copy_text(given.model, info.model);
-  copy_text(given.serial, info.serial);
-  copy_text(given.firmware, info.firmware);
+  copy_name(driver, info.driver);
+  copy_name(given.model, info.model);
+  copy_name(given.serial, info.serial);
+  copy_name(given.firmware, info.firmware);
   read_frame(given, driver, traits);
   read_workspace(given, driver, traits);
   return traits;

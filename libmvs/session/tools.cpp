@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/option_checks.h"
+#include "history/event_limits.h"
 #include "session/nearest.h"
 #include "session/recorded_event.h"
 #include "session/tool_bodies.h"
@@ -94,10 +95,10 @@ Vec3 read_axis(const double given[3], const char *what) {
 }
 
 ToolSizes read_tool_sizes(const ToolSizes &given, const std::string &of) {
-  must_be_in(given.radius, 1e-4, 0.02, (of + ".radius").c_str());
-  must_be_in(given.length, 1e-3, 0.3, (of + ".length").c_str());
-  must_be_in(given.stiffness, 1, 1e5, (of + ".stiffness").c_str());
-  must_be_in(given.max_force, 1e-3, 100, (of + ".max_force").c_str());
+  must_be_in(given.radius, limits::tool_radius, (of + ".radius").c_str());
+  must_be_in(given.length, limits::rod_length, (of + ".length").c_str());
+  must_be_in(given.stiffness, limits::tool_stiffness, (of + ".stiffness").c_str());
+  must_be_in(given.max_force, limits::tool_max_force, (of + ".max_force").c_str());
   return {value_or(given.radius, 2e-3), value_or(given.length, 40e-3),
           value_or(given.stiffness, 200), value_or(given.max_force, 5)};
 }

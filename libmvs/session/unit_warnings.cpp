@@ -4,6 +4,7 @@
 #include <mvs/sim.h>
 
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string>
 
@@ -31,7 +32,7 @@ struct Scale {
   double area, curvature;
   explicit Scale(const Model &model)
       : area(std::accumulate(model.rest_area.begin(), model.rest_area.end(), 0.0)),
-        curvature(0.5 * std::sqrt(area / std::acos(-1.0))) {}
+        curvature(0.5 * std::sqrt(area / std::numbers::pi)) {}
   // Laplace's law of a sphere, N/m
   double membrane_tension() const { return 0.5 * MVS_SYSTOLE_PA * curvature; }
 };

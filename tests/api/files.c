@@ -97,6 +97,10 @@ static void vtm_is_an_index_of_its_blocks(void) {
   remove("files_test.vtm");
   CHECK(remove("files_test") == 0);
   MUST_FAIL(mvs_save_file(snapshot, "files_test.txt", MVS_FORMAT_VTM), MVS_E_ARGUMENT, "NAME.vtm");
+  CHECK(mkdir("files_test.vtm", 0777) == 0);
+  MUST_FAIL(mvs_save_file(snapshot, "files_test.vtm", MVS_FORMAT_AUTO), MVS_E_IO, "directory");
+  CHECK(remove("files_test.vtm") == 0);
+  CHECK(remove("files_test") != 0); /* the folder of the blocks is not there */
   MUST_FAIL(mvs_save_file(snapshot, "no/such/files_test.vtm", MVS_FORMAT_AUTO), MVS_E_IO,
             "no/such/files_test");
   MUST_FAIL(mvs_save_memory(snapshot, MVS_FORMAT_VTM, NULL, 0, &size), MVS_E_UNSUPPORTED,

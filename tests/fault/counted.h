@@ -25,7 +25,8 @@
 #if HAS_OWN_MALLOC
 namespace {
 thread_local long allocations = 0;
-}
+thread_local bool has_memory = true;  // of this thread, for operator new and malloc
+}  // namespace
 
 // Serves every library of this process; operator new calls it too.
 extern "C" {
@@ -36,7 +37,7 @@ void *__libc_memalign(size_t alignment, size_t size);
 
 void *malloc(size_t size) {
   ++allocations;
-  return __libc_malloc(size);
+  return has_memory ? __libc_malloc(size) : nullptr;
 }
 void *calloc(size_t count, size_t size) {
   ++allocations;

@@ -1,13 +1,34 @@
 // The servo of a haptic device allocates no memory and makes no system call on any input: new
-// tissue, new limits, a cut, faults of the device.
+// tissue, new limits, a cut, faults of the device. A device is closed without memory, and started
+// again after the system had no thread for it.
 #include <mvs/experimental.h>
 #include <mvs/mvs.h>
 
+#include <dlfcn.h>
+#include <pthread.h>
+
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <initializer_list>
 
 #include "check.h"
 #include "tests/fault/counted.h"
 #include "tests/founding.h"
+
+#if HAS_OWN_MALLOC
+namespace {
+bool has_threads = true;
+}
+
+// Of every library of this process.
+extern "C" int pthread_create(pthread_t *made, const pthread_attr_t *attributes,
+                              void *(*work)(void *), void *of) {
+  using Create = int (*)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
+  static const auto create = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "pthread_create"));
+  return has_threads ? create(made, attributes, work, of) : EAGAIN;
+}
+#endif
 
 namespace {
 
@@ -82,6 +103,39 @@ void ticks_allocate_nothing(const char *options, uint32_t phase,
 }
 #endif
 
+#if HAS_OWN_MALLOC
+mvs_device *opened(uint32_t clock) {
+  mvs_device_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.clock = clock;
+  desc.driver = "hand";
+  mvs_device *device = nullptr;
+  MUST(mvs_device_open(&desc, &device));
+  return device;
+}
+
+void a_device_is_closed_without_memory() {
+  for (const bool is_started : {false, true}) {
+    mvs_device *device = opened(MVS_CLOCK_REAL);
+    if (is_started) MUST(mvs_device_start(device));
+    has_memory = false;
+    mvs_device_close(device);
+    has_memory = true;
+    mvs_device_close(opened(MVS_CLOCK_REAL));
+  }
+}
+
+void a_device_starts_again_after_the_system_had_no_thread() {
+  mvs_device *device = opened(MVS_CLOCK_REAL);
+  has_threads = false;
+  CHECK(mvs_device_start(device) == MVS_E_MEMORY);
+  CHECK(std::strstr(mvs_last_error()->message, "starts no thread"));
+  has_threads = true;
+  MUST(mvs_device_start(device));
+  mvs_device_close(device);
+}
+#endif
+
 #if HAS_SECCOMP
 void ticks_call_no_system(const char *options, uint32_t mode) {
   const Scene scene(options, mode);
@@ -102,6 +156,10 @@ int main() {
   ticks_allocate_nothing("fault=nan_position\nfault_at=0.5", MVS_DEVICE_PHASE_LATCHED);
   ticks_allocate_nothing("fault=jump\nfault_at=0.5", MVS_DEVICE_PHASE_LATCHED);
   ticks_allocate_nothing(turning, MVS_DEVICE_PHASE_ON, MVS_HAND_MODE_ROD);
+#endif
+#if HAS_OWN_MALLOC
+  a_device_is_closed_without_memory();
+  a_device_starts_again_after_the_system_had_no_thread();
 #endif
 #if HAS_SECCOMP
   ticks_call_no_system(grasping, MVS_HAND_MODE_GRASP);

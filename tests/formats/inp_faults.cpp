@@ -78,6 +78,11 @@ TEST_CASE("inp_faults_of_sets") {
   check_fault("101, 112, 1\n", "112, 101, 1\n", "from 112 to 101 in steps of 1 is not a range");
   check_fault("101, 112, 1\n", "101, 112, 0\n", "`0` is not a step");
   check_fault("*NSET, NSET=Annulus, GENERATE", "*NSET, GENERATE", "*NSET lacks NSET=");
+  std::string often = "101, 112, 1\n";
+  for (int k = 0; k < 200; ++k) often += "101, 112, 1\n";
+  CHECK_THROWS_WITH_AS(read_inp(toy_with("101, 112, 1\n", often)),
+                       doctest::Contains("the set names more than ten times the nodes of the file"),
+                       Error);
   check_fault("Sheet-1.Annulus, 3, 3, 0.25", "Sheet-2.Annulus, 3, 3, 0.25", "no set of nodes");
 }
 

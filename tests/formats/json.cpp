@@ -58,3 +58,15 @@ TEST_CASE("text_that_is_not_utf8_is_written_as_utf8") {
   const std::string line = Json(std::string("a\xff\xfe")).line();
   CHECK_NOTHROW(Json::parse(line));
 }
+
+TEST_CASE("of_a_repeated_key_the_first_place_and_the_last_value_count") {
+  const Json json = Json::parse(R"({"a": 1, "b": 2, "a": 3, "c": {"d": 4, "d": 5}, "a": 6})");
+  CHECK(json.line() == Json::parse(R"({"a": 6, "b": 2, "c": {"d": 5}})").line());
+  // in n log n: by a search for each of 300,000 keys this took minutes
+  std::string text = "{";
+  for (int k = 0; k < 300000; ++k) text += format("\"%d\": %d, ", k % 200000, k);
+  const Json large = Json::parse(text + "\"end\": 0}");
+  CHECK(large.members().size() == 200001);
+  CHECK(large["7"].whole() == 200007);
+  CHECK(large["150000"].whole() == 150000);
+}

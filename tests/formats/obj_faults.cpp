@@ -253,3 +253,11 @@ TEST_CASE("more_than_the_limit_is_refused") {
   CHECK(fault.line == 2 + 4194304 / 32000 + 1);
   CHECK(fault.message.find("the limit is 4194304") != std::string::npos);
 }
+
+TEST_CASE("a_next_id_that_leaves_no_room_is_refused") {
+  std::string text = good_text();
+  const size_t at = text.find("next_id=") + 8;
+  text.replace(at, text.find(' ', at) - at, "18446744073709551615");
+  CHECK_THROWS_WITH_AS(make_model(read_obj(text).valve), doctest::Contains("ids are below 2^62"),
+                       Error);
+}

@@ -174,3 +174,11 @@ TEST_CASE("the_worked_example_of_the_document_is_a_valve") {
   const Pair again = complete(read_obj(write_obj(pair.model, pair.state)));
   CHECK(hash_of(again.model, again.state) == hash_of(pair.model, pair.state));
 }
+
+TEST_CASE("a_state_with_tools_is_not_at_rest_without_them") {
+  Pair pair = moving_valve();
+  pair.state.rest_tolerance = 1e-5;
+  CHECK(read_obj(write_obj(pair.model, pair.state)).state.is_at_rest());
+  pair.state.tools = {Tool{}};
+  CHECK_FALSE(read_obj(write_obj(pair.model, pair.state)).state.is_at_rest());
+}

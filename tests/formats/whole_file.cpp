@@ -9,57 +9,17 @@
 #include <csignal>
 #include <filesystem>
 
-#include "tests/formats/samples.h"
+#include "tests/formats/disk.h"
 
 using namespace mvs::core;
 namespace fs = std::filesystem;
 
 namespace {
 
-// A folder that exists for the length of a test.
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "mvs-test-XXXXXX").string();
-    path = ::mkdtemp(pattern.data());
-  }
-  ~Folder() { fs::remove_all(path); }
-  std::string file(const std::string &name) const { return (path / name).string(); }
-  size_t entries() const {
-    return static_cast<size_t>(std::distance(fs::directory_iterator(path), {}));
-  }
-};
-
-template <typename Work>
-std::string failure(mvs_result code, Work work) {
-  try {
-    work();
-  } catch (const Error &error) {
-    CHECK(error.code == code);
-    return error.what();
-  }
-  return "no failure";
-}
-
-bool contains(const std::string &text, const char *word) {
-  CAPTURE(text);
-  return text.find(word) != std::string::npos;
-}
-
 mode_t mode_of(const std::string &path) {
   struct stat status;
   REQUIRE(::stat(path.c_str(), &status) == 0);
   return status.st_mode & 07777;
-}
-
-// Runs `work` in a child process; its return value is the exit code.
-template <typename Work>
-int in_child(Work work) {
-  const pid_t child = ::fork();
-  if (child == 0) ::_exit(work());
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 }  // namespace
@@ -217,4 +177,22 @@ TEST_CASE("a_killed_writer_leaves_the_old_file_or_the_new_one") {
     const std::string text = read_whole_file(path);
     CHECK((text == texts[0] || text == texts[1]));
   }
+}
+
+TEST_CASE("of_several_files_none_is_replaced_if_one_cannot_be") {
+  const Folder folder;
+  write_whole_file(folder.file("a"), "old");
+  fs::create_directory(folder.path / "b");
+  CHECK(contains(
+      failure(MVS_E_IO,
+              [&] {
+                write_whole_files({{"a", "new"}, {"b", "new"}}, folder.path.string() + "/");
+              }),
+      "directory"));
+  CHECK(read_whole_file(folder.file("a")) == "old");
+  CHECK(folder.entries() == 2);
+  write_whole_files({{"a", "new"}, {"c", "newer"}}, folder.path.string() + "/");
+  CHECK(read_whole_file(folder.file("a")) == "new");
+  CHECK(read_whole_file(folder.file("c")) == "newer");
+  CHECK(folder.entries() == 3);
 }

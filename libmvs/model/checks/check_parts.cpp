@@ -40,10 +40,11 @@ void check_names(const CowVector<Part> &parts, const char *kind, bool needed, Fa
   }
 }
 
+// Leaves room for all ids that are still to be assigned.
+constexpr Id id_limit = Id{1} << 62;
+
 template <typename Part>
 void check_ids(const CowVector<Part> &parts, const char *kind, std::set<Id> &seen, Faults &faults) {
-  // leaves room for all ids that are still to be assigned
-  constexpr Id id_limit = Id{1} << 62;
   for (size_t k = 0; k < parts.size(); ++k) {
     const Id id = parts[k].id;
     if (id == 0) continue;
@@ -202,6 +203,10 @@ void check_parts(const Valve &valve, Faults &faults) {
   std::set<Id> seen;
   for_each_part_list(
       [&](auto list, const char *kind, bool) { check_ids(valve.*list, kind, seen, faults); });
+  if (valve.next_id >= id_limit) {
+    faults.add("valve", "the next id is %llu: ids are below 2^62",
+               static_cast<unsigned long long>(valve.next_id));
+  }
   check_valve(valve, faults);
   for (size_t k = 0; k < valve.rings.size(); ++k) {
     const Ring &ring = valve.rings[k];
