@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstdarg>
 #include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "formats/text/decimal.h"
@@ -40,13 +41,6 @@ size_t utf8_length(std::string_view text) {
     return overlong || beyond ? 0 : 4;
   }
   return 0;
-}
-
-int hex_value(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  return -1;
 }
 
 }  // namespace
@@ -203,14 +197,9 @@ std::string as_utf8(std::string_view text) {
 std::string percent_decoded(std::string_view text) {
   std::string plain;
   for (size_t k = 0; k < text.size(); ++k) {
-    const bool coded = text[k] == '%' && k + 2 < text.size();
-    const int high = coded ? hex_value(text[k + 1]) : -1, low = coded ? hex_value(text[k + 2]) : -1;
-    if (high < 0 || low < 0) {
-      plain += text[k];
-    } else {
-      plain += static_cast<char>(16 * high + low);
-      k += 2;
-    }
+    const std::optional<char> byte = percent_byte(text.substr(k));
+    plain += byte.value_or(text[k]);
+    if (byte) k += 2;
   }
   return plain;
 }

@@ -55,7 +55,7 @@ std::string in_small_letters(std::string_view text);
 // A text in which bytes that are not UTF-8, and control characters, are replaced by '?'.
 std::string as_utf8(std::string_view text);
 
-// A text with %XX and &#..; replaced: names in VTK legacy files and attributes in XML.
+// A text with %XX replaced, as names in VTK legacy files have it; other percent signs stay.
 std::string percent_decoded(std::string_view text);
 
 }  // namespace mvs::core

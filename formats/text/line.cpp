@@ -235,6 +235,13 @@ void append_text(std::string &out, std::string_view text) {
   }
 }
 
+std::optional<char> percent_byte(std::string_view text) {
+  if (text.size() < 3 || text[0] != '%') return std::nullopt;
+  const int high = hex_digit(text[1]), low = hex_digit(text[2]);
+  if (high < 0 || low < 0) return std::nullopt;
+  return static_cast<char>(16 * high + low);
+}
+
 std::string decoded(std::string_view word, const Line &line) {
   std::string text;
   for (size_t k = 0; k < word.size(); ++k) {
@@ -242,13 +249,12 @@ std::string decoded(std::string_view word, const Line &line) {
       text += word[k];
       continue;
     }
-    const bool coded = word[k] == '%' && k + 2 < word.size();
-    const int high = coded ? hex_digit(word[k + 1]) : -1, low = coded ? hex_digit(word[k + 2]) : -1;
-    if (high < 0 || low < 0) {
+    const std::optional<char> byte = percent_byte(word.substr(k));
+    if (!byte) {
       line.fail("%s has a character that a name has to write as %%XX, its hexadecimal code",
                 quoted(word).c_str());
     }
-    text += static_cast<char>(16 * high + low);
+    text += *byte;
     k += 2;
   }
   return text;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -73,5 +74,8 @@ class Fields {
 // Names as words: letters, digits and -_.+/ stand for themselves, other bytes are %XX.
 void append_text(std::string &out, std::string_view text);
 std::string decoded(std::string_view word, const Line &line);
+
+// Returns the byte that %XX at the start of a text stands for; nothing for another start.
+std::optional<char> percent_byte(std::string_view text);
 
 }  // namespace mvs::core

@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <string>
 
-#include "base/error.h"
-#include "base/struct_fields.h"
 #include "measure/fields.h"
 #include "model/sides.h"
 #include "sensitivity/chord_site.h"
@@ -23,10 +20,9 @@ bool is_named(const mvs_field_info &field, const char *name) {
   return std::strcmp(field.name, name) == 0;
 }
 
-// A percentile is a value of single triangles in turn, and a count a whole number.
-bool has_derivative(const mvs_field_info &field) {
-  return field.type == MVS_FIELD_NUMBER && std::strstr(field.name, "_p50") == nullptr &&
-         std::strstr(field.name, "_p95") == nullptr && std::strstr(field.name, "_p99") == nullptr;
+// Returns whether a measure is taken on a raster.
+bool is_on_raster(const mvs_field_info &field) {
+  return std::strncmp(field.name, "tenting_", 8) == 0 || is_named(field, "billow_volume");
 }
 
 // A gradient with respect to the end b of a chord; that of the end a is opposite.
@@ -151,7 +147,7 @@ void measure(const Model &model, const State &state, const Quantity &quantity, d
   }
   q.by_differences = true;
   q.notes |= MVS_SENSITIVITY_NOTE_DIFFERENCES;
-  if (std::strncmp(field.name, "tenting_", 8) == 0 || is_named(field, "billow_volume")) {
+  if (is_on_raster(field)) {
     q.notes |= MVS_SENSITIVITY_NOTE_RASTER;
   } else if (field.group != MVS_MEASURE_GROUP_ANNULUS || is_named(field, "annulus_saddle_height")) {
     q.notes |= MVS_SENSITIVITY_NOTE_EXTREME;
@@ -160,57 +156,6 @@ void measure(const Model &model, const State &state, const Quantity &quantity, d
 }
 
 }  // namespace
-
-const mvs_field_info *find_measure(const char *name, size_t place) {
-  MVS_MUST(name != nullptr, MVS_E_ARGUMENT, "quantities",
-           "quantities[%zu].measure is a null pointer: give the name of a field of mvs_measures",
-           place);
-  std::string names;
-  for (const mvs_field_info &field : struct_fields(MVS_STRUCT_MEASURES)) {
-    if (!has_derivative(field)) continue;
-    if (is_named(field, name)) return &field;
-    names += names.empty() ? "" : ", ";
-    names += field.name;
-  }
-  for (const mvs_field_info &field : struct_fields(MVS_STRUCT_MEASURES)) {
-    MVS_MUST(!is_named(field, name), MVS_E_ARGUMENT, "quantities",
-             "quantities[%zu]: %s is a count or a percentile and has no derivative", place, name);
-  }
-  fail(MVS_E_ARGUMENT, "quantities", "quantities[%zu]: no measure is named \"%s\"; there are %s",
-       place, name, names.c_str());
-}
-
-void check_quantity(const Model &model, const Quantity &q, size_t place) {
-  const Valve &valve = model.valve;
-  MVS_MUST(q.kind >= QuantityKind::node_position && q.kind <= QuantityKind::measure, MVS_E_ARGUMENT,
-           "quantities", "quantities[%zu].kind is %u: it has to be one of MVS_QUANTITY_*", place,
-           static_cast<uint32_t>(q.kind));
-  const bool of_node =
-      q.kind == QuantityKind::node_position || q.kind == QuantityKind::node_distance;
-  const bool of_chord =
-      q.kind >= QuantityKind::chord_length && q.kind <= QuantityKind::chord_tension;
-  size_t count = 1, components = 1;
-  if (of_node) count = model.node_count();
-  if (of_chord) count = valve.chords.size();
-  if (q.kind == QuantityKind::head_force) count = valve.heads.size();
-  if (q.kind == QuantityKind::node_position) components = 3;
-  if (q.kind == QuantityKind::head_force) components = 4;
-  MVS_MUST(q.index < count, MVS_E_ARGUMENT, "quantities",
-           "quantities[%zu].index is %u: it has to be below %zu", place, q.index, count);
-  MVS_MUST(q.component < components, MVS_E_ARGUMENT, "quantities",
-           "quantities[%zu].component is %u: it has to be below %zu", place, q.component,
-           components);
-  MVS_MUST(q.point.allFinite(), MVS_E_ARGUMENT, "quantities", "quantities[%zu].point is not finite",
-           place);
-  if (q.kind != QuantityKind::linear) return;
-  MVS_MUST(q.weights.size() == model.node_count(), MVS_E_ARGUMENT, "quantities",
-           "quantities[%zu].weights has %zu rows, but the valve has %zu nodes", place,
-           q.weights.size(), model.node_count());
-  for (const Vec3 &w : q.weights) {
-    MVS_MUST(w.allFinite(), MVS_E_ARGUMENT, "quantities", "quantities[%zu].weights are not finite",
-             place);
-  }
-}
 
 QuantityGradient quantity_gradient(const Model &model, const State &state, const Quantity &quantity,
                                    double slack, const BvhTopology *sheet) {
@@ -291,9 +236,7 @@ double measure_difference(const Model &model, const State &state, const Quantity
   double fastest = 0;
   for (const Vec3 &v : motion) fastest = std::max(fastest, v.norm());
   if (fastest == 0) return 0;
-  const bool is_raster =
-      std::strncmp(field.name, "tenting_", 8) == 0 || is_named(field, "billow_volume");
-  const double h = (is_raster ? set::raster_step : set::measure_step) / fastest;
+  const double h = (is_on_raster(field) ? set::raster_step : set::measure_step) / fastest;
   const auto at = [&](double by) {
     const ParameterStep step{&parameter, by};
     std::vector<Vec3> x = state.x;

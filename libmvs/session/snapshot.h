@@ -57,7 +57,6 @@ struct Tables {
 
 }  // namespace mvs::core
 
-// Immutable except for the reference count and the values computed on demand.
 // Forces on all nodes, and in N those on the nodes of the annulus, in its order.
 struct BoundaryForces {
   mvs::core::Forces all;
@@ -70,6 +69,7 @@ struct AtrialSide {
   mvs::core::TentingBillow tenting_billow;
 };
 
+// Immutable except for the reference count and the values computed on demand.
 struct mvs_snapshot {
   explicit mvs_snapshot(mvs::core::Snapshot value_in)
       : value(std::move(value_in)), model(value.current.model), state(value.current.state) {}

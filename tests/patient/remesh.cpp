@@ -278,13 +278,9 @@ TEST_CASE("sheets_that_cannot_be_remeshed_are_refused") {
     CHECK_THROWS_WITH_AS(remesh_sheet(sheet, rims, {2e-3}), doctest::Contains(sentence), Error);
   };
   LeafletSheet hole = p.sheet;
-  const std::vector<uint8_t> on_rim = marks_of(
-      [&] {
-        std::vector<uint32_t> both = p.rims.annulus;
-        both.insert(both.end(), p.rims.free_edge.begin(), p.rims.free_edge.end());
-        return both;
-      }(),
-      p.sheet.x.size());
+  std::vector<uint32_t> both_rims = p.rims.annulus;
+  both_rims.insert(both_rims.end(), p.rims.free_edge.begin(), p.rims.free_edge.end());
+  const std::vector<uint8_t> on_rim = marks_of(both_rims, p.sheet.x.size());
   const auto inside = std::find_if(hole.triangles.begin(), hole.triangles.end(), [&](const Tri &t) {
     return !on_rim[t[0]] && !on_rim[t[1]] && !on_rim[t[2]];
   });

@@ -9,16 +9,19 @@
 namespace mvs::core {
 namespace {
 
-// Divides places at the median of their longest extent.
+// Divides places at the median of their longest extent; of places that are level along it, the one
+// with the lower index comes first, so that the parts are the same with every standard library.
 std::span<RegionPlace>::iterator divide(std::span<RegionPlace> places) {
   Aabb box;
   for (const RegionPlace &p : places) box.add(p.place);
   Eigen::Index axis;
   (box.high - box.low).maxCoeff(&axis);
   const auto middle = places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
-  std::nth_element(
-      places.begin(), middle, places.end(),
-      [axis](const RegionPlace &a, const RegionPlace &b) { return a.place[axis] < b.place[axis]; });
+  std::nth_element(places.begin(), middle, places.end(),
+                   [axis](const RegionPlace &a, const RegionPlace &b) {
+                     const double along_a = a.place[axis], along_b = b.place[axis];
+                     return along_a < along_b || (along_a == along_b && a.index < b.index);
+                   });
   return middle;
 }
 
