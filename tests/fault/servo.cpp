@@ -22,8 +22,9 @@ bool has_threads = true;
 }
 
 // Of every library of this process.
-extern "C" int pthread_create(pthread_t *made, const pthread_attr_t *attributes,
-                              void *(*work)(void *), void *of) {
+extern "C" [[gnu::visibility("default")]] int pthread_create(pthread_t *made,
+                                                             const pthread_attr_t *attributes,
+                                                             void *(*work)(void *), void *of) {
   using Create = int (*)(pthread_t *, const pthread_attr_t *, void *(*)(void *), void *);
   static const auto create = reinterpret_cast<Create>(dlsym(RTLD_NEXT, "pthread_create"));
   return has_threads ? create(made, attributes, work, of) : EAGAIN;
