@@ -34,7 +34,7 @@ inline void must_be_in(double value, const limits::Range &range, const char *wha
   must_be_in(value, range.least, range.most, what);
 }
 
-// What is wrong with the numbers of an event, as a sentence without its subject; "" if nothing is.
+// The fault of the numbers of an event, as a sentence; "" without one.
 // The stiffness and force of a device's own tool may lie below the ranges, as its limits do.
 std::string fault_of(const RecordedEvent &event);
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import importlib.util
 import json
+import os
 import sys
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -100,7 +101,7 @@ def add_build(commands: Any) -> None:
         "image: by grey values [none; image for grey volumes]")
     build = parser.add_argument_group("valve").add_argument
     build("--edge", type=float, metavar="MM", help="of the triangles [1,000 vertices]")
-    build("--chords", type=int, metavar="N", help="chord segments where none are seen, about [100]")
+    build("--chords", type=_count, metavar="N", help="chord segments where none are seen, about [100]")
     build("--leaflet", metavar="LAW",
           help="tissue of the leaflets [bilinear; that which is nearest to the loaded image]")
     build("--thickness", type=float, metavar="MM", help="of the leaflets [measured; normal tissue where labels are narrow]")
@@ -109,21 +110,53 @@ def add_build(commands: Any) -> None:
     parser.set_defaults(run=run_build)
 
 
+def _count(text: str) -> int:
+    number = int(text)
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text}: it has to be 1 or more")
+    return number
+
+
+VALVE_ENDINGS = (".h5", ".vtkhdf", ".obj", ".vtp", ".vtm", ".feb")
+
+
+def check_outputs(chosen: argparse.Namespace) -> None:
+    """Refuses, before the work, outputs that cannot be written and a plan that cannot be read."""
+    if chosen.output.suffix.lower() not in VALVE_ENDINGS:
+        raise mvs.ArgumentError(f"{chosen.output}: the ending names no known format: known endings are "
+                                f"{', '.join(VALVE_ENDINGS)}", "output")
+    for path in (chosen.output, chosen.findings, chosen.report):
+        if path is None:
+            continue
+        if path.is_dir():
+            raise mvs.IoError(f"{path}: is a folder: name a file", "output")
+        if not path.parent.is_dir():
+            raise mvs.IoError(f"{path}: there is no folder {path.parent}: create it first", "output")
+        if not os.access(path.parent, os.W_OK):
+            raise mvs.IoError(f"{path}: the folder {path.parent} cannot be written", "output")
+    if chosen.plan:
+        try:
+            json.loads(chosen.plan.read_text(encoding="utf-8"))
+        except ValueError as error:
+            raise mvs.FormatError(f"{chosen.plan}: is no plan, which is JSON ({error})", "plan") from error
+
+
 def run_build(chosen: argparse.Namespace) -> int:
     """Builds, closes, writes valve, findings and report."""
     from .findings import write_findings
     from .requests import valve_of_request
 
+    check_outputs(chosen)
     console = Console(chosen.quiet)
     made = valve_of_request(chosen, console)
-    made.opened.save(str(chosen.output))
-    findings = chosen.findings or chosen.output.with_suffix(".import.json")
-    write_findings(findings, str(chosen.image), made.findings)
     if chosen.plan:
         from .repair import repaired
 
         console.stage("repair")
         made.repair = repaired(made.opened, chosen.plan)
+    made.opened.save(str(chosen.output))
+    findings = chosen.findings or chosen.output.with_suffix(".import.json")
+    write_findings(findings, str(chosen.image), made.findings)
     if chosen.report:
         from .page import write_page
 

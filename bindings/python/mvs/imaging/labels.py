@@ -7,7 +7,8 @@ what is mended is a finding, and what no rule mends is refused with a sentence.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+import re
+from collections.abc import Iterable, Mapping
 from typing import Any, Optional
 
 import numpy as np
@@ -34,9 +35,16 @@ class Leaflets:
     findings: list[Finding]
 
 
+OTHER_PARTS = ("papill", "annul", "muscl", "chord", "ventric", "atrium", "aort", "commiss", "wall", "tendon")
+"""Beginnings of words for what is no leaflet: "anterior papillary muscle", "mitral annulus"."""
+
+
 def leaflet_of(name: str) -> Optional[int]:
     """The leaflet that the name of a segment means; 0: leaflets without distinction; None: neither."""
-    words = name.lower().replace("_", " ").replace("-", " ").split()
+    apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)  # AnteriorLeaflet
+    words = apart.lower().replace("_", " ").replace("-", " ").split()
+    if any(word.startswith(OTHER_PARTS) for word in words):
+        return None
     for label, known in WORDS.items():
         if any(word in known for word in words):
             return label
@@ -48,7 +56,8 @@ def other_leaflet(label: int) -> int:
     return POSTERIOR if label == ANTERIOR else ANTERIOR
 
 
-def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None) -> dict[str, int]:
+def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
+                    image: str = "image") -> dict[str, int]:
     """The leaflet of each segment that is a part of the leaflets.
 
     chosen: leaflet by name of segment, as the caller knows it; else by the names, or, if no name
@@ -58,18 +67,18 @@ def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None
     if chosen:
         lost = [name for name in chosen if name not in labels.masks]
         if lost:
-            raise ArgumentError(f'there is no segment "{lost[0]}"; the image has: {known}', "labels")
+            raise ArgumentError(f'there is no segment "{lost[0]}"; the {image} has: {known}', "labels")
         return dict(chosen)
     filled = [name for name, mask in labels.masks.items() if mask.any()]
     if not filled:
-        raise ArgumentError("the image has no valve in it: every voxel is background", "labels")
+        raise ArgumentError(f"the {image} has no valve in it: every voxel is background. Give the label map of the leaflets", "labels")
     found = {name: leaflet_of(name) for name in filled}
     meant = {name: label for name, label in found.items() if label is not None}
     if not meant and len(filled) == 1:
         return {filled[0]: UNKNOWN}
     if not meant:
         raise ArgumentError(
-            f"no name of a segment means a leaflet (the image has: {known}): say which ones are, "
+            f"no name of a segment means a leaflet (the {image} has: {known}): say which ones are, "
             "with --anterior-label and --posterior-label, or --leaflet-label", "labels")
     got = set(meant.values())
     if got in ({ANTERIOR}, {POSTERIOR}):
@@ -77,9 +86,9 @@ def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None
         empty = [name for name in labels.masks
                  if name not in filled and leaflet_of(name) == other_leaflet(max(got))]
         raise ArgumentError(
-            f'one leaflet is missing: the segment "{empty[0]}" has no voxels. ' if empty else
-            f"one leaflet is missing: the image has {known}, and no segment of the {missing} leaflet. "
-            "A valve needs both; if the segment holds both leaflets, say --leaflet-label", "labels")
+            (f'one leaflet is missing: in the {image} the segment "{empty[0]}" has no voxels. ' if empty else
+             f"one leaflet is missing: the {image} has {known}, and no segment of the {missing} leaflet. ")
+            + "A valve needs both; if one segment holds both leaflets, say --leaflet-label", "labels")
     return meant
 
 
@@ -91,12 +100,42 @@ def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     mask = np.zeros(next(iter(labels.masks.values())).shape, bool)
     for name in segments:
         mask |= labels.masks[name]
+    if mask.mean() > MOST_FILLED:
+        raise ArgumentError(f"the segments {_in_quotes(segments)} fill {100 * mask.mean():.0f} % of the image: these are "
+                            "no leaflets. Name the right segments", "labels")
+    left = [name for name, voxels in labels.masks.items() if name not in segments and voxels.any()]
+    if left:
+        findings.append(finding(
+            "segments", FindingSource.GIVEN if chosen else FindingSource.GUESSED, 1.0 if chosen else 0.8,
+            f"leaflets are {_in_quotes(segments)}; {_in_quotes(left)} "
+            f"{'is' if len(left) == 1 else 'are'} left out"))
     mask = _without_islands(mask, settings.island, findings)
+    _report_cut(mask, findings)
     check_sheet(mask, np.array(labels.image.GetSpacing()) * 1e-3)
     sheet, grid = _sheet_of(labels.image, mask, settings, findings, tell)
     tell("leaflet of each triangle")
     leaflet = _leaflet_of_triangles(labels, segments, grid, sheet, findings)
     return Leaflets(sheet, leaflet, findings)
+
+
+MOST_FILLED = 0.5
+"""Leaflets fill less of an image: 1 mm of tissue in a cavity of 30 mm is a tenth, in a tight crop"""
+
+
+def _in_quotes(names: Iterable[str]) -> str:
+    return ", ".join(f'"{name}"' for name in names)
+
+
+def _report_cut(mask: NDArray[np.bool_], findings: list[Finding]) -> None:
+    """Says where tissue touches the faces of the volume, at which it may go on."""
+    sides = [("first", 0), ("last", -1)]
+    touched = [f"{word} {plane}" for axis, plane in ((2, "column"), (1, "row"), (0, "slice")) for word, at in sides
+               if mask.take(at, axis).any()]
+    if touched:
+        findings.append(dataclasses.replace(finding(
+            "cut_by_border", FindingSource.MEASURED, 0.9,
+            f"the leaflets touch the border of the image ({', '.join(touched)}): what lies outside is missing. Give "
+            "an image with a margin, or fill in what is cut off"), doubtful=True))
 
 
 def _without_islands(mask: NDArray[np.bool_], least: float,
@@ -152,7 +191,8 @@ def _sheet_of(image: Any, mask: NDArray[np.bool_], settings: LabelSettings,
     if chosen is None:
         raise ArgumentError(
             f"the leaflets have {tunnels} tunnels, bridges between two parts of the tissue, even after "
-            f"gaps of {2e3 * radius:.1f} mm are closed: mend the segmentation there", "labels")
+            f"gaps of {2e3 * radius:.1f} mm are closed: mend the segmentation there; where the leaflets touch all along, "
+            "the valve is closed in this image: give the open one", "labels")
     sheet, smaller, radius = chosen
     if radius:
         findings.append(finding("closed_gaps", FindingSource.GUESSED, 0.6,

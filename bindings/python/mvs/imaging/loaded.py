@@ -97,7 +97,7 @@ def closed_surface(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     Leaflets that touch share no gap: each needs a label of its own. With one label for both, the
     surface runs through the middle of the tissue, right only where one leaflet is.
     """
-    segments = choose_segments(labels, chosen)
+    segments = choose_segments(labels, chosen, "loaded image")
     sheets, findings = [], []
     groups: list[tuple[str, list[str]]] = []
     if set(segments.values()) >= {ANTERIOR, POSTERIOR}:

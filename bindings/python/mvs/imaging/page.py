@@ -159,8 +159,9 @@ def _slices(made: ImageValve) -> str:
     if made.image is not None:
         rows.append(figure(slice_picture(made.image, made.opened, made.leaflets.sheet),
                            "The open image with the mesh of the open valve (orange) and the mid-surface "
-                           "found in the image (blue): long axis from anterior to posterior, long axis "
-                           "from commissure to commissure, short axis"))
+                           "found in the image (blue): long axis with the posterior side (P) on the left "
+                           "and the anterior one (A) on the right, long axis from commissure to "
+                           "commissure, short axis; the bar is 10 mm long"))
     if made.loaded_image is not None:
         rows.append(figure(slice_picture(made.loaded_image, made.closed, made.loaded),
                            "The loaded image with the simulated closed valve (orange) and the surface "
@@ -177,6 +178,7 @@ def slice_picture(image: ScannedImage, snapshot: mvs.Snapshot, surface: Optional
     centre = frame.origin + frame.axes[2] * float(local[:, 2].mean())
     half = 1.25 * float(np.abs(local - [0, 0, local[:, 2].mean()]).max())
     shown = drawing.new_figure(15, 5.2)
+    letters = ({(0.03, 0.5): "P", (0.97, 0.5): "A"}, {}, {(0.5, 0.03): "P", (0.5, 0.97): "A"})
     for k, (across, up) in enumerate(((0, 2), (1, 2), (1, 0))):
         right, high = frame.axes[across], frame.axes[up]
         ax = shown.add_axes((0.005 + k / 3, 0.01, 0.325, 0.98))
@@ -196,6 +198,9 @@ def slice_picture(image: ScannedImage, snapshot: mvs.Snapshot, surface: Optional
                         linewidth=1.2 if name == "mesh" else 2.2, alpha=0.95)
         ax.set_xlim(-half * 1e3, half * 1e3)
         ax.set_ylim(-half * 1e3, half * 1e3)
+        ax.plot([-0.95e3 * half, -0.95e3 * half + 10], [-0.95e3 * half] * 2, color="white", linewidth=3)
+        for place, letter in letters[k].items():
+            ax.text(*place, letter, color="white", fontsize=14, ha="center", va="center", transform=ax.transAxes)
         ax.set_axis_off()
     memory = io.BytesIO()
     shown.savefig(memory, format="png", dpi=100, facecolor="white")

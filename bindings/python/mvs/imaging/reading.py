@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mvs import ArgumentError, FormatError, IoError
 from .needs import need
+from .whole_image import check_nifti, check_numbers, check_slices
 
 PathLike = Union[str, "os.PathLike[str]"]
 SURFACES = (".stl", ".ply", ".obj", ".off", ".vtp")
@@ -138,30 +139,40 @@ def _read(path: PathLike) -> Any:
         return _read_dicom(name)
     if not Path(name).exists():
         raise IoError(f"{name}: there is no such file", "path")
+    check_nifti(name)
     try:
-        return sitk.ReadImage(name)
+        image = sitk.ReadImage(name)
     except RuntimeError as error:
         reason = str(error).strip().splitlines()[-1]
+        if "No such file" in reason:
+            reason = "it is cut short, or a file that its header names is missing"
         surface = name.lower().endswith(SURFACES)
         hint = "a surface: give it to `mvs import`" if surface else (
             f"is no volume that SimpleITK reads ({reason}): give {', '.join(ENDINGS)} or a folder of DICOM "
             "files")
         raise FormatError(f"{name}: {hint}", "path") from error
+    check_numbers(image, name)
+    return image
 
 
 def _read_dicom(folder: str) -> Any:
     sitk = need("SimpleITK")
     series = sitk.ImageSeriesReader.GetGDCMSeriesIDs(folder)
     if not series:
-        raise FormatError(f"{folder}: has no DICOM series", "path")
+        raise FormatError(f"{folder}: has no DICOM series: give a folder with the files of one, or an image file",
+                          "path")
     if len(series) > 1:
         sizes = [f"{one}: {len(sitk.ImageSeriesReader.GetGDCMSeriesFileNames(folder, one))} files"
                  for one in series]
         raise FormatError(f"{folder}: has {len(series)} DICOM series ({'; '.join(sizes)}): put one "
                           "of them in a folder of its own", "path")
     reader = sitk.ImageSeriesReader()
-    reader.SetFileNames(sitk.ImageSeriesReader.GetGDCMSeriesFileNames(folder, series[0]))
-    return reader.Execute()
+    files = sitk.ImageSeriesReader.GetGDCMSeriesFileNames(folder, series[0])
+    check_slices(folder, files)
+    reader.SetFileNames(files)
+    image = reader.Execute()
+    check_numbers(image, folder)
+    return image
 
 
 def _read_segments(path: PathLike) -> LabelMap:
