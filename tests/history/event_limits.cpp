@@ -2,6 +2,7 @@
 #include "history/event_limits.h"
 
 #include <doctest/doctest.h>
+#include <string>
 
 #include "formats/plan/plan.h"
 #include "formats/session/checks.h"
@@ -59,7 +60,11 @@ TEST_CASE("events_out_of_range_are_refused_by_plans_and_sessions") {
   RecordedEvent loose;
   loose.kind = RecordedEvent::settle;
   loose.residual = 1e30;
-  const std::pair<RecordedEvent, const char *> cases[] = {
+  struct Case {
+    RecordedEvent event;
+    const char *sentence;
+  };
+  const Case cases[] = {
       {step_of(-1e-3), "dt is -0.001: it has to be 0 (the default) or 1e-09 to 1"},
       {step_of(1000), "dt is 1000"},
       {step_of(1e-3, -5), "the damping is -5"},
@@ -72,11 +77,11 @@ TEST_CASE("events_out_of_range_are_refused_by_plans_and_sessions") {
       {ball_of(3e-3, 1e300, 5), "the stiffness is 1e+300"},
       {ball_of(3e-3, 200, 1e9), "the largest force is 1e+09"},
   };
-  for (const auto &[event, sentence] : cases) {
-    CAPTURE(sentence);
+  for (const Case &one : cases) {
+    CAPTURE(one.sentence);
     Json steps = Json::array();
-    steps.add(event_json(event));
-    CHECK_THROWS_WITH_AS(read_steps(steps), doctest::Contains(sentence), Error);
-    CHECK_THROWS_WITH_AS(check_event(event), doctest::Contains(sentence), Error);
+    steps.add(event_json(one.event));
+    CHECK_THROWS_WITH_AS(read_steps(steps), doctest::Contains(one.sentence), Error);
+    CHECK_THROWS_WITH_AS(check_event(one.event), doctest::Contains(one.sentence), Error);
   }
 }
