@@ -16,8 +16,6 @@ namespace mvs::core {
 namespace {
 
 constexpr std::string_view mark = "mvsj ";
-// Of a whole journal: what read_whole_file reads.
-constexpr size_t most_bytes = max_file_bytes;
 
 [[noreturn]] void fail_journal(const char *verb, const std::string &path, int error) {
   fail_io(verb, "the journal " + path, error, "journal");
@@ -97,10 +95,10 @@ Journal Journal::reopen(const std::string &path, size_t bytes) {
 
 void Journal::append(std::string_view text) {
   const std::string line = journal_line(text);
-  MVS_MUST(line.size() <= most_bytes - size_, MVS_E_STATE, "journal",
+  MVS_MUST(line.size() <= max_file_bytes - size_, MVS_E_STATE, "journal",
            "the journal %s would have more than %zu bytes, which libmvs does not read: save the "
            "session, close the journal, and open another",
-           path_.c_str(), most_bytes);
+           path_.c_str(), max_file_bytes);
   size_t written = 0;
   while (written < line.size()) {
     const ssize_t count = ::pwrite(file_.number(), line.data() + written, line.size() - written,

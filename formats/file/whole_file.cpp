@@ -62,37 +62,35 @@ bool find_old(const std::string &target, Status &old) {
 // A whole new file beside its target. Removed with this object unless it took the target's place.
 class Replacement {
  public:
-  Replacement(const std::string &path, std::string_view bytes)
-      : target_(follow_links(path)), folder_(folder_of(target_)) {
+  Replacement(const std::string &path, std::string_view bytes) : Replacement(path) {
     Status old;
     const bool replaces = find_old(target_, old);
     Descriptor file(open_new(folder_, path_));
-    try {
-      write_all(file, bytes, target_);
-      if (replaces && ::fchmod(file.number(), old.st_mode & 07777) != 0) {
-        fail_to_write("keep the mode of", target_, errno);
-      }
-      if (::fsync(file.number()) != 0) fail_to_write("write", target_, errno);
-      if (!file.close()) fail_to_write("write", target_, errno);
-    } catch (...) {
-      ::unlink(path_.c_str());
-      throw;
+    write_all(file, bytes, target_);
+    if (replaces && ::fchmod(file.number(), old.st_mode & 07777) != 0) {
+      fail_to_write("keep the mode of", target_, errno);
     }
+    if (::fsync(file.number()) != 0) fail_to_write("write", target_, errno);
+    if (!file.close()) fail_to_write("write", target_, errno);
   }
   Replacement(const Replacement &) = delete;
   Replacement &operator=(const Replacement &) = delete;
   ~Replacement() {
-    if (!renamed_) ::unlink(path_.c_str());
+    if (!path_.empty()) ::unlink(path_.c_str());
   }
   void take_place() {
     if (::rename(path_.c_str(), target_.c_str()) != 0) fail_to_write("replace", target_, errno);
-    renamed_ = true;
+    path_.clear();
     sync_folder(folder_);
   }
 
  private:
-  std::string target_, folder_, path_;
-  bool renamed_ = false;
+  // A constructor that delegates to this one and then fails runs the destructor.
+  explicit Replacement(const std::string &path)
+      : target_(follow_links(path)), folder_(folder_of(target_)) {}
+
+  std::string target_, folder_;
+  std::string path_;  // of the new file; "": there is none
 };
 
 // Returns the initial buffer size; fails for a folder or a file that is too large.

@@ -37,19 +37,14 @@ class JsonBuilder : public nlohmann::json_sax<Library> {
     return false;
   }
 
+  static constexpr size_t deepest = 64;
   Json result;
   size_t at = 0;
   bool too_deep = false;
 
-  std::string depth_error() const {
-    return format("the JSON is nested deeper than %zu levels", deepest);
-  }
-
  private:
   // Open values, each with the key of its next member.
   std::vector<std::pair<Json, std::string>> open_;
-
-  static constexpr size_t deepest = 64;
 
   bool open(Json value) {
     too_deep = open_.size() >= deepest;
@@ -104,7 +99,8 @@ Json Json::numbers(std::initializer_list<double> values) {
 Json Json::parse(std::string_view text) {
   JsonBuilder builder;
   const bool good = Library::sax_parse(text.begin(), text.end(), &builder);
-  MVS_MUST(!builder.too_deep, MVS_E_FORMAT, "json", "%s", builder.depth_error().c_str());
+  MVS_MUST(!builder.too_deep, MVS_E_FORMAT, "json", "the JSON is nested deeper than %zu levels",
+           JsonBuilder::deepest);
   MVS_MUST(good, MVS_E_FORMAT, "json",
            "the text is not JSON: error at byte %zu; it may be cut short", builder.at);
   return std::move(builder.result);

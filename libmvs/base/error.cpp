@@ -11,7 +11,7 @@ namespace mvs::core {
 std::string vformat(const char *pattern, va_list arguments) {
   char text[sizeof(mvs_error::message)];
   std::vsnprintf(text, sizeof text, pattern, arguments);
-  return without_cut_characters(text);
+  return only_utf8(text);
 }
 
 std::string format(const char *pattern, ...) {

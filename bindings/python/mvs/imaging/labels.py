@@ -36,7 +36,7 @@ class Leaflets:
 
 
 OTHER_PARTS = ("papill", "annul", "muscl", "chord", "ventric", "atrium", "aort", "commiss", "wall", "tendon")
-"""Beginnings of words for what is no leaflet: "anterior papillary muscle", "mitral annulus"."""
+"""Beginnings of the names of other parts: "anterior papillary muscle", "mitral annulus"."""
 
 
 def leaflet_of(name: str) -> Optional[int]:

@@ -6,7 +6,6 @@ ITK reads such files: it fills what is missing with zeros, or draws the other sl
 from __future__ import annotations
 
 import gzip
-import os
 import struct
 import zlib
 from collections.abc import Sequence
@@ -29,15 +28,11 @@ def check_nifti(name: str) -> None:
         packed = file.read(2) == b"\x1f\x8b"
     try:
         with (gzip.open if packed else open)(name, "rb") as file:
-            wanted = nifti_length(file.read(544))
-            there = min(544, os.path.getsize(name)) if not packed else 544
-            if packed:
-                while chunk := file.read(CHUNK):
-                    there += len(chunk)
-            else:
-                there = os.path.getsize(name)
+            header = file.read(544)
+            there = len(header) + sum(map(len, iter(lambda: file.read(CHUNK), b"")))
     except (EOFError, OSError, zlib.error) as error:
         raise FormatError(f"{name}: is cut short or damaged ({error}): copy or export it again", "path") from error
+    wanted = nifti_length(header)
     if there < wanted:
         raise FormatError(f"{name}: has {there} bytes, and its header says {wanted}: it is cut short. Copy or "
                           "export it again", "path")
