@@ -81,8 +81,11 @@ struct Place {
 Place measure(const Model &model, const std::vector<Vec3> &x) {
   const Frame frame = valve_frame(model, x);
   const Orifice found = cut_orifice(model, x);
-  return {found.area, orifice::sample(orifice::local_sheet(model, frame.local(x))).point.size(),
-          found.triangles.size()};
+  const std::vector<Vec3> local = frame.local(x);
+  const orifice::Sheet sheet =
+      orifice::sheet_of(orifice::compact_mesh(local, model.valve.triangles),
+                        Loop(model.valve.annulus, local), model.valve.contact_thickness);
+  return {found.area, orifice::sample(sheet).point.size(), found.triangles.size()};
 }
 
 enum Kind : size_t { samples, cut, relaxation, kinds };

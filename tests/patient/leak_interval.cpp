@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "patient/findings.h"
+#include "patient/fit/leak_report.h"
 #include "tests/patient/patient_valve.h"
 
 using namespace mvs::core;

@@ -7,7 +7,7 @@
 
 #include "measure/orifice/orifice.h"
 #include "patient/fit/leak_interval.h"
-#include "tests/measure/shapes.h"
+#include "tests/patient/flat_valve.h"
 #include "tests/patient/patient_valve.h"
 
 using namespace mvs::core;
@@ -16,28 +16,6 @@ using namespace mvs::core::test;
 namespace {
 
 constexpr double mm = 1e-3, mm2 = 1e-6;
-
-// A flat ring 16 mm wide with a hole, sealed up to 0.6 mm, and the data that a build has of it.
-struct Disc {
-  explicit Disc(double hole) {
-    mvs::core::test::Sheet sheet = disc(16 * mm, hole, [](double, double) { return 0.0; });
-    sheet.around = 96;
-    model = model_of(sheet);
-    g.sheet.x = model->valve.rest.get();
-    g.sheet.triangles = model->valve.triangles.get();
-    g.rims.annulus = model->valve.annulus.get();
-    g.rims.free_edge = model->topology.free_edges[0];
-    g.coordinates = sheet_coordinates(g.sheet, g.rims);
-  }
-  const std::vector<Vec3> &x() const { return model->valve.rest.get(); }
-
-  ModelPtr model;
-  PatientGeometry g;
-};
-
-double hole_area(double radius) {
-  return 96 * 0.5 * radius * radius * std::sin(2 * pi / 96);
-}
 
 }  // namespace
 

@@ -38,7 +38,7 @@ NEAR = {"micro-ct": 1.5, "ultrasound": 5.0}
 """mm: an end of a chord is right if it is at most so far from that of its true chord; chordae end 2 to
 4 mm apart on the leaflets."""
 
-SAID = ("tissue", "edge_found", "leak", "leak_interval", "edge_lost", "filled_holes", "free_edge", "holes")
+SAID = ("tissue", "edge_found", "leak", "leak_interval", "shown_gaps", "edge_lost", "filled_holes", "free_edge", "holes")
 """Findings whose sentences are printed for each case."""
 
 

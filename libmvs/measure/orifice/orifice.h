@@ -18,4 +18,9 @@ Orifice measure_orifice(const Model &model, const std::vector<Vec3> &x);
 // The same without the quick proof that a valve is sealed: always by the minimum cut.
 Orifice cut_orifice(const Model &model, const std::vector<Vec3> &x);
 
+// The same with other tissue within the annulus of the model: triangles of `points`, in any number
+// of pieces, wound in any way.
+Orifice cut_orifice_of(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
+                       const Model &model, const std::vector<Vec3> &x);
+
 }  // namespace mvs::core

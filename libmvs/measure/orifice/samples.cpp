@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "geometry/distance.h"
 #include "measure/orifice/rim_parts.h"
@@ -102,14 +103,8 @@ std::vector<Tri> as_triangles(const std::vector<Side> &sides) {
   return triangles;
 }
 
-Sheet local_sheet(const Model &model, const std::vector<Vec3> &local) {
-  const Valve &valve = model.valve;
-  Sheet sheet{compact_mesh(local, valve.triangles),
-              {},
-              Loop(valve.annulus, local),
-              valve.contact_thickness,
-              0,
-              0};
+Sheet sheet_of(Mesh mesh, Loop annulus, double seal) {
+  Sheet sheet{std::move(mesh), {}, std::move(annulus), seal, 0, 0};
   const std::vector<Side> sides = sorted_sides(sheet.mesh.triangles);
   for_each_edge(sides, [&](size_t first, size_t last) {
     if (last == first + 1) sheet.rim.push_back(sides[first]);

@@ -5,12 +5,12 @@
 
 #include "measure/annulus/landmarks.h"
 #include "measure/orifice/bisect.h"
-#include "model/model.h"
 #include "model/sides.h"
 
 namespace mvs::core::orifice {
 
-// The sheet in the valve's frame, z towards the atrium, with the nodes of its triangles only.
+// The sheet in the valve's frame, z towards the atrium, with the nodes of its triangles only. It
+// may have any number of pieces.
 struct Sheet {
   Mesh mesh;
   std::vector<Side> rim;  // without a triangle on the other side: annulus, free edges, holes
@@ -22,7 +22,8 @@ struct Sheet {
 // Returns the edges of sides as degenerate triangles for a TriangleBvh.
 std::vector<Tri> as_triangles(const std::vector<Side> &sides);
 
-Sheet local_sheet(const Model &model, const std::vector<Vec3> &local);
+// `seal`: the contact thickness.
+Sheet sheet_of(Mesh mesh, Loop annulus, double seal);
 
 struct Samples {
   std::vector<Vec3> point;

@@ -10,7 +10,8 @@
 // (exchangeable samples). Both ends move out by what meshes of one valve differ by, too, but not
 // below 0. If the valve was fitted to a closed surface, the distance that remains from it is an
 // error that all closures share: its share of the interval (shape_error.h) is added on both sides
-// of the leak of the valve as it is, in squares, as lengths and shape err independently. Every
+// of the leak of the valve as it is, in squares, as lengths and shape err independently; and the
+// interval reaches to what the gaps of the surface itself may leak (shown_gaps.h). Every
 // closure starts from the open shape, so that none depends on another; one that does not come to
 // rest is left out, and the findings say so; if none does, the interval is not known. A valve that
 // still creeps after the last iteration shows as well whether it leaks: if none does, no random
@@ -49,6 +50,7 @@ struct LeakInterval {
   std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; unused if it is exact
   std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; unused if that is exact
   ShapeLeaks shape;                         // of the valve as it is, if it was fitted
+  double shown = 0;                         // m2, through the gaps of that surface, at most
   double least = NAN, most = NAN;           // m2, the interval; NaN: no closure came to rest
   uint32_t closures = 0, rests = 0;         // of these, those that came to rest
   uint32_t draws = 0;                       // closures with random lengths
@@ -61,12 +63,6 @@ struct LeakUnknowns {
   double thickness_error = 0;  // m, of all leaflets together
   FittedShape shape;
 };
-
-// Adds the findings "leak", "leak_interval" and "leak_limits": by how much meshes of one valve
-// differ, and the width at which an interval says nothing. Without a closure at rest the second has
-// no values.
-void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
-                  Findings &findings);
 
 // The interval around the leak of the valve as it is, widened by the error of its shape.
 void add_shape_error(LeakInterval &interval);

@@ -1,0 +1,116 @@
+// Sentences and confidence of a leak.
+#include "patient/fit/leak_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace mvs::core {
+namespace {
+
+// Confidence of a leak that does not depend on the lengths, and the difference at which none is
+// left: grades of regurgitation are 10 to 20 mm2 apart (0.2, 0.3, 0.4 cm2).
+constexpr double same_leak_confidence = 0.8, unknown_leak = 20e-6;
+
+// One decimal, in mm2.
+std::string area_words(double leak) {
+  return std::isnan(leak) ? "(diverged)" : format("%.1f mm2", leak * 1e6);
+}
+
+std::string shape_words(const ShapeLeaks &shape) {
+  return format(
+      "; the closed valve lies %.2f mm (RMS) from the given surface: with edges %.2f mm short of "
+      "where they are it leaks %s, and %s through gaps as much narrower on both sides",
+      shape.distance * 1e3, shape.error * 1e3, area_words(shape.most).c_str(),
+      area_words(shape.least).c_str());
+}
+
+std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, double thickness_error) {
+  const double more = interval.factor[2] - 1;
+  std::string ranges = format("lengths of chordae up to %.0f %% shorter or longer", 100 * more);
+  if (edge.geometry) {
+    ranges += format(
+        ", a free edge up to %.1f mm farther out (%s with the lengths as they are) or %.1f mm "
+        "farther in (%s)",
+        edge.out * 1e3, area_words(interval.edge_leak[0]).c_str(), edge.in * 1e3,
+        area_words(interval.edge_leak[1]).c_str());
+  }
+  if (thickness_error > 0) {
+    ranges += format(", tissue up to %.2f mm thicker (%s) or thinner (%s)", thickness_error * 1e3,
+                     area_words(interval.tissue_leak[0]).c_str(),
+                     area_words(interval.tissue_leak[1]).c_str());
+  }
+  return ranges;
+}
+
+Finding leaks_by_length(const LeakInterval &interval, double confidence, bool at_rest) {
+  const auto &[f0, f1, f2] = interval.factor;
+  Finding finding{
+      "leak",
+      FindingSource::measured,
+      confidence,
+      format("regurgitant orifice at 120 mmHg with chordae of %.0f, %.0f and %.0f %% of their "
+             "lengths: %s, %s and %s%s; lengths are known to that range only, so one of these "
+             "numbers alone says little",
+             100 * f0, 100 * f1, 100 * f2, area_words(interval.leak[0]).c_str(),
+             area_words(interval.leak[1]).c_str(), area_words(interval.leak[2]).c_str(),
+             at_rest ? "" : ", not all of them at rest"),
+      {},
+      "m2"};
+  for (const double leak : interval.leak) {
+    if (!std::isnan(leak)) finding.value.push_back(leak);
+  }
+  return finding;
+}
+
+}  // namespace
+
+void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
+                  Findings &findings) {
+  const bool known = !std::isnan(interval.most);
+  const bool at_rest = interval.rests == interval.closures;
+  const double unsure =
+      known ? std::min(1.0, (interval.most - interval.least) / unknown_leak) : 1.0;
+  const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
+  findings.push_back(leaks_by_length(interval, confidence, at_rest));
+  const std::string ranges = ranges_of(interval, edge, thickness_error);
+  Finding finding{"leak_interval", FindingSource::measured, confidence, {}, {}, "m2"};
+  if (known) {
+    finding.sentence = format("%.1f to %.1f mm2 for %s", interval.least * 1e6, interval.most * 1e6,
+                              ranges.c_str());
+    finding.sentence +=
+        interval.draws == 0
+            ? format(": each of these closures leaks less than %.1f mm2", sealed_leak * 1e6)
+            : format("; %u closures with random ones are among them", interval.draws);
+    if (!at_rest) {
+      finding.sentence += format("; %u of %u closures did not come to rest and are left out",
+                                 interval.closures - interval.rests, interval.closures);
+    }
+    if (interval.shape.distance > 0) finding.sentence += shape_words(interval.shape);
+    if (interval.shown >= interval.most) {
+      finding.sentence +=
+          format("; that surface itself has gaps of up to %.1f mm2", interval.shown * 1e6);
+    }
+    finding.value = {interval.least, interval.most};
+  } else {
+    finding.sentence = format(
+        "not determined: none of %u closures came to rest, for %s; check the surface, the "
+        "thickness and the papillary tips",
+        interval.closures, ranges.c_str());
+  }
+  findings.push_back(finding);
+  findings.push_back(
+      {"leak_limits",
+       FindingSource::assumed,
+       1,
+       format(
+           "meshes of one valve leak alike to %.1f mm2; an interval of %.0f mm2 says nothing, "
+           "as grades of regurgitation are that far apart; leaks of ruptured or missing chordae, "
+           "and of other insertions than those of this valve, are not in it",
+           sealed_leak * 1e6, unknown_leak * 1e6),
+       {sealed_leak, unknown_leak},
+       "m2"});
+}
+
+}  // namespace mvs::core

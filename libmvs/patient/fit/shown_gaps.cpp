@@ -1,0 +1,212 @@
+// The orifice of a surface together with the tissue that is there for certain.
+#include "patient/fit/shown_gaps.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/error.h"
+#include "measure/orifice/orifice.h"
+#include "measure/regions/orifice_parts.h"
+#include "model/sides.h"
+#include "patient/fit/closed_pieces.h"
+#include "patient/surface/weld.h"
+
+namespace mvs::core {
+namespace {
+
+// Points of a triangle soup that are equal but for rounding, as a share of the median side.
+constexpr double weld_share = 1e-3;
+// m, from the annulus: surfaces of images may end short of it, and leaflets do not part there.
+constexpr double annulus_band = 4e-3;
+// m, from the free edge of the valve at rest: 8 mm of leaflets that coapt normally overlap.
+constexpr double from_free_edge = 10e-3;
+// m, and m2: in labels of networks, gaps as wide of sealed phantoms span less together.
+constexpr double least_width = 1.5e-3, least_area = 10e-6;
+// m, 95 % of the difference of two edges, each with the deviation of a closed surface (FitSettings)
+constexpr double width_error = 1.4e-3;
+// A piece of the surface is one leaflet if so much of it is; a gap is between leaflets, and no hole
+// in one, if at least so much of it is nearer to another one.
+constexpr double share_of_piece = 0.8, share_of_other = 0.2;
+// A surface with less of a leaflet than this share of it in the fitted valve is one of the others.
+constexpr double least_of_leaflet = 0.6;
+// Confidence of gaps that the valve shows as well, and of those that it closes, which is doubtful.
+constexpr double confidence_of_same = 0.7, confidence_of_other = 0.3;
+
+struct Tissue {
+  std::vector<Vec3> points;
+  std::vector<Tri> triangles;
+  std::vector<uint32_t> leaflet;  // of each triangle
+};
+
+// The leaflet of each triangle of the surface: that of its piece, or, where a piece has several
+// leaflets, that of the nearest tissue of the valve.
+std::vector<uint32_t> leaflets_of(const ClosedSurface &given, const Model &model,
+                                  const std::vector<Vec3> &x) {
+  const ClosedPieces pieces = closed_pieces(given.points, given.triangles);
+  const size_t leaflets = model.valve.leaflets.size();
+  const TriangleBvh valve(model.valve.triangles, x);
+  std::vector<uint32_t> leaflet;
+  std::vector<double> area(pieces.count * leaflets, 0);  // m2, of each piece near each leaflet
+  for (size_t t = 0; t < given.triangles.size(); ++t) {
+    const Tri &c = given.triangles[t];
+    const Vec3 centre = (given.points[c[0]] + given.points[c[1]] + given.points[c[2]]) / 3;
+    leaflet.push_back(model.valve.triangle_leaflet[valve.closest(centre).triangle]);
+    area[pieces.of_triangle[t] * leaflets + leaflet[t]] += triangle_area(given.points, c);
+  }
+  for (size_t t = 0; t < leaflet.size(); ++t) {
+    const auto first = area.begin() + static_cast<ptrdiff_t>(pieces.of_triangle[t] * leaflets);
+    const auto last = first + static_cast<ptrdiff_t>(leaflets),
+               most = std::max_element(first, last);
+    if (*most > share_of_piece * std::accumulate(first, last, 0.0)) {
+      leaflet[t] = static_cast<uint32_t>(most - first);
+    }
+  }
+  return leaflet;
+}
+
+// Triangles with common corners where they meet, and none without area.
+Tissue tissue_of(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x) {
+  const std::vector<uint32_t> first =
+      weld_map(given.points, weld_share * median_edge(given.points, given.triangles));
+  const std::vector<uint32_t> leaflet = leaflets_of(given, model, x);
+  Tissue tissue;
+  tissue.points = given.points;
+  for (size_t k = 0; k < given.triangles.size(); ++k) {
+    const Tri &t = given.triangles[k];
+    const Tri corners = {first[t[0]], first[t[1]], first[t[2]]};
+    if (!(triangle_area(given.points, corners) > 0)) continue;
+    tissue.triangles.push_back(corners);
+    tissue.leaflet.push_back(leaflet[k]);
+  }
+  return tissue;
+}
+
+void add_certain(const Model &model, const std::vector<Vec3> &x, const PatientGeometry &g,
+                 Tissue &tissue) {
+  const SheetCoordinates &at = g.coordinates;
+  const auto is_certain = [&](uint32_t i) {
+    return at.height[i] <= annulus_band || at.whole[i] - at.height[i] >= from_free_edge;
+  };
+  const auto offset = static_cast<uint32_t>(tissue.points.size());
+  for (size_t k = 0; k < model.valve.triangles.size(); ++k) {
+    const Tri &t = model.valve.triangles[k];
+    if (!std::all_of(t.begin(), t.end(), is_certain)) continue;
+    tissue.triangles.push_back({t[0] + offset, t[1] + offset, t[2] + offset});
+    tissue.leaflet.push_back(model.valve.triangle_leaflet[k]);
+  }
+  tissue.points.insert(tissue.points.end(), x.begin(), x.end());
+}
+
+// The first leaflet of which the surface has little; empty: it has all.
+std::string missing_leaflet(const Tissue &surface, const Model &model, const std::vector<Vec3> &x) {
+  const Valve &valve = model.valve;
+  std::vector<double> seen(valve.leaflets.size(), 0), whole = seen;  // m2
+  for (size_t t = 0; t < surface.triangles.size(); ++t) {
+    seen[surface.leaflet[t]] += triangle_area(surface.points, surface.triangles[t]);
+  }
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    whole[valve.triangle_leaflet[t]] += triangle_area(x, valve.triangles[t]);
+  }
+  for (size_t k = 0; k < seen.size(); ++k) {
+    if (seen[k] < least_of_leaflet * whole[k]) return valve.leaflets[k].name;
+  }
+  return {};
+}
+
+std::string place_of(const OrificePart &part) {
+  std::string place = part.anterior;
+  if (!part.posterior.empty()) place += (place.empty() ? "" : " to ") + part.posterior;
+  return place;
+}
+
+// A part of the orifice beside the tissue around it.
+struct Surroundings {
+  double width = 0;             // m, of the widest ball
+  std::vector<double> leaflet;  // m2, of the part nearest to each leaflet
+
+  bool is_between_leaflets() const {
+    const double all = std::accumulate(leaflet.begin(), leaflet.end(), 0.0);
+    return *std::max_element(leaflet.begin(), leaflet.end()) < (1 - share_of_other) * all;
+  }
+};
+
+// Balls around the corners and centres of triangles; the leaflet nearest to each centre.
+std::vector<Surroundings> surroundings(const Orifice &orifice, const OrificeParts &parts,
+                                       const Tissue &tissue, size_t leaflets) {
+  const TriangleBvh tree(tissue.triangles, tissue.points);
+  std::vector<Surroundings> found(parts.parts.size(), {0, std::vector<double>(leaflets, 0)});
+  const std::vector<Vec3> &x = orifice.vertices;
+  for (size_t t = 0; t < orifice.triangles.size(); ++t) {
+    const Tri &c = orifice.triangles[t];
+    const TriangleBvh::Hit nearest = tree.closest((x[c[0]] + x[c[1]] + x[c[2]]) / 3);
+    double distance2 = nearest.distance2;
+    for (const uint32_t i : c) distance2 = std::max(distance2, tree.closest(x[i]).distance2);
+    Surroundings &around = found[parts.of_triangle[t]];
+    around.width = std::max(around.width, 2 * std::sqrt(distance2));
+    around.leaflet[tissue.leaflet[nearest.triangle]] += triangle_area(x, c);
+  }
+  return found;
+}
+
+}  // namespace
+
+ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x,
+                     const PatientGeometry &g) {
+  Tissue tissue = tissue_of(given, model, x);
+  if (std::string missing = missing_leaflet(tissue, model, x); !missing.empty()) {
+    return {std::move(missing), {}, 0, 0};
+  }
+  add_certain(model, x, g, tissue);
+  const Orifice orifice = cut_orifice_of(tissue.points, tissue.triangles, model, x);
+  const OrificeParts found = find_orifice_parts(model, x, RegionMap(model), orifice);
+  const std::vector<Surroundings> around =
+      surroundings(orifice, found, tissue, model.valve.leaflets.size());
+  ShownGaps shown;
+  for (size_t k = 0; k < found.parts.size(); ++k) {
+    const OrificePart &part = found.parts[k];
+    const double width = around[k].width;
+    if (width < least_width || !around[k].is_between_leaflets()) continue;
+    shown.gaps.push_back({part.area, width, place_of(part)});
+    shown.area += part.area;
+    shown.most += part.area * (width + width_error) / width;
+  }
+  if (shown.area < least_area) shown.most = 0;
+  return shown;
+}
+
+void report_shown_gaps(const ShownGaps &shown, double most, Findings &findings) {
+  const bool closes = shown.most > 0 && shown.area > most;
+  Finding finding{"shown_gaps",
+                  FindingSource::measured,
+                  closes ? confidence_of_other : confidence_of_same,
+                  {},
+                  {shown.area},
+                  "m2"};
+  if (!shown.missing.empty()) {
+    finding.sentence = format(
+        "gaps of the closed surface are not measured: it has less than %.0f %% of leaflet %s",
+        100 * least_of_leaflet, shown.missing.c_str());
+    finding.value.clear();
+  } else if (shown.gaps.empty()) {
+    finding.sentence = format("the closed surface shows no gap wider than %.1f mm between leaflets",
+                              least_width * 1e3);
+  } else {
+    finding.sentence =
+        format("the closed surface shows gaps of %.1f mm2 between leaflets", shown.area * 1e6);
+    for (const ShownGap &gap : shown.gaps) {
+      finding.sentence += format("; %.1f mm2, %.1f mm wide (%s)", gap.area * 1e6, gap.width * 1e3,
+                                 gap.place.c_str());
+    }
+    if (shown.most == 0) finding.sentence += "; errors of a surface show as much";
+    if (closes) {
+      finding.sentence +=
+          "; the valve that was fitted to it closes them: its chordae and tissue there are not "
+          "those of the patient, or the surface lacks tissue there";
+    }
+  }
+  findings.push_back(std::move(finding));
+}
+
+}  // namespace mvs::core

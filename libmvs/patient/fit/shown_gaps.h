@@ -1,0 +1,45 @@
+// Gaps between the leaflets that a given closed surface shows, whatever a valve fitted to it does.
+//
+// A fit brings the simulated valve near to the surface on the whole; a local gap, as of a ruptured
+// chord, adds little to that distance, and the fitted valve may close it. So the orifice of the
+// surface itself is measured (measure/orifice). Surfaces of images end short of the annulus and
+// have holes where tissue is thin; tissue of the fitted valve near the annulus, and far from its
+// free edge, fills them, as leaflets do not part there.
+//
+// Errors of the surface open gaps as well: errors of segmentation networks (0.45 mm in the mean,
+// 3.6 mm 95 % Hausdorff) make narrow ones of little area, and holes in one leaflet, which do not
+// count (tests/validation/shown_gaps.py).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "patient/fit/surface_match.h"
+#include "patient/patient_geometry.h"
+
+namespace mvs::core {
+
+struct ShownGap {
+  double area = 0;    // m2
+  double width = 0;   // m, of the widest ball in it
+  std::string place;  // scallops beside it: "A2 to P2"
+};
+
+struct ShownGaps {
+  std::string missing;         // a leaflet that the surface lacks: nothing is measured
+  std::vector<ShownGap> gaps;  // the widest part first; none is narrower than errors of edges are
+  double area = 0;             // m2, of all
+  double most = 0;             // m2, the same with each gap wider by the error of its edges; 0: not
+                               // more than errors of the surface show
+};
+
+// `x`: the valve that was fitted to the surface, closed; the nodes of the model begin with the
+// vertices of the sheet of `g`.
+ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x,
+                     const PatientGeometry &g);
+
+// The finding "shown_gaps": doubtful if the surface shows more than the leaks of the valve reach
+// to, `most`, m2.
+void report_shown_gaps(const ShownGaps &shown, double most, Findings &findings);
+
+}  // namespace mvs::core

@@ -1,0 +1,154 @@
+// Gaps of closed surfaces, against closed forms, and the interval that contains them.
+#include "patient/fit/shown_gaps.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "patient/doubtful.h"
+#include "patient/findings.h"
+#include "patient/fit/leak_interval.h"
+#include "tests/patient/flat_valve.h"
+#include "tests/patient/patient_valve.h"
+
+using namespace mvs::core;
+using namespace mvs::core::test;
+
+namespace {
+
+constexpr double mm = 1e-3, mm2 = 1e-6;
+
+// Gaps of a surface in the plane of a valve that is sealed.
+ShownGaps gaps_of(const ClosedSurface &given) {
+  static const Disc valve(0.2 * mm);
+  return shown_gaps(given, *valve.model, valve.x(), valve.g);
+}
+
+ClosedSurface ring(double outer, double inner) {
+  const Disc disc(inner, outer);
+  return {disc.x(), disc.g.sheet.triangles};
+}
+
+// Every triangle with points of its own, and every other one wound the other way.
+ClosedSurface soup_of(const ClosedSurface &surface) {
+  ClosedSurface soup;
+  for (Tri t : surface.triangles) {
+    if (soup.triangles.size() % 2 == 1) std::swap(t[0], t[1]);
+    const auto first = static_cast<uint32_t>(soup.points.size());
+    for (const uint32_t i : t) soup.points.push_back(surface.points[i]);
+    soup.triangles.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+void remove_near(const Vec3 &centre, double radius, ClosedSurface &surface) {
+  std::erase_if(surface.triangles, [&](const Tri &t) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](uint32_t i) { return (surface.points[i] - centre).norm() < radius; });
+  });
+}
+
+}  // namespace
+
+TEST_CASE("a_gap_that_the_valve_closes_is_measured_on_the_surface") {
+  const ClosedSurface surface = ring(16 * mm, 3 * mm);
+  for (const ClosedSurface &given : {surface, soup_of(surface)}) {
+    const ShownGaps shown = gaps_of(given);
+    REQUIRE(shown.gaps.size() == 1);
+    CHECK(shown.area == about(hole_area(3 * mm), 1e-3));
+    // the widest ball touches the sides of the polygon
+    CHECK(shown.gaps[0].width == about(6 * mm * std::cos(pi / 96), 0.01));
+    CHECK(shown.most == about(shown.area * (1 + 1.4 * mm / shown.gaps[0].width), 1e-9));
+    CHECK(!shown.gaps[0].place.empty());
+  }
+}
+
+TEST_CASE("a_surface_may_end_short_of_the_annulus_and_have_holes_far_from_the_free_edge") {
+  const double whole = gaps_of(ring(16 * mm, 3 * mm)).area;
+  CHECK(gaps_of(ring(13.5 * mm, 3 * mm)).area == about(whole, 1e-3));
+  ClosedSurface torn = ring(16 * mm, 3 * mm);
+  const size_t all = torn.triangles.size();
+  remove_near({0, 13 * mm, 0}, 2 * mm, torn);
+  REQUIRE(torn.triangles.size() < all);
+  CHECK(gaps_of(torn).area == about(whole, 1e-3));
+}
+
+TEST_CASE("a_hole_in_one_leaflet_is_no_gap_between_leaflets") {
+  // leaflet A is around +x, its border to P on both sides of it
+  for (const double angle : {0.0, pi, Sheet().anterior}) {
+    CAPTURE(angle);
+    ClosedSurface torn = ring(16 * mm, 0.2 * mm);
+    remove_near({6 * mm * std::cos(angle), 6 * mm * std::sin(angle), 0}, 2.5 * mm, torn);
+    const ShownGaps shown = gaps_of(torn);
+    CHECK(shown.gaps.size() == (angle == Sheet().anterior ? 1 : 0));
+  }
+}
+
+TEST_CASE("gaps_of_a_surface_without_a_leaflet_are_not_measured") {
+  ClosedSurface half = ring(16 * mm, 3 * mm);
+  std::erase_if(half.triangles, [&](const Tri &t) { return half.points[t[0]].x() < 0; });
+  const ShownGaps shown = gaps_of(half);
+  CHECK(shown.missing == "P");
+  CHECK(shown.gaps.empty());
+  CHECK(shown.most == 0);
+  Findings findings;
+  report_shown_gaps(shown, 0, findings);
+  CHECK(findings[0].value.empty());
+  CHECK(findings[0].sentence.find("less than 60 % of leaflet P") != std::string::npos);
+}
+
+TEST_CASE("narrow_gaps_are_errors_of_a_surface_and_small_ones_show_nothing") {
+  CHECK(gaps_of(ring(16 * mm, 0.7 * mm)).gaps.empty());  // 1.4 mm wide
+  const ShownGaps small = gaps_of(ring(16 * mm, 1.6 * mm));
+  REQUIRE(small.gaps.size() == 1);
+  CHECK(small.area == about(hole_area(1.6 * mm), 2e-3));  // 8 mm2, less than 10
+  CHECK(small.most == 0);
+  Findings findings;
+  report_shown_gaps(small, 0, findings);
+  CHECK(findings[0].value == std::vector<double>{small.area});
+  CHECK(findings[0].sentence.find("errors of a surface show as much") != std::string::npos);
+  CHECK(!is_doubtful(findings[0]));
+}
+
+TEST_CASE("gaps_that_the_fitted_valve_closes_are_doubtful") {
+  const ShownGaps shown{{}, {{30 * mm2, 3 * mm, "A2 to P2"}}, 30 * mm2, 44 * mm2};
+  Findings closed, same, none;
+  report_shown_gaps(shown, 20 * mm2, closed);
+  REQUIRE(closed[0].name == "shown_gaps");
+  CHECK(is_doubtful(closed[0]));
+  CHECK(closed[0].sentence.find("30.0 mm2, 3.0 mm wide (A2 to P2)") != std::string::npos);
+  report_shown_gaps(shown, 31 * mm2, same);
+  CHECK(!is_doubtful(same[0]));
+  report_shown_gaps({}, 0, none);
+  CHECK(!is_doubtful(none[0]));
+  CHECK(none[0].value == std::vector<double>{0});
+}
+
+TEST_CASE("the_interval_of_a_sealed_valve_reaches_to_the_gap_of_its_surface") {
+  const PatientGeometry &g = parametric_geometry(430);
+  const ParametricSheet whole = parametric_sheet(430);
+  const ClosedPatient closed = close_patient(whole.model->valve);
+  ClosedSurface given{closed.state.x, g.sheet.triangles};
+  LeakUnknowns unknowns;
+  unknowns.lengths.all = unknowns.lengths.single = 0.01;
+  unknowns.shape = {&given, &g};
+  Findings findings;
+  const LeakInterval sealed = leak_interval(whole.model, unknowns, {}, findings);
+  CHECK(find_finding(findings, "shown_gaps")->value == std::vector<double>{0});
+  // tissue of both leaflets is missing around a point of the free edge
+  const std::vector<uint32_t> &edge = g.rims.free_edge;
+  const auto lowest = std::min_element(edge.begin(), edge.end(), [&](uint32_t a, uint32_t b) {
+    return closed.state.x[a].z() < closed.state.x[b].z();
+  });
+  remove_near(closed.state.x[*lowest], 10 * mm, given);
+  findings.clear();
+  const LeakInterval torn = leak_interval(whole.model, unknowns, {}, findings);
+  const Finding *gaps = find_finding(findings, "shown_gaps");
+  REQUIRE(gaps != nullptr);
+  CHECK(is_doubtful(*gaps));
+  CHECK(torn.leak == sealed.leak);
+  CHECK(sealed.most < gaps->value[0]);
+  CHECK(torn.most > gaps->value[0]);
+  CHECK(find_finding(findings, "leak_interval")->sentence.find("has gaps of up to") !=
+        std::string::npos);
+}
