@@ -111,9 +111,9 @@ MVS_API mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fau
 
 /* Changes the tissue of a leaflet, of all leaflets if `leaflet` is 0: law, thickness and constants
  * of `tissue`, whose name is null and whose id is 0. A thickness of 0 keeps the present one;
- * another thickness scales that of each triangle. Constants of 0 take the law's defaults;
- * MVS_LEAFLET_LAW_BILINEAR without constants, on a leaflet of springs, becomes the membrane that
- * follows the curve of those springs. Shape, chordae and load do not change; the history is
+ * another thickness scales that of each triangle. Constants of 0 take the law's defaults, -0.0 is
+ * zero; MVS_LEAFLET_LAW_BILINEAR without constants, on a leaflet of springs, becomes the membrane
+ * that follows the curve of those springs. Shape, chordae and load do not change; the history is
  * emptied, because operations cannot be undone into another tissue, and an open journal ends. */
 MVS_API mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc *tissue);
 
@@ -183,7 +183,7 @@ typedef struct mvs_stats {
   uint32_t
       stable; /* 1: the last settle found a stable equilibrium, and nothing has changed since */
   double residual; /* N, largest out-of-balance force on a free node or tool point */
-  double energy;   /* J, total potential energy at the end */
+  double energy;   /* J, total potential energy at the end, of tissue with a node that moves */
   double kinetic;  /* J, kinetic energy at the end */
   double wall_s;   /* s, elapsed time */
   /* Margins of mvs_stability at the last equilibrium that a settle found; 0 where none was found,

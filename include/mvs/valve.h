@@ -28,7 +28,8 @@ enum mvs_chord_kind_e {
 };
 typedef uint32_t mvs_chord_kind;
 
-/* Constitutive laws of a leaflet sheet, and the meaning of `constants` for each. */
+/* Constitutive laws of a leaflet sheet, and the meaning of `constants` for each. A constant of 0
+ * takes the default; give -0.0 for a constant that is zero. */
 enum mvs_leaflet_law_e {
   /* Mass-spring sheet, bilinear law, Van Gelder stiffness (Tenenholtz et al. 2011): constants are
    * Young's modulus below the kink, Pa [100e3]; above it, Pa [6e6]; strain at the kink [0.25]. */
@@ -53,14 +54,14 @@ enum mvs_leaflet_law_e {
   /* W = mu / 2 (I1 - 3): mu, Pa [200e3]; bending, Pa [112e3]. Young's modulus of the plane sheet is
    * 3 mu, that of the bending stiffness the lesser of 3 mu and `bending`: mu is a modulus of tissue
    * under load, which bends as softly as tissue at rest (the default of the bilinear membrane).
-   * Give 1e12 for a plate of 3 mu (0 is the default, as for all constants), and bending_scale or
+   * Give 1e12, or -0.0 (no limit), for a plate of 3 mu, and bending_scale or
    * MVS_VALVE_FLAG_NO_BENDING for a sheet without bending stiffness. */
   MVS_LEAFLET_LAW_NEO_HOOKEAN = 6
 };
 typedef uint32_t mvs_leaflet_law;
 
 /* Constitutive laws of a chord: tension = area x nominal stress P at the strain e = (L - L0) / L0
- * where L > L0, else 0. */
+ * where L > L0, else 0. A constant of 0 takes the default; give -0.0 for one that is zero. */
 enum mvs_chord_law_e {
   MVS_CHORD_LAW_LINEAR = 1, /* P = young e */
   /* P = young e below the kink, then slope high: constants are kink [0.05]; high, Pa [100e6] */
@@ -110,7 +111,7 @@ typedef struct mvs_leaflet_desc {
                           recommended] */
   uint32_t reserved;
   double thickness;    /* m [1e-3] */
-  double constants[8]; /* of the law */
+  double constants[8]; /* of the law; 0: its default, -0.0: zero */
 } mvs_leaflet_desc;
 
 /* A measured curve that chordae can follow. */
@@ -130,7 +131,7 @@ typedef struct mvs_chord_desc {
   double rest_length;  /* m [the distance of its nodes] */
   double young;        /* Pa [40e6] */
   double area;         /* m2 [pi/4 * (1 mm)^2] */
-  double constants[6]; /* of laws that have them */
+  double constants[6]; /* of laws that have them; 0: the default, -0.0: zero */
   mvs_id id;           /* [assigned by the library] */
   const char *name;    /* nullable [made from its kind and scallop, "P2/3"] */
 } mvs_chord_desc;

@@ -2,6 +2,8 @@
 // include/mvs/valve.h.
 #include "api/valve_desc.h"
 
+#include <cmath>
+
 #include "api/structs.h"
 #include "base/array_view.h"
 #include "model/checks/check.h"
@@ -25,13 +27,14 @@ void read_nodes_and_triangles(const mvs_valve_desc &desc, Described &described) 
   valve.annulus = read_indices(desc.annulus, "annulus");
 }
 
-// Replaces zeros by the defaults of the law. Keeps constants that the law does not have:
-// find_faults reports them.
+// Replaces zeros by the defaults of the law, but for negative ones, which are zeros. Keeps
+// constants that the law does not have: find_faults reports them.
 template <typename Law, typename Values>
 void read_law_constants(const Law *law, const double *given, Values &values) {
   for (size_t k = 0; k < values.size(); ++k) {
+    const bool is_default = given[k] == 0 && !std::signbit(given[k]);
     const bool known = law && k < law->constants.size();
-    values[k] = known ? value_or(given[k], law->constants[k].fallback) : given[k];
+    values[k] = known && is_default ? law->constants[k].fallback : given[k] + 0.0;  // no -0
   }
 }
 

@@ -38,7 +38,7 @@ double hinge_angle(const Vec3 &x0, const Vec3 &x1, const Vec3 &x2, const Vec3 &x
   return angle;
 }
 
-BendingTerm::BendingTerm(const Model &model) {
+BendingTerm::BendingTerm(const Model &model, Elements which) {
   const Valve &valve = model.valve;
   const Topology &topology = model.topology;
   if (valve.bending_scale <= 0) return;
@@ -48,10 +48,9 @@ BendingTerm::BendingTerm(const Model &model) {
   }
   for (size_t h = 0; h < topology.hinges.size(); ++h) {
     const auto &node = topology.hinges[h];
-    // its energy is constant, as in the part of a valve that holds a local subproblem
-    if (std::all_of(node.begin(), node.end(), [&](uint32_t i) { return topology.fixed[i] != 0; })) {
-      continue;
-    }
+    const bool all_prescribed =
+        std::all_of(node.begin(), node.end(), [&](uint32_t i) { return topology.fixed[i] != 0; });
+    if (!takes(which, all_prescribed)) continue;
     const uint32_t edge = topology.hinge_edge[h];
     double area = 0, rigidity = 0;
     for (const uint32_t t : topology.edge_triangles[edge]) {

@@ -24,7 +24,7 @@ namespace mvs::core {
 
 class BendingTerm {
  public:
-  explicit BendingTerm(const Model &model);
+  explicit BendingTerm(const Model &model, Elements which = Elements::moving);
 
   bool empty() const { return hinges_.empty(); }
   double energy(const std::vector<Vec3> &x) const;

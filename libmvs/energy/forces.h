@@ -13,6 +13,7 @@ struct Forces {
   double energy = 0;          // J, total potential
 };
 
+// Unlike the solvers, with the tissue between prescribed nodes.
 Forces evaluate_forces(const Model &model, const State &state);
 
 }  // namespace mvs::core

@@ -32,7 +32,7 @@ Mat2 stress_form(const Vec3 &first, Curvature curvature) {
 
 }  // namespace
 
-MembraneTerm::MembraneTerm(const Model &model) {
+MembraneTerm::MembraneTerm(const Model &model, Elements which) {
   const Valve &valve = model.valve;
   for (const Leaflet &leaflet : valve.leaflets) {
     tissues_.push_back({find_leaflet_law(leaflet.law)->response, leaflet.constants});
@@ -40,7 +40,7 @@ MembraneTerm::MembraneTerm(const Model &model) {
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
     const Tri &nodes = valve.triangles[t];
     const auto &fixed = model.topology.fixed;
-    if (fixed[nodes[0]] && fixed[nodes[1]] && fixed[nodes[2]]) continue;
+    if (!takes(which, fixed[nodes[0]] && fixed[nodes[1]] && fixed[nodes[2]])) continue;
     const uint32_t leaflet = valve.triangle_leaflet[t];
     if (!tissues_[leaflet].response) continue;
     const double volume = valve.triangle_thickness[t] * model.rest_area[t];

@@ -22,7 +22,7 @@ namespace mvs::core {
 
 class MembraneTerm {
  public:
-  explicit MembraneTerm(const Model &model);
+  explicit MembraneTerm(const Model &model, Elements which = Elements::moving);
 
   bool empty() const { return triangles_.empty(); }
   double energy(const std::vector<Vec3> &x) const;

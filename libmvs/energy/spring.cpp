@@ -5,12 +5,12 @@
 
 namespace mvs::core {
 
-SpringTerm::SpringTerm(const Model &model) {
+SpringTerm::SpringTerm(const Model &model, Elements which) {
   const Valve &valve = model.valve;
   for (const Leaflet &leaflet : valve.leaflets) laws_.emplace_back(leaflet.constants);
   for (size_t e = 0; e < model.topology.edges.size(); ++e) {
     const auto [i, j] = model.topology.edges[e];
-    if (model.topology.fixed[i] && model.topology.fixed[j]) continue;
+    if (!takes(which, model.topology.fixed[i] && model.topology.fixed[j])) continue;
     for (const uint32_t t : model.topology.edge_triangles[e]) {
       if (t == none) continue;
       const uint32_t law = valve.triangle_leaflet[t];

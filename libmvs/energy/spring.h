@@ -19,7 +19,7 @@ namespace mvs::core {
 
 class SpringTerm {
  public:
-  explicit SpringTerm(const Model &model);
+  explicit SpringTerm(const Model &model, Elements which = Elements::moving);
 
   bool empty() const { return springs_.empty(); }
   double energy(const std::vector<Vec3> &x) const;

@@ -1,9 +1,17 @@
-// Matrix blocks that several energy terms share.
+// Elements of energy terms, and matrix blocks that several terms share.
 #pragma once
 
 #include "base/types.h"
 
 namespace mvs::core {
+
+// Elements of a term with a node that moves, which are all that a solver needs, or those between
+// prescribed nodes alone, which pull at them as well.
+enum class Elements { moving, prescribed };
+
+inline bool takes(Elements which, bool all_prescribed) {
+  return all_prescribed == (which == Elements::prescribed);
+}
 
 // The Hessian of a term as it is, or projected: without the part that makes it indefinite.
 // Balanced: projected, but with the whole Hessian of contact between sheets. The Hessian of the

@@ -268,6 +268,9 @@ Forces evaluate_forces(const Model &valve, const State &valve_state) {
   total_energy.prepare(state.x, state.x, 0, profile);
   Forces forces;
   forces.energy = total_energy.gradient(state.x, forces.total, profile);
+  forces.energy += SpringTerm(model, Elements::prescribed).gradient(state.x, forces.total);
+  forces.energy += MembraneTerm(model, Elements::prescribed).gradient(state.x, forces.total);
+  forces.energy += BendingTerm(model, Elements::prescribed).gradient(state.x, forces.total);
   forces.contact.assign(state.x.size(), Vec3::Zero());
   total_energy.contact().gradient(forces.contact);
   for (Vec3 &f : forces.total) f = -f;

@@ -44,6 +44,20 @@ static mvs_measures close_valve(void) {
   return measures;
 }
 
+static void a_constant_may_be_zero(void) {
+  start();
+  mvs_leaflet_desc tissue = {0};
+  tissue.law = MVS_LEAFLET_LAW_MAY_NEWMAN_YIN;
+  tissue.constants[2] = -0.0;
+  MUST(mvs_set_leaflet(sim, 0, &tissue));
+  const double *constants = data_of(present(), MVS_ARRAY_LEAFLET_CONSTANTS);
+  CHECK(constants[1] == 399 && constants[3] == 0 && !signbit(constants[3]));
+  tissue.constants[2] = 0;
+  MUST(mvs_set_leaflet(sim, 0, &tissue));
+  constants = data_of(present(), MVS_ARRAY_LEAFLET_CONSTANTS);
+  CHECK(constants[3] == 1446.5);
+}
+
 static void one_leaflet_changes_and_the_other_stays(void) {
   start();
   const mvs_snapshot *before = present();
@@ -154,6 +168,7 @@ static void laws_say_what_they_are(void) {
 
 int main(void) {
   MUST(mvs_create(NULL, &sim));
+  a_constant_may_be_zero();
   one_leaflet_changes_and_the_other_stays();
   springs_become_the_membrane_of_their_curve();
   a_valve_closes_in_every_law_of_tissue();

@@ -203,3 +203,35 @@ def test_the_report_of_a_file_is_of_that_file_only(opened, tmp_path):
     assert "Shipped" not in done.stdout and "Study" not in done.stderr
     page = (tmp_path / "mine-report" / "report.html").read_text()
     assert "mine" in page and "Shipped valve" not in page and "founding paper" not in page
+
+
+def test_texts_with_a_zero_byte_are_refused(sim):
+    before = sim.snapshot().hash
+    for call in (sim.set_checkpoint, sim.restore_checkpoint, sim.begin_group):
+        with pytest.raises(mvs.ArgumentError, match="without zero bytes"):
+            call("a\0b")
+    with pytest.raises(mvs.ArgumentError, match="name: a text without zero bytes"):
+        sim.snapshot().find(mvs.PartKind.HEAD, "PM1\0zz")
+    for field, value in (("name", "a\0b"), ("head_names", ["PM1\0b", "PM2"])):
+        valve = mvs.valve_of(sim.snapshot())
+        setattr(valve, field, value if field == "name" else [*value, *valve.head_names[2:]])
+        with pytest.raises(mvs.ArgumentError, match=f"{field}: a text without zero bytes"):
+            sim.set_valve(valve)
+    assert sim.snapshot().hash == before
+
+
+def test_a_zero_that_would_be_the_default_is_refused(sim):
+    before = sim.snapshot().hash
+    for options in ({"max_iterations": 0}, {"residual": 0.0}, {"dt": 0.0}):
+        with pytest.raises(mvs.ArgumentError, match="0 is given; None is the default"):
+            sim.settle(**options)
+    with pytest.raises(mvs.ArgumentError, match="budget: 0 is given"):
+        sim.step(budget=0)
+    assert sim.snapshot().hash == before
+
+
+def test_what_has_to_be_a_function_is_one(sim):
+    with pytest.raises(mvs.ArgumentError, match="log: a function or None is needed, not 3"):
+        mvs.Simulator(log=3)
+    with pytest.raises(mvs.ArgumentError, match="progress: a function or None is needed, not 3"):
+        sim.settle(progress=3)

@@ -189,3 +189,43 @@ def test_the_dataclasses_have_the_fields_that_the_library_describes():
         hints = typing.get_type_hints(kind, include_extras=True)
         ours = [(name, *hints[name].__metadata__) for name in hints if name not in ("profile", "open_valve")]
         assert ours == described
+
+
+@pytest.mark.parametrize("scale", [1.0, 1.3])
+def test_forces_on_the_annulus_are_those_of_all_springs(scale):
+    """Springs between two annulus nodes pull at both: W = sum over edges of t A sigma (own sum)."""
+    with mvs.Simulator() as sim:
+        sim.generate(shape="founding", vertices=200)
+        valve = mvs.valve_of(sim.snapshot())
+        valve.bending_scale = 0.0
+        sim.set_valve(valve)
+        sim.apply("annulus_scale", factor=scale)
+        sim.set_load(mvs.SYSTOLE_PA)
+        sim.settle()
+        at = sim.snapshot()
+    soft, stiff, kink = at.leaflet_constants[0][1:4]
+    rest, now, triangles = at.node_rest, at.node_position, at.triangle_nodes
+    normal = np.cross(rest[triangles[:, 1]] - rest[triangles[:, 0]],
+                      rest[triangles[:, 2]] - rest[triangles[:, 0]])
+    volume = np.linalg.norm(normal, axis=1) / 2 * at.triangle_thickness
+    force = np.zeros_like(now)
+    for k in range(3):
+        i, j = triangles[:, k], triangles[:, (k + 1) % 3]
+        length = np.linalg.norm(rest[j] - rest[i], axis=1)
+        way = now[j] - now[i]
+        now_long = np.linalg.norm(way, axis=1)
+        strain = now_long / length - 1
+        stress = np.where(strain < kink, soft * strain, soft * kink + stiff * (strain - kink))
+        pull = (volume * stress / length / now_long)[:, None] * way
+        np.add.at(force, i, pull)
+        np.add.at(force, j, -pull)
+    load = np.cross(now[triangles[:, 1]] - now[triangles[:, 0]],
+                    now[triangles[:, 2]] - now[triangles[:, 0]]) / 6 * at.load_case.pressure
+    for k in range(3):
+        np.add.at(force, triangles[:, k], load)
+    for (a, b), tension in zip(at.chord_nodes, at.chord_tension):
+        way = (now[b] - now[a]) / np.linalg.norm(now[b] - now[a])
+        force[a] += tension * way
+        force[b] -= tension * way
+    annulus = at.annulus_nodes
+    assert np.abs(force + at.node_contact_force - at.node_force)[annulus].max() < 1e-12

@@ -66,3 +66,26 @@ def test_wrong_operations_are_refused_before_any_work(opened):
     ):
         with pytest.raises(mvs.ArgumentError, match=words):
             mvs.sweep(opened, ops)
+
+
+def test_a_loaded_snapshot_keeps_its_load(opened):
+    with mvs.Simulator() as sim:
+        sim.restore(opened)
+        sim.set_load(9000.0, 0.25)
+        sim.settle(**QUICK)
+        half = sim.snapshot()
+        sim.apply("chord_length", chord="P2/3", factor=0.9)
+        sim.set_load(9000.0, 0.25)
+        sim.settle(**QUICK)
+        alone = sim.snapshot().measures
+    (row,) = mvs.sweep(half, [("chord_length", {"chord": "P2/3", "factor": [0.9]})], settle=QUICK)
+    assert row["annulus_area"] == alone.annulus_area
+    assert row["tenting_height"] == alone.tenting_height
+
+
+def test_rows_without_a_value_are_sorted_behind_the_others():
+    nan = float("nan")
+    table = mvs.Table(({"a": value} for value in (3.0, nan, 1.0, nan, 2.0)), {"a": "m"})
+    assert table.sorted("a")["a"][:3] == [1.0, 2.0, 3.0]
+    assert table.sorted("a", reverse=True)["a"][:3] == [3.0, 2.0, 1.0]
+    assert all(np.isnan(table.sorted("a", reverse=True)["a"][3:]))

@@ -132,3 +132,37 @@ def test_a_step_of_a_contracting_annulus_stays_within_its_budget(sim, budget):
         stats = sim.step(1, dt=1e-3, budget=budget)
         # plus the forces before the first step
         assert stats.profile.passes + stats.profile.factorisations <= budget + 1
+
+
+@pytest.mark.parametrize("law, key", [
+    ("may_newman_yin", "c2"), ("prot", "c2"), ("spring", "kink"), ("neo_hookean", "bending"),
+])
+def test_a_constant_of_zero_stays_zero(sim, law, key):
+    sim.set_leaflet(law=law, constants={key: 0})
+    place = 1 + [each.key for each in mvs.leaflet_law(law).constants].index(key)
+    before = sim.snapshot()
+    assert list(before.leaflet_constants[:, place]) == [0, 0]
+    assert not np.signbit(before.leaflet_constants).any()
+    sim.set_valve(mvs.valve_of(before))
+    after = sim.snapshot()
+    assert np.array_equal(after.leaflet_constants, before.leaflet_constants)
+    sim.set_leaflet(law=law, constants=(0.0,) * place)  # in order, zeros are defaults
+    assert sim.snapshot().leaflet_constants[0, place] > 0
+
+
+def test_a_constant_of_zero_of_a_chord_stays_zero(sim):
+    valve = mvs.valve_of(sim.snapshot())
+    count = len(valve.chord_law)
+    valve.chord_law = np.full(count, mvs.ChordLaw.BILINEAR, np.uint32)
+    valve.chord_constants = np.tile([-0.0, 30e6, 0, 0, 0, 0], (count, 1))
+    sim.set_valve(valve)
+    before = sim.snapshot()
+    assert set(before.chord_constants[:, 0]) == {0.0} and set(before.chord_constants[:, 1]) == {30e6}
+    sim.set_valve(mvs.valve_of(before))
+    assert np.array_equal(sim.snapshot().chord_constants, before.chord_constants)
+
+
+def test_constants_are_numbers(sim):
+    for wrong in ("12", None, 3.0):
+        with pytest.raises(mvs.ArgumentError, match="constants: numbers or a dictionary"):
+            mvs.Leaflet("A", constants=wrong)

@@ -38,13 +38,14 @@ class Law:
 
 @dataclasses.dataclass(frozen=True)
 class Leaflet:
-    """A leaflet and its tissue; zeros mean the library's defaults.
+    """A leaflet and its tissue; a thickness of 0 is the library's default.
 
         mvs.Leaflet("A", law="fung", constants={"c0": 2e3, "c2": 5})
 
     thickness: m
     constants: of the law, at most 8, moduli in Pa: in order, or a dictionary by the keys of
-        ``mvs.leaflet_law(law)``, where a key that is left out takes its default; for the spring
+        ``mvs.leaflet_law(law)``, where a key that is left out takes its default and 0 is zero. In
+        order, 0.0 takes the default and -0.0 is zero; for the spring
         sheet Young's modulus below and above the kink and the strain at the kink
     law: a LeafletLaw, or its lower-case name; the default is the spring sheet of the founding
         model, "bilinear" the membrane that is recommended

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ._core import Snapshot
 from .arrays import Curve, Leaflet, Ring, Valve
-from .kinds import LeafletLaw, PartKind, RingKind
+from .kinds import ChordLaw, LeafletLaw, PartKind, RingKind
+from .laws import ZERO, leaflet_law
 
 
 _COPIED = {
@@ -29,17 +31,21 @@ def valve_of(snapshot: Snapshot) -> Valve:
     """Copies the valve of a snapshot to arrays, with ids and names.
 
     ``sim.set_valve(mvs.valve_of(snapshot))`` sets the same valve; change the arrays first to set a
-    different one. The start shape is that of the snapshot; velocities are not part of a valve.
+    different one. Constants that are zero are -0.0, as 0.0 would be the default of the law. The
+    start shape is that of the snapshot; velocities are not part of a valve.
     """
     parts = {kind: [p for p in snapshot.parts if p.kind == kind] for kind in PartKind}
     leaflets = [
-        Leaflet(part.name, float(row[0]), tuple(map(float, row[1:])), LeafletLaw(int(law)), part.id)
+        Leaflet(part.name, float(row[0]), _constants(int(law), row[1:]), LeafletLaw(int(law)), part.id)
         for part, law, row in zip(
             parts[PartKind.LEAFLET], snapshot.leaflet_law, snapshot.leaflet_constants
         )
     ]
     density, contact_thickness, contact_stiffness, bending = map(float, snapshot.valve_constants)
     copied = {field: getattr(snapshot, array).copy() for field, array in _COPIED.items()}
+    constants, law = copied["chord_constants"], copied["chord_law"]
+    has_them = (law == ChordLaw.BILINEAR) | (law == ChordLaw.OGDEN)
+    constants[(constants == 0) & has_them[:, None]] = ZERO
     return Valve(
         **copied,
         leaflets=leaflets,
@@ -56,6 +62,12 @@ def valve_of(snapshot: Snapshot) -> Valve:
         contact_stiffness=contact_stiffness,
         bending_scale=bending,
     )
+
+
+def _constants(law: int, values: NDArray[np.float64]) -> tuple[float, ...]:
+    count = len(leaflet_law(law).constants)
+    known = [float(value) or ZERO for value in values[:count]]
+    return (*known, *map(float, values[count:]))
 
 
 def _rings(snapshot: Snapshot, parts: list) -> list[Ring]:

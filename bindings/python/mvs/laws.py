@@ -45,9 +45,17 @@ def leaflet_law(law: Union[LeafletLaw, int, str]) -> Law:
     return _core.leaflet_law(leaflet_law_of(law))
 
 
+ZERO = -0.0
+"""A constant that is zero: where constants are in order, 0.0 takes the default."""
+
+
 def constants_of(law: int, given: Constants) -> tuple[float, ...]:
     """The constants of a leaflet law in its order; a key that is left out takes its default."""
     if not isinstance(given, Mapping):
+        if isinstance(given, (str, bytes)) or not hasattr(given, "__len__"):
+            raise ArgumentError(
+                f"constants: numbers or a dictionary are needed, not {shown(given)}", "constants"
+            )
         if len(given) > 8:
             raise ArgumentError(f"constants: a law has at most 8, not {len(given)}", "constants")
         return tuple(map(float, given))
@@ -61,4 +69,5 @@ def constants_of(law: int, given: Constants) -> tuple[float, ...]:
                 f'constants: {leaflet_law(law).name} has no "{key}", but {words}',
                 f"constants.{key}",
             )
-    return tuple(float(given.get(key, each.default)) for key, each in known.items())
+    # 0.0 would be the default
+    return tuple(float(given.get(key, each.default)) or ZERO for key, each in known.items())

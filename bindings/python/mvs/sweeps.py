@@ -17,7 +17,7 @@ from .errors import ArgumentError, Error
 from .kinds import SYSTOLE_PA
 from .ops import FieldType, Operation
 from .tables import Row, Table
-from .values import Cost, Measures, unit_of
+from .values import Cost, Load, Measures, unit_of
 from .words import shown
 
 Step = Union[Operation, tuple[str, Mapping[str, Any]]]
@@ -32,7 +32,7 @@ class _Task:
 
     start: Snapshot
     operations: tuple[Operation, ...]
-    pressure: float
+    load: Load
     settle: Mapping[str, Any]
     cost: Optional[Mapping[str, Any]]
 
@@ -53,7 +53,7 @@ def sweep(
                   ProcessPoolExecutor())
 
     Each combination starts from the same valve or snapshot, is settled under the pressure and
-    measured. Columns: the parameters with several values ("ring.size"), "converged", the fields of
+    measured. Arguments that fit no valve, as a factor of 0, raise. Columns: the parameters with several values ("ring.size"), "converged", the fields of
     mvs.Measures in SI units, and "error", the sentence of an impossible combination, whose measures
     are NaN. The rows are in the order of the combinations, the last parameter fastest, and do not
     depend on the executor.
@@ -61,19 +61,22 @@ def sweep(
     ops: pairs of a name and its fields, or mvs.Operation. A list holds the values of a parameter;
         numbers may also be a range or an array. Points of a curve are an array, a site a tuple
     executor: any of concurrent.futures; None: one after another in this thread
-    pressure_pa: Pa; None: that of the snapshot, else 120 mmHg
+    pressure_pa: Pa, with the annulus and the heads where they are under load; None: the load of the
+        snapshot, pressure and boundary fraction, else 120 mmHg
     settle: arguments of Simulator.settle
     cost: arguments of Snapshot.cost, {} for its defaults; adds columns "cost.open_area", ... with
         the fields of mvs.Cost. None: costs are not measured
     """
     start = valve if isinstance(valve, Snapshot) else _snapshot_of(valve)
-    pressure = start.load_case.pressure or SYSTOLE_PA if pressure_pa is None else pressure_pa
+    load = Load(SYSTOLE_PA if pressure_pa is None else pressure_pa, 1.0)
+    if pressure_pa is None and start.load_case.pressure:
+        load = start.load_case
     choices = _all_choices(ops)
     varied = [c.label for c in choices if c.field and len(c.values) > 1]
     tasks, parameters = [], []
     for values in itertools.product(*(c.values for c in choices)):
         parameters.append({c.label: v for c, v in zip(choices, values) if c.label in varied})
-        tasks.append(_Task(start, _operations(choices, values), pressure, dict(settle or {}), cost))
+        tasks.append(_Task(start, _operations(choices, values), load, dict(settle or {}), cost))
     if executor is None:
         results: Iterable[Row] = map(_run, tasks)
     else:
@@ -180,7 +183,7 @@ def _run(task: _Task) -> Row:
             sim.restore(task.start)
             for operation in task.operations:
                 sim.apply(operation)
-            sim.set_load(task.pressure, 1.0)
+            sim.set_load(task.load.pressure, task.load.boundary_fraction)
             converged = sim.settle(**task.settle).converged
             closed = sim.snapshot()
         row.update({name: getattr(closed.measures, name) for name in names})

@@ -54,11 +54,15 @@ class Table(Sequence[Row]):
         return iter(self._rows)
 
     def sorted(self, column: str, reverse: bool = False) -> Table:
-        """The rows sorted by a column; rows with equal values keep their order."""
-        self[column]
-        return Table(
-            sorted(self._rows, key=lambda row: row[column], reverse=reverse), self.units
-        )
+        """The rows sorted by a column; rows with equal values keep their order.
+
+        Rows without a value (NaN) come last, also with `reverse`.
+        """
+        values = self[column]
+        known = [row for row, value in zip(self._rows, values) if value == value]
+        unknown = [row for row, value in zip(self._rows, values) if value != value]
+        known.sort(key=lambda row: row[column], reverse=reverse)
+        return Table(known + unknown, self.units)
 
     def to_dataframe(self) -> Any:
         """A pandas.DataFrame; ``attrs["units"]`` has the units (extra ``tables``)."""

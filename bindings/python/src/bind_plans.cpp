@@ -17,18 +17,12 @@ class PlanOptions {
  public:
   PlanOptions(const std::string &author, const std::string &notes, bool measures) {
     options_.measures = measures ? 1 : 0;
-    options_.author = whole(author, "author");
-    options_.notes = whole(notes, "notes");
+    options_.author = c_text(author, "author");
+    options_.notes = c_text(notes, "notes");
   }
   const mvs_plan_options *get() const { return &options_; }
 
  private:
-  // C strings end at the first zero byte.
-  static const char *whole(const std::string &text, const char *name) {
-    if (text.find('\0') == std::string::npos) return text.c_str();
-    refuse(MVS_E_ARGUMENT, name, std::string(name) + ": a text without zero bytes is needed");
-  }
-
   mvs_plan_options options_ = sized<mvs_plan_options>();
 };
 

@@ -32,9 +32,9 @@ mvs_settle_options settle_options(const std::string &solver, Count max_iteration
   auto options = sized<mvs_settle_options>();
   options.flags = margins ? 0 : MVS_SETTLE_NO_MARGINS;
   options.solver = solver_of(solver);
-  options.max_iterations = max_iterations.value_or(0);
-  options.residual = residual.value_or(0);
-  options.dt = dt.value_or(0);
+  options.max_iterations = given_or_default(max_iterations, "max_iterations");
+  options.residual = given_or_default(residual, "residual");
+  options.dt = given_or_default(dt, "dt");
   options.damping = damping.value_or(0);
   return options;
 }
@@ -64,9 +64,9 @@ py::object step(Simulator &self, uint64_t count, const std::string &solver, Numb
                 Number damping, Count budget) {
   auto options = sized<mvs_step_options>();
   options.solver = solver_of(solver);
-  options.dt = dt.value_or(0);
+  options.dt = given_or_default(dt, "dt");
   options.damping = damping.value_or(0);
-  options.budget = budget.value_or(0);
+  options.budget = given_or_default(budget, "budget");
   self.repeat(count, [&](mvs_sim *sim) { return mvs_step(sim, &options); });
   return stats_of(self);
 }
@@ -150,7 +150,9 @@ void bind_files(py::class_<Simulator> &type) {
 void bind_simulator(py::module_ &module) {
   const std::string about =
       "Simulates one valve.\n\nCalls release the interpreter; threads that share a simulator wait "
-      "for each other. A call that raises leaves the simulator as it was.\n\nbackend: the sparse "
+      "for each other. A call that raises leaves the simulator as it was, unless the exception is "
+      "that of `log`, or a warning that a filter turns into an error: the call is done then.\n\n"
+      "backend: the sparse "
       "factorisation, one of " +
       backend_words() +
       "\nworkers: threads that share the work of a settle or step on a valve of more than about "

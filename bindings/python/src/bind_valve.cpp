@@ -56,7 +56,8 @@ void set_leaflet(Simulator &self, const std::optional<std::string> &leaflet, con
   std::copy(values.begin(), values.end(), tissue.constants);
   mvs_part part{};
   if (leaflet)
-    must(mvs_snapshot_find_part(self.snapshot()->get(), MVS_PART_LEAFLET, leaflet->c_str(), &part));
+    must(mvs_snapshot_find_part(self.snapshot()->get(), MVS_PART_LEAFLET,
+                                c_text(*leaflet, "leaflet"), &part));
   self.call([&](mvs_sim *sim) { return mvs_set_leaflet(sim, part.id, &tissue); });
 }
 

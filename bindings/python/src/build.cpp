@@ -83,7 +83,7 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
   SurfaceArrays arrays;
   auto surface = sized<mvs_surface_desc>();
   surface.kind = kind_of(kind);
-  surface.name = name.c_str();
+  surface.name = c_text(name, "name");
   surface.points = arrays.points(points, "points");
   surface.triangles = arrays.triangles(triangles, "triangles");
   surface.triangle_leaflet =

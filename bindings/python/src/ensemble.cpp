@@ -54,8 +54,8 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
   check_load(start, load);
   auto settle = sized<mvs_settle_options>();
   settle.solver = solver_of(solver);
-  settle.max_iterations = max_iterations.value_or(0);
-  settle.residual = residual.value_or(0);
+  settle.max_iterations = given_or_default(max_iterations, "max_iterations");
+  settle.residual = given_or_default(residual, "residual");
   ProgressCall call{std::move(progress), nullptr};
   auto options = sized<mvs_ensemble_options>();
   options.members = members;
@@ -64,7 +64,7 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
   if (perturbation == 0.0) options.flags |= MVS_ENSEMBLE_FLAG_UNPERTURBED;
   options.perturbation = perturbation.value_or(0);
   options.wavelength = wavelength.value_or(0);
-  options.tolerance = same.value_or(0);
+  options.tolerance = given_or_default(same, "same");
   options.progress = &ProgressCall::callback;
   options.user = &call;
   mvs_ensemble *made = nullptr;

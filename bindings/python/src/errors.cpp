@@ -27,6 +27,17 @@ void refuse(mvs_result code, const std::string &part, const std::string &sentenc
   raise(code, sentence.c_str(), part.c_str(), 0);
 }
 
+void refuse_no_function(const py::object &given, const std::string &part) {
+  if (!given || given.is_none() || PyCallable_Check(given.ptr()) != 0) return;
+  refuse(MVS_E_ARGUMENT, part,
+         part + ": a function or None is needed, not " + std::string(py::repr(given)));
+}
+
+const char *c_text(const std::string &text, const std::string &part) {
+  if (text.find('\0') == std::string::npos) return text.c_str();
+  refuse(MVS_E_ARGUMENT, part, part + ": a text without zero bytes is needed");
+}
+
 void warn(const char *sentence) {
   const py::object category = py::module_::import("mvs.errors").attr("ValveWarning");
   // the line of the caller of the method: the first frame is the wrapper in mvs/arguments.py

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <exception>
+#include <optional>
 #include <string>
 
 namespace mvs_python {
@@ -29,6 +30,23 @@ inline void must(mvs_result result) {
 
 // Raises the exception of a code with a sentence of the binding.
 [[noreturn]] void refuse(mvs_result code, const std::string &part, const std::string &sentence);
+
+// ArgumentError for an argument that is neither a function nor None.
+void refuse_no_function(const pybind11::object &given, const std::string &part);
+
+// The value of an option, 0 if it is not given, which is the default of the library: ArgumentError
+// for a 0 that is given, which would be taken for it.
+template <typename Value>
+Value given_or_default(const std::optional<Value> &given, const char *name) {
+  if (given && *given == 0) {
+    refuse(MVS_E_ARGUMENT, name, std::string(name) + ": 0 is given; None is the default");
+  }
+  return given.value_or(Value{});
+}
+
+// A text of an argument or a part as a C string, which ends at its first zero byte: ArgumentError
+// if it has one.
+const char *c_text(const std::string &text, const std::string &part);
 
 // Issues an mvs.ValveWarning; throws if the warning filter turns it into an error.
 void warn(const char *sentence);

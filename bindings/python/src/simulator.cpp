@@ -40,6 +40,7 @@ std::string backend_words() {
 
 Simulator::Simulator(const std::string &backend, uint32_t workers, py::object log)
     : log_(std::move(log)) {
+  refuse_no_function(log_, "log");
   auto desc = sized<mvs_sim_desc>();
   desc.backend = backend_of(backend);
   desc.workers = workers;

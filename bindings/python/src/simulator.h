@@ -85,6 +85,7 @@ void Simulator::call(Call &&work) {
 
 template <typename Call>
 void Simulator::call_with(py::object progress, Call &&work) {
+  refuse_no_function(progress, "progress");
   call([&](mvs_sim *sim) {
     {
       py::gil_scoped_acquire held;
@@ -138,7 +139,8 @@ void plain_call(Simulator &self) {
 }
 template <auto function>
 void text_call(Simulator &self, const std::string &text) {
-  self.call([&](mvs_sim *sim) { return function(sim, text.c_str()); });
+  const char *name = c_text(text, "name");
+  self.call([&](mvs_sim *sim) { return function(sim, name); });
 }
 
 // A struct that a function of the C library fills.

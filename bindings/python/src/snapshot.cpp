@@ -54,7 +54,7 @@ py::tuple parts(const Snapshot &snapshot) {
 
 py::object find(const Snapshot &snapshot, uint32_t kind, const std::string &name) {
   mvs_part part{};
-  must(mvs_snapshot_find_part(snapshot.get(), kind, name.c_str(), &part));
+  must(mvs_snapshot_find_part(snapshot.get(), kind, c_text(name, "name"), &part));
   return part_value(part);
 }
 

@@ -30,7 +30,7 @@ void read_parts(const py::object &valve, const char *list, std::vector<std::stri
   for (const py::object &part : given) {
     names.push_back(part.attr("name").cast<std::string>());
     Desc desc{};
-    desc.name = names.back().c_str();
+    desc.name = c_text(names.back(), list);
     desc.id = part.attr("id").cast<mvs_id>();
     read(part, desc);
     descs.push_back(desc);
@@ -53,7 +53,7 @@ ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
 void ValveArguments::read() {
   desc_.struct_size = sizeof desc_;
   name_ = py::str(valve_.attr("name"));
-  desc_.name = name_.c_str();
+  desc_.name = c_text(name_, "name");
   if (valve_.attr("orient").cast<bool>()) desc_.flags |= MVS_VALVE_FLAG_ORIENT;
   read_arrays();
   read_leaflets();
@@ -98,7 +98,7 @@ void ValveArguments::read_leaflets() {
     if (py::isinstance<py::str>(leaflet)) leaflet = values.attr("Leaflet")(leaflet);
     leaflet_names_.push_back(leaflet.attr("name").cast<std::string>());
     mvs_leaflet_desc desc{};
-    desc.name = leaflet_names_.back().c_str();
+    desc.name = c_text(leaflet_names_.back(), "leaflets");
     desc.id = leaflet.attr("id").cast<mvs_id>();
     desc.law = leaflet.attr("law").cast<uint32_t>();
     desc.thickness = leaflet.attr("thickness").cast<double>();
@@ -117,7 +117,7 @@ void ValveArguments::read_leaflets() {
 void ValveArguments::read_scallops() {
   if (valve_.attr("scallops").is_none()) return;
   scallop_names_ = valve_.attr("scallops").cast<std::vector<std::string>>();
-  for (const std::string &name : scallop_names_) scallops_.push_back(name.c_str());
+  for (const std::string &name : scallop_names_) scallops_.push_back(c_text(name, "scallops"));
   scallop_ids_ =
       column<mvs_id>(valve_, "scallop_id", MVS_TYPE_U64, "scallops", scallop_names_.size());
   desc_.scallops = scallops_.data();
@@ -150,7 +150,7 @@ void ValveArguments::read_chords() {
     chord.id = id[c];
     chord.law = law[c];
     std::copy_n(&constants[6 * c], 6, chord.constants);
-    chord.name = chord_names_.empty() ? nullptr : chord_names_[c].c_str();
+    if (!chord_names_.empty()) chord.name = c_text(chord_names_[c], "chord_names");
     chords_.push_back(chord);
   }
   desc_.chords = chords_.data();
@@ -167,7 +167,7 @@ void ValveArguments::read_heads() {
     mvs_head_desc head{};
     head.node = nodes[h];
     head.id = id[h];
-    head.name = head_names_.empty() ? nullptr : head_names_[h].c_str();
+    if (!head_names_.empty()) head.name = c_text(head_names_[h], "head_names");
     heads_.push_back(head);
   }
   desc_.heads = heads_.data();

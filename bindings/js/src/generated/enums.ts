@@ -107,7 +107,10 @@ export const ChordKind = {
 } as const;
 export type ChordKind = keyof typeof ChordKind;
 
-/** Constitutive laws of a leaflet sheet, and the meaning of `constants` for each. */
+/**
+ * Constitutive laws of a leaflet sheet, and the meaning of `constants` for each. A constant of 0
+ * takes the default; give -0.0 for a constant that is zero.
+ */
 export const LeafletLaw = {
   /**
    * Mass-spring sheet, bilinear law, Van Gelder stiffness (Tenenholtz et al. 2011): constants are
@@ -142,7 +145,7 @@ export const LeafletLaw = {
    * W = mu / 2 (I1 - 3): mu, Pa [200e3]; bending, Pa [112e3]. Young's modulus of the plane sheet is
    * 3 mu, that of the bending stiffness the lesser of 3 mu and `bending`: mu is a modulus of tissue
    * under load, which bends as softly as tissue at rest (the default of the bilinear membrane).
-   * Give 1e12 for a plate of 3 mu (0 is the default, as for all constants), and bending_scale or
+   * Give 1e12, or -0.0 (no limit), for a plate of 3 mu, and bending_scale or
    * MVS_VALVE_FLAG_NO_BENDING for a sheet without bending stiffness.
    */
   neo_hookean: 6,
@@ -151,7 +154,7 @@ export type LeafletLaw = keyof typeof LeafletLaw;
 
 /**
  * Constitutive laws of a chord: tension = area x nominal stress P at the strain e = (L - L0) / L0
- * where L > L0, else 0.
+ * where L > L0, else 0. A constant of 0 takes the default; give -0.0 for one that is zero.
  */
 export const ChordLaw = {
   /** P = young e */

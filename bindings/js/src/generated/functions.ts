@@ -1082,10 +1082,11 @@ export class Functions extends Calls {
   /**
    * Changes the tissue of a leaflet, of all leaflets if `leaflet` is 0: law, thickness and
    * constants of `tissue`, whose name is null and whose id is 0. A thickness of 0 keeps the present
-   * one; another thickness scales that of each triangle. Constants of 0 take the law's defaults;
-   * MVS_LEAFLET_LAW_BILINEAR without constants, on a leaflet of springs, becomes the membrane that
-   * follows the curve of those springs. Shape, chordae and load do not change; the history is
-   * emptied, because operations cannot be undone into another tissue, and an open journal ends.
+   * one; another thickness scales that of each triangle. Constants of 0 take the law's defaults,
+   * -0.0 is zero; MVS_LEAFLET_LAW_BILINEAR without constants, on a leaflet of springs, becomes the
+   * membrane that follows the curve of those springs. Shape, chordae and load do not change; the
+   * history is emptied, because operations cannot be undone into another tissue, and an open
+   * journal ends.
    */
   mvs_set_leaflet(sim: SimHandle, leaflet: bigint | number, tissue: LeafletDesc): void {
     return this.invoke(signatures.mvs_set_leaflet!, [sim, leaflet, tissue]) as never;

@@ -113,7 +113,7 @@ export interface LeafletDesc {
   law?: LeafletLaw | number;
   /** m [1e-3] */
   thickness?: number;
-  /** of the law */
+  /** of the law; 0: its default, -0.0: zero */
   constants?: ArrayLike<number>;
 }
 
@@ -146,7 +146,7 @@ export interface ChordDesc {
   young?: number;
   /** m2 [pi/4 * (1 mm)^2] */
   area?: number;
-  /** of laws that have them */
+  /** of laws that have them; 0: the default, -0.0: zero */
   constants?: ArrayLike<number>;
   /** [assigned by the library] */
   id?: bigint | number;
@@ -337,7 +337,7 @@ export interface Stats {
   stable: number;
   /** N, largest out-of-balance force on a free node or tool point */
   residual: number;
-  /** J, total potential energy at the end */
+  /** J, total potential energy at the end, of tissue with a node that moves */
   energy: number;
   /** J, kinetic energy at the end */
   kinetic: number;
