@@ -235,3 +235,16 @@ def test_what_has_to_be_a_function_is_one(sim):
         mvs.Simulator(log=3)
     with pytest.raises(mvs.ArgumentError, match="progress: a function or None is needed, not 3"):
         sim.settle(progress=3)
+
+
+def test_masked_arrays_and_halves_of_characters_are_refused(sim):
+    valve = mvs.valve_of(sim.snapshot())
+    nodes = valve.nodes
+    valve.nodes = np.ma.masked_array(nodes, np.zeros(nodes.shape, bool))
+    with pytest.raises(mvs.ArgumentError, match="nodes: a masked array is given"):
+        sim.set_valve(valve)
+    valve.nodes, valve.name = nodes, "\ud800"
+    with pytest.raises(mvs.ArgumentError, match="name: a text in Unicode is needed"):
+        sim.set_valve(valve)
+    with pytest.raises(mvs.ArgumentError, match="a text in Unicode is needed"):
+        sim.apply("neochord", head="PM1", site="P2:0.5:0.9", name="\ud800")

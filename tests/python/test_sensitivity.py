@@ -92,6 +92,11 @@ def test_weights_and_tissue(closed):
     assert "pressure" in found.to and "scallops A2" in found.to
     assert any(label.startswith("tissue A ") for label in found.to)
     assert found.value[0] == pytest.approx((weights * closed.node_position).sum(), rel=1e-12)
+    single = weights.astype(np.float32)
+    short, same = (closed.sensitivity(of={"mine": w}, to=["pressure"]) for w in (single, single.astype(float)))
+    assert np.array_equal(short.derivative, same.derivative)
+    with pytest.raises(mvs.ArgumentError, match="weights: .* is needed, not int64"):
+        closed.sensitivity(of={"mine": np.zeros(weights.shape, int)}, to=["pressure"])
     assert np.isfinite(found.derivative).all()
 
 

@@ -70,6 +70,12 @@ py::array array_argument(const py::handle &value, const Wanted &wanted) {
            name + ": " + expectation(wanted) + " is needed, not " +
                std::string(py::str(py::type::handle_of(value).attr("__name__"))));
   }
+  if (py::hasattr(value, "mask")) {
+    refuse(MVS_E_ARGUMENT, name,
+           name +
+               ": a masked array is given, whose masked values would be used: fill it, or leave "
+               "them out");
+  }
   const auto array = py::reinterpret_borrow<py::array>(value);
   const bool shaped = wanted.components == 1
                           ? array.ndim() == 1

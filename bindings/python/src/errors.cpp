@@ -33,6 +33,15 @@ void refuse_no_function(const py::object &given, const std::string &part) {
          part + ": a function or None is needed, not " + std::string(py::repr(given)));
 }
 
+std::string text_of(const py::handle &value, const std::string &part) {
+  try {
+    return value.cast<std::string>();
+  } catch (const py::cast_error &) {
+    refuse(MVS_E_ARGUMENT, part,
+           part + ": a text in Unicode is needed, not " + std::string(py::repr(value)));
+  }
+}
+
 const char *c_text(const std::string &text, const std::string &part) {
   if (text.find('\0') == std::string::npos) return text.c_str();
   refuse(MVS_E_ARGUMENT, part, part + ": a text without zero bytes is needed");

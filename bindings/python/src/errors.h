@@ -44,6 +44,9 @@ Value given_or_default(const std::optional<Value> &given, const char *name) {
   return given.value_or(Value{});
 }
 
+// A text in UTF-8: ArgumentError for what has none, as half of a surrogate pair.
+std::string text_of(const py::handle &value, const std::string &part);
+
 // A text of an argument or a part as a C string, which ends at its first zero byte: ArgumentError
 // if it has one.
 const char *c_text(const std::string &text, const std::string &part);

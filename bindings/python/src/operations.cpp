@@ -81,7 +81,7 @@ void OpStruct::write(uint32_t type, uint32_t offset, const py::object &value) {
           described(array_argument(value, {"points", 3, {MVS_TYPE_F64}}), kept_);
       return;
     case MVS_FIELD_TEXT:
-      texts_.push_back(value.cast<std::string>());
+      texts_.push_back(text_of(value, "text"));
       at<const char *>(offset) = texts_.back().c_str();
       return;
     default:

@@ -14,17 +14,16 @@ namespace {
 
 using namespace py::literals;
 
-const Wanted points = {"array", 3, {MVS_TYPE_F64}};
-
 // Names and arrays that the C structs point to.
 struct Kept {
   std::vector<std::string> names;
   std::vector<py::array> arrays;
 };
 
-mvs_array array_or_none(const py::handle &value, Kept &kept) {
+mvs_array array_or_none(const py::handle &value, const char *name, Kept &kept) {
   if (value.is_none()) return {};
-  return described(array_argument(value, points), kept.arrays);
+  const Wanted wanted{name, 3, {MVS_TYPE_F64, MVS_TYPE_F32}};
+  return described(array_argument(value, wanted), kept.arrays);
 }
 
 // From tuples (kind, index, component, measure, point, weights).
@@ -45,7 +44,7 @@ std::vector<mvs_quantity> quantities_of(const py::list &rows, Kept &kept) {
       const auto point = row[4].cast<std::array<double, 3>>();
       std::copy(point.begin(), point.end(), q.point);
     }
-    q.weights = array_or_none(row[5], kept);
+    q.weights = array_or_none(row[5], "weights", kept);
     list.push_back(q);
   }
   return list;
@@ -60,7 +59,7 @@ std::vector<mvs_parameter> parameters_of(const py::list &rows, Kept &kept) {
     p.kind = row[0].cast<uint32_t>();
     p.index = row[1].cast<uint32_t>();
     p.component = row[2].cast<uint32_t>();
-    p.mode = array_or_none(row[3], kept);
+    p.mode = array_or_none(row[3], "mode", kept);
     list.push_back(p);
   }
   return list;

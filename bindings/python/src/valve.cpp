@@ -52,7 +52,7 @@ ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
 
 void ValveArguments::read() {
   desc_.struct_size = sizeof desc_;
-  name_ = py::str(valve_.attr("name"));
+  name_ = text_of(py::str(valve_.attr("name")), "name");
   desc_.name = c_text(name_, "name");
   if (valve_.attr("orient").cast<bool>()) desc_.flags |= MVS_VALVE_FLAG_ORIENT;
   read_arrays();
