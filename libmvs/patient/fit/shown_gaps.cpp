@@ -23,7 +23,7 @@ constexpr double annulus_band = 4e-3;
 // m, from the free edge of the valve at rest: 8 mm of leaflets that coapt normally overlap.
 constexpr double from_free_edge = 10e-3;
 // m, and m2: in labels of networks, gaps as wide of sealed phantoms span less together.
-constexpr double least_width = 1.5e-3, least_area = 10e-6;
+constexpr double least_width = 1.2e-3, least_area = 12e-6;
 // m, 95 % of the difference of two edges, each with the deviation of a closed surface (FitSettings)
 constexpr double width_error = 1.4e-3;
 // A piece of the surface is one leaflet if so much of it is; a gap is between leaflets, and no hole
