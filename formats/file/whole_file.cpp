@@ -90,7 +90,7 @@ class Replacement {
       : target_(follow_links(path)), folder_(folder_of(target_)) {}
 
   std::string target_, folder_;
-  std::string path_;  // of the new file; "": there is none
+  std::string path_;  // of the new file; empty without one
 };
 
 // Returns the initial buffer size; fails for a folder or a file that is too large.

@@ -81,10 +81,7 @@ struct Place {
 Place measure(const Model &model, const std::vector<Vec3> &x) {
   const Frame frame = valve_frame(model, x);
   const Orifice found = cut_orifice(model, x);
-  const std::vector<Vec3> local = frame.local(x);
-  const orifice::Sheet sheet =
-      orifice::sheet_of(orifice::compact_mesh(local, model.valve.triangles),
-                        Loop(model.valve.annulus, local), model.valve.contact_thickness);
+  const orifice::Sheet sheet = orifice::local_sheet(x, model.valve.triangles, model, x, frame);
   return {found.area, orifice::sample(sheet).point.size(), found.triangles.size()};
 }
 

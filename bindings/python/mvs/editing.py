@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from ._core import Snapshot
 from .arrays import Curve, Leaflet, Ring, Valve
 from .kinds import ChordLaw, LeafletLaw, PartKind, RingKind
-from .laws import ZERO, leaflet_law
+from .laws import ZERO, exact, leaflet_law
 
 
 _COPIED = {
@@ -66,8 +66,7 @@ def valve_of(snapshot: Snapshot) -> Valve:
 
 def _constants(law: int, values: NDArray[np.float64]) -> tuple[float, ...]:
     count = len(leaflet_law(law).constants)
-    known = [float(value) or ZERO for value in values[:count]]
-    return (*known, *map(float, values[count:]))
+    return (*map(exact, values[:count]), *map(float, values[count:]))
 
 
 def _rings(snapshot: Snapshot, parts: list) -> list[Ring]:

@@ -49,6 +49,11 @@ ZERO = -0.0
 """A constant that is zero: where constants are in order, 0.0 takes the default."""
 
 
+def exact(constant: float) -> float:
+    """A constant that no default replaces, also if it is zero."""
+    return float(constant) or ZERO
+
+
 def constants_of(law: int, given: Constants) -> tuple[float, ...]:
     """The constants of a leaflet law in its order; a key that is left out takes its default."""
     if not isinstance(given, Mapping):
@@ -69,5 +74,4 @@ def constants_of(law: int, given: Constants) -> tuple[float, ...]:
                 f'constants: {leaflet_law(law).name} has no "{key}", but {words}',
                 f"constants.{key}",
             )
-    # 0.0 would be the default
-    return tuple(float(given.get(key, each.default)) or ZERO for key, each in known.items())
+    return tuple(exact(given.get(key, each.default)) for key, each in known.items())

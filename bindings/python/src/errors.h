@@ -44,7 +44,7 @@ Value given_or_default(const std::optional<Value> &given, const char *name) {
   return given.value_or(Value{});
 }
 
-// A text in UTF-8: ArgumentError for what has none, as half of a surrogate pair.
+// A text in UTF-8: ArgumentError if UTF-8 cannot hold it, as half of a surrogate pair.
 std::string text_of(const py::handle &value, const std::string &part);
 
 // A text of an argument or a part as a C string, which ends at its first zero byte: ArgumentError

@@ -22,11 +22,8 @@ Orifice cut_orifice(const Model &model, const std::vector<Vec3> &x) {
 
 Orifice cut_orifice_of(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
                        const Model &model, const std::vector<Vec3> &x) {
-  const Valve &valve = model.valve;
   const Frame frame = valve_frame(model, x);
-  const orifice::Sheet sheet =
-      orifice::sheet_of(orifice::compact_mesh(frame.local(points), triangles),
-                        Loop(valve.annulus, frame.local(x)), valve.contact_thickness);
+  const orifice::Sheet sheet = orifice::local_sheet(points, triangles, model, x, frame);
   const orifice::Samples samples = orifice::sample(sheet);
   const TriangleBvh tree(sheet.mesh.triangles, sheet.mesh.x);
   const std::vector<Tri> cut = orifice::smallest_cut(sheet, tree, samples);

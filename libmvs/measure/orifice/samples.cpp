@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
 #include "geometry/distance.h"
 #include "measure/orifice/rim_parts.h"
@@ -103,8 +102,15 @@ std::vector<Tri> as_triangles(const std::vector<Side> &sides) {
   return triangles;
 }
 
-Sheet sheet_of(Mesh mesh, Loop annulus, double seal) {
-  Sheet sheet{std::move(mesh), {}, std::move(annulus), seal, 0, 0};
+Sheet local_sheet(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
+                  const Model &model, const std::vector<Vec3> &x, const Frame &frame) {
+  const Valve &valve = model.valve;
+  Sheet sheet{compact_mesh(frame.local(points), triangles),
+              {},
+              Loop(valve.annulus, frame.local(x)),
+              valve.contact_thickness,
+              0,
+              0};
   const std::vector<Side> sides = sorted_sides(sheet.mesh.triangles);
   for_each_edge(sides, [&](size_t first, size_t last) {
     if (last == first + 1) sheet.rim.push_back(sides[first]);

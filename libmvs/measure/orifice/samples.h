@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "measure/annulus/frame.h"
 #include "measure/annulus/landmarks.h"
 #include "measure/orifice/bisect.h"
 #include "model/sides.h"
@@ -22,8 +23,9 @@ struct Sheet {
 // Returns the edges of sides as degenerate triangles for a TriangleBvh.
 std::vector<Tri> as_triangles(const std::vector<Side> &sides);
 
-// `seal`: the contact thickness.
-Sheet sheet_of(Mesh mesh, Loop annulus, double seal);
+// Triangles over `points` within the annulus of a model in shape `x`, whose frame is given.
+Sheet local_sheet(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
+                  const Model &model, const std::vector<Vec3> &x, const Frame &frame);
 
 struct Samples {
   std::vector<Vec3> point;

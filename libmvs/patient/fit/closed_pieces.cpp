@@ -17,7 +17,9 @@ constexpr double weld_share = 1e-3;
 }  // namespace
 
 ClosedPieces closed_pieces(const std::vector<Vec3> &points, const std::vector<Tri> &triangles) {
-  const std::vector<uint32_t> first = weld_map(points, weld_share * median_edge(points, triangles));
+  ClosedPieces found;
+  found.vertex = weld_map(points, weld_share * median_edge(points, triangles));
+  const std::vector<uint32_t> &first = found.vertex;
   LeafletSheet sheet;
   sheet.x = points;
   std::vector<uint32_t> origin;  // of each triangle of the sheet
@@ -31,7 +33,6 @@ ClosedPieces closed_pieces(const std::vector<Vec3> &points, const std::vector<Tr
   const std::vector<Tri> as_given = sheet.triangles;
   const std::vector<uint32_t> across = join_sides(sheet.x, sheet.triangles).across;
   const std::vector<uint32_t> piece = pieces_of(across);
-  ClosedPieces found;
   found.of_triangle.assign(triangles.size(), none);
   found.turned.assign(triangles.size(), 0);
   const bool has_two_sides = wind_alike(sheet, across) != none;

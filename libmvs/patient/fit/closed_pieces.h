@@ -14,6 +14,7 @@ struct ClosedPieces {
   std::vector<uint32_t> of_triangle;  // pieces are numbered from 0
   std::vector<uint8_t> turned;        // triangles that are wound the other way than their piece
   uint32_t count = 0;
+  std::vector<uint32_t> vertex;  // of each point: the first of those that are one vertex with it
 };
 
 // Triangles are joined across sides whose points are equal, also if the points are repeated

@@ -11,13 +11,10 @@
 #include "measure/regions/orifice_parts.h"
 #include "model/sides.h"
 #include "patient/fit/closed_pieces.h"
-#include "patient/surface/weld.h"
 
 namespace mvs::core {
 namespace {
 
-// Points of a triangle soup that are equal but for rounding, as a share of the median side.
-constexpr double weld_share = 1e-3;
 // m, from the annulus: surfaces of images may end short of it, and leaflets do not part there.
 constexpr double annulus_band = 4e-3;
 // m, from the free edge of the valve at rest: 8 mm of leaflets that coapt normally overlap.
@@ -42,9 +39,8 @@ struct Tissue {
 
 // The leaflet of each triangle of the surface: that of its piece, or, where a piece has several
 // leaflets, that of the nearest tissue of the valve.
-std::vector<uint32_t> leaflets_of(const ClosedSurface &given, const Model &model,
-                                  const std::vector<Vec3> &x) {
-  const ClosedPieces pieces = closed_pieces(given.points, given.triangles);
+std::vector<uint32_t> leaflets_of(const ClosedSurface &given, const ClosedPieces &pieces,
+                                  const Model &model, const std::vector<Vec3> &x) {
   const size_t leaflets = model.valve.leaflets.size();
   const TriangleBvh valve(model.valve.triangles, x);
   std::vector<uint32_t> leaflet;
@@ -68,14 +64,13 @@ std::vector<uint32_t> leaflets_of(const ClosedSurface &given, const Model &model
 
 // Triangles with common corners where they meet, and none without area.
 Tissue tissue_of(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x) {
-  const std::vector<uint32_t> first =
-      weld_map(given.points, weld_share * median_edge(given.points, given.triangles));
-  const std::vector<uint32_t> leaflet = leaflets_of(given, model, x);
+  const ClosedPieces pieces = closed_pieces(given.points, given.triangles);
+  const std::vector<uint32_t> leaflet = leaflets_of(given, pieces, model, x);
   Tissue tissue;
   tissue.points = given.points;
   for (size_t k = 0; k < given.triangles.size(); ++k) {
     const Tri &t = given.triangles[k];
-    const Tri corners = {first[t[0]], first[t[1]], first[t[2]]};
+    const Tri corners = {pieces.vertex[t[0]], pieces.vertex[t[1]], pieces.vertex[t[2]]};
     if (!(triangle_area(given.points, corners) > 0)) continue;
     tissue.triangles.push_back(corners);
     tissue.leaflet.push_back(leaflet[k]);

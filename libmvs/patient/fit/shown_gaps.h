@@ -27,7 +27,7 @@ struct ShownGap {
 
 struct ShownGaps {
   std::string missing;         // a leaflet that the surface lacks: nothing is measured
-  std::vector<ShownGap> gaps;  // the widest part first; none is narrower than errors of edges are
+  std::vector<ShownGap> gaps;  // the largest first; none is narrower than errors of edges are
   double area = 0;             // m2, of all
   double most = 0;             // m2, the same with each gap wider by the error of its edges; 0: not
                                // more than errors of the surface show

@@ -18,7 +18,7 @@ from ..arrays import Leaflet, Valve
 from ..editing import valve_of
 from ..errors import ArgumentError
 from ..kinds import PartKind
-from ..laws import ZERO, leaflet_law
+from ..laws import exact, leaflet_law
 from ..sensitivity_rows import AXES, PARAMETER
 from ..words import did_you_mean, listed
 
@@ -91,7 +91,7 @@ class Free:
             keys = [constant.key for constant in leaflet_law(leaflet.law).constants]
             constants = [value.get(f"tissue {leaflet.name} {key}", old)
                          for key, old in zip(keys, leaflet.constants)]
-            made.append(dataclasses.replace(leaflet, constants=tuple(float(c) or ZERO for c in constants)))
+            made.append(dataclasses.replace(leaflet, constants=tuple(map(exact, constants))))
         return made
 
     def _set_thickness(self, made: Valve, value: Mapping[str, float]) -> None:
