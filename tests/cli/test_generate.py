@@ -56,6 +56,11 @@ class Generate(Command):
         self.assertIn("annulus_ap", self.fails("generate", "--shape", "founding", "-o", "x.obj", "--annulus-ap",
                                                500).stderr)
 
+    def test_a_dimension_that_is_no_number_above_zero_is_refused(self):
+        for given in ("0", "-3", "nan", "1e400", "wide"):
+            said = self.misused("generate", "-o", "x.obj", "--saddle-height", given)
+            self.assertIn(f"--saddle-height: a number above 0 is needed, not {given}\n", said)
+
     def test_an_unknown_chord_is_refused_by_name(self):
         self.assertIn("P9/1", self.fails("generate", "--shape", "founding", "-o", "x.obj", "--chord-factor",
                                          "P9/1=2").stderr)

@@ -225,8 +225,42 @@ def test_a_zero_that_would_be_the_default_is_refused(sim):
     for options in ({"max_iterations": 0}, {"residual": 0.0}, {"dt": 0.0}):
         with pytest.raises(mvs.ArgumentError, match="0 is given; None is the default"):
             sim.settle(**options)
-    with pytest.raises(mvs.ArgumentError, match="budget: 0 is given"):
-        sim.step(budget=0)
+    calls = {
+        "budget": lambda: sim.step(budget=0),
+        "damping": lambda: sim.step(solver="explicit", damping=0.0),
+        "saddle_height": lambda: sim.generate(saddle_height=0.0),
+        "stiffness": lambda: sim.add_tool("ball", (0.0, 0.0, 0.03), stiffness=0.0),
+        "flow": lambda: sim.snapshot().cost(flow=0.0),
+        "lengths": lambda: sim.find_leak_interval(lengths=0.0),
+        "perturbation": lambda: sim.snapshot().ensemble(mvs.SYSTOLE_PA, perturbation=0.0),
+        "contact_stiffness": lambda: with_field("contact_stiffness", 0.0),
+        "density": lambda: with_field("density", 0.0),
+    }
+
+    def with_field(name, value):
+        valve = mvs.valve_of(sim.snapshot())
+        setattr(valve, name, value)
+        sim.set_valve(valve)
+
+    for name, call in calls.items():
+        with pytest.raises(mvs.ArgumentError, match=f"^{name}: 0 is given; None is the default"):
+            call()
+    assert sim.snapshot().hash == before
+    sim.step(damping=0.0)  # the default of the implicit solver
+
+
+def test_a_field_of_a_valve_with_another_type_is_named(sim):
+    before = sim.snapshot().hash
+    for name, value, sentence in (
+        ("density", "heavy", "density: a number is needed, not str"),
+        ("head_names", [1, 2], "head_names: texts are needed, not list"),
+        ("leaflets", [mvs.Leaflet("anterior", thickness="thin")],
+         "leaflets: thickness: a number is needed, not str"),
+    ):
+        valve = mvs.valve_of(sim.snapshot())
+        setattr(valve, name, value)
+        with pytest.raises(mvs.ArgumentError, match=f"^{sentence}"):
+            sim.set_valve(valve)
     assert sim.snapshot().hash == before
 
 

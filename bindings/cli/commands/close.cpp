@@ -163,16 +163,16 @@ void add_close(CLI::App &app, Console &console) {
   command
       ->add_option("--residual", options->settle.residual,
                    "largest out-of-balance force of a node at rest, N [1e-5]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command
       ->add_option("--max-iterations", options->settle.max_iterations,
                    "iterations or time steps [newton 1000, implicit 20000, explicit 2000000]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command
       ->add_option("--dt", options->settle.dt,
                    "time step of the dynamic solvers, s [implicit 1e-3; explicit: stable on this "
                    "valve, at most 8e-6]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command->add_option("--reference", options->reference,
                       "report the distances of the closed valve from the shape in this file");
   add_unsettled_option(*command, options->allow_unsettled);

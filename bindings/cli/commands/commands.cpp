@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cli {
 
@@ -32,6 +33,16 @@ CLI::Validator one_of(const std::vector<std::string> &names) {
         return known ? std::string() : "'" + given + "' is unknown; choose from: " + list;
       },
       "{" + list + "}");
+}
+
+CLI::Validator positive() {
+  return CLI::Validator(
+      [](const std::string &given) {
+        double value = 0;
+        const bool good = CLI::detail::lexical_cast(given, value) && value > 0 && value < HUGE_VAL;
+        return good ? std::string() : "a number above 0 is needed, not " + given;
+      },
+      "POSITIVE");
 }
 
 }  // namespace cli

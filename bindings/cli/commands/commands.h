@@ -55,4 +55,7 @@ void add_workers_option(CLI::App &command, Console &console);
 // Accepts one of `names`; the error message lists them.
 CLI::Validator one_of(const std::vector<std::string> &names);
 
+// Accepts a finite number above 0.
+CLI::Validator positive();
+
 }  // namespace cli

@@ -104,9 +104,9 @@ void add_generate(CLI::App &app, Console &console) {
   command->add_option("-o,--output", options->out, "file to write, .obj, .h5, .vtp or .vtm")
       ->required();
   command->add_option("--vertices", options->valve.vertices, "leaflet vertices, about [425]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command->add_option("--chords", options->valve.chords, "chord segments, about [100; founding 80]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command->add_flag_callback(
       "--branching", [valve = &options->valve] { valve->branching = MVS_BRANCHING_TREES; },
       "chordae branch on their way to the leaflet: the default, but for the founding shape");
@@ -124,13 +124,13 @@ void add_generate(CLI::App &app, Console &console) {
     command
         ->add_option(d.option, options->valve.*d.value,
                      text("%s, mm %s", d.help, default_of(d).c_str()))
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
   }
   for (const Dimension &d : factors) {
     command
         ->add_option(d.option, options->valve.*d.value,
                      text("%s %s", d.help, default_of(d).c_str()))
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
   }
   command
       ->add_option("--chord-factor", options->chord_factors,

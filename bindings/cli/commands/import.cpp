@@ -100,17 +100,17 @@ void add_range_options(CLI::App &command, ImportOptions &options) {
           "--edge-error", options.edge_error,
           "how far the free edge may lie farther out or in, mm: widens the interval of leaks "
           "[0]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command
       .add_option("--edge-lost", options.edge_lost,
                   "tissue that may be missing at the free edge, mm: widens the interval of leaks "
                   "[half of the mean depth of its filled notches]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command
       .add_option("--thickness-error", options.thickness_error,
                   "by how much the leaflets may be thicker or thinner, mm: widens the interval of "
                   "leaks [0]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
 }
 
 }  // namespace
@@ -141,20 +141,20 @@ void add_import(CLI::App &app, Console &console) {
   auto *array = command->add_option("--thickness-array", options->thickness_array,
                                     "array of the surface: thickness per point, in its unit");
   command->add_option("--thickness", options->thickness, "of the leaflets, mm [0.8]")
-      ->check(CLI::PositiveNumber)
+      ->check(positive())
       ->excludes(array);
   command->add_option("--edge", options->edge, "sides of the new triangles, mm [1,000 vertices]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command
       ->add_option("--coaptation-length", options->coaptation_length,
                    "overlap in the middle for which rest lengths are chosen, mm [8]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command
       ->add_option("--chord-slack", options->build.chord_factor,
                    "factor on the rest length of every chord [1]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command->add_option("--chords", options->build.chords, "chord segments, about [100]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   add_range_options(*command, *options);
   add_law_option(*command, options->leaflet, "membrane; with --closed the nearest one");
   command->add_option("--with", options->with,

@@ -59,9 +59,9 @@ void add_remesh(CLI::App &app, Console &console) {
   how->add_option("--refine", options->refine, "split each triangle into four, this many times")
       ->check(CLI::Range(1, 8));
   how->add_option("--vertices", options->vertices, "coarsen to this many leaflet vertices")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   how->add_option("--edge", options->edge, "coarsen to edges of about this mean length, mm")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   how->require_option(1);
 }
 

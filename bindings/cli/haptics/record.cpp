@@ -5,6 +5,7 @@
 #include <cstring>
 #include <memory>
 
+#include "commands/commands.h"
 #include "haptics/device.h"
 #include "haptics/haptics.h"
 
@@ -128,7 +129,7 @@ void add_haptics_record(CLI::App &haptics, Console &console) {
   command
       ->add_option("--seconds", options->seconds,
                    "duration, at most 1000 s at 1 kHz [until Ctrl-C]")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
 }
 
 }  // namespace cli

@@ -79,7 +79,7 @@ std::unique_ptr<Device> open(const std::filesystem::path &driver,
   desc.driver = name.c_str();
   desc.device = device ? device->c_str() : nullptr;
   desc.options = lines.c_str();
-  desc.rate = rate.value_or(0);
+  desc.rate = given_or_default(rate, "rate");
   return std::make_unique<Device>(desc);
 }
 
@@ -102,21 +102,21 @@ void set_limits(Device &self, Number force, Number continuous_force, Number ther
                 Number stiffness, Number torque, Number continuous_torque, Number torque_slew,
                 Number angular_stiffness, Number angular_speed) {
   mvs_device_limits limits{};
-  limits.force = force.value_or(0);
-  limits.continuous_force = continuous_force.value_or(0);
-  limits.thermal_s = thermal_s.value_or(0);
-  limits.slew = slew.value_or(0);
-  limits.gate = gate.value_or(0);
-  limits.ramp_s = ramp_s.value_or(0);
-  limits.speed = speed.value_or(0);
-  limits.stale_s = stale_s.value_or(0);
-  limits.fade_s = fade_s.value_or(0);
-  limits.stiffness = stiffness.value_or(0);
-  limits.torque = torque.value_or(0);
-  limits.continuous_torque = continuous_torque.value_or(0);
-  limits.torque_slew = torque_slew.value_or(0);
-  limits.angular_stiffness = angular_stiffness.value_or(0);
-  limits.angular_speed = angular_speed.value_or(0);
+  limits.force = given_or_default(force, "force");
+  limits.continuous_force = given_or_default(continuous_force, "continuous_force");
+  limits.thermal_s = given_or_default(thermal_s, "thermal_s");
+  limits.slew = given_or_default(slew, "slew");
+  limits.gate = given_or_default(gate, "gate");
+  limits.ramp_s = given_or_default(ramp_s, "ramp_s");
+  limits.speed = given_or_default(speed, "speed");
+  limits.stale_s = given_or_default(stale_s, "stale_s");
+  limits.fade_s = given_or_default(fade_s, "fade_s");
+  limits.stiffness = given_or_default(stiffness, "stiffness");
+  limits.torque = given_or_default(torque, "torque");
+  limits.continuous_torque = given_or_default(continuous_torque, "continuous_torque");
+  limits.torque_slew = given_or_default(torque_slew, "torque_slew");
+  limits.angular_stiffness = given_or_default(angular_stiffness, "angular_stiffness");
+  limits.angular_speed = given_or_default(angular_speed, "angular_speed");
   put(self, limits, &mvs_device_set_limits);
 }
 
@@ -152,12 +152,12 @@ void set_hand(Device &self, const std::string &mode, std::optional<mvs_id> chord
   hand.mode = mode_of(mode);
   hand.chord = chord.value_or(0);
   hand.button = button;
-  hand.reach = reach.value_or(0);
-  hand.radius = radius.value_or(0);
-  hand.length = length.value_or(0);
-  hand.stiffness = stiffness.value_or(0);
-  hand.max_force = max_force.value_or(0);
-  hand.gain = gain.value_or(0);
+  hand.reach = given_or_default(reach, "reach");
+  hand.radius = given_or_default(radius, "radius");
+  hand.length = given_or_default(length, "length");
+  hand.stiffness = given_or_default(stiffness, "stiffness");
+  hand.max_force = given_or_default(max_force, "max_force");
+  hand.gain = given_or_default(gain, "gain");
   put(self, hand, &mvs_device_set_hand);
 }
 

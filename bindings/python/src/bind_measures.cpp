@@ -101,10 +101,10 @@ py::object cost(const Snapshot &self, std::optional<double> flow, const py::obje
                 std::optional<double> pressure, std::optional<double> density,
                 std::optional<double> discharge) {
   auto options = sized<mvs_cost_options>();
-  options.flow = flow.value_or(0);
-  options.pressure = pressure.value_or(0);
-  options.density = density.value_or(0);
-  options.discharge = discharge.value_or(0);
+  options.flow = given_or_default(flow, "flow");
+  options.pressure = given_or_default(pressure, "pressure");
+  options.density = given_or_default(density, "density");
+  options.discharge = given_or_default(discharge, "discharge");
   std::vector<py::array> kept;
   if (!septum.is_none()) {
     options.septum =

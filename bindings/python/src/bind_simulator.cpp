@@ -27,6 +27,11 @@ py::object stats_of(Simulator &self) {
                      filled<mvs_profile>(self, &mvs_get_profile));
 }
 
+// The implicit solver has no damping by default, so that 0 is only refused with the explicit one.
+double damping_of(Number given, mvs_solver solver) {
+  return solver == MVS_SOLVER_EXPLICIT ? given_or_default(given, "damping") : given.value_or(0);
+}
+
 mvs_settle_options settle_options(const std::string &solver, Count max_iterations, Number residual,
                                   Number dt, Number damping, bool margins) {
   auto options = sized<mvs_settle_options>();
@@ -35,7 +40,7 @@ mvs_settle_options settle_options(const std::string &solver, Count max_iteration
   options.max_iterations = given_or_default(max_iterations, "max_iterations");
   options.residual = given_or_default(residual, "residual");
   options.dt = given_or_default(dt, "dt");
-  options.damping = damping.value_or(0);
+  options.damping = damping_of(damping, options.solver);
   return options;
 }
 
@@ -65,7 +70,7 @@ py::object step(Simulator &self, uint64_t count, const std::string &solver, Numb
   auto options = sized<mvs_step_options>();
   options.solver = solver_of(solver);
   options.dt = given_or_default(dt, "dt");
-  options.damping = damping.value_or(0);
+  options.damping = damping_of(damping, options.solver);
   options.budget = given_or_default(budget, "budget");
   self.repeat(count, [&](mvs_sim *sim) { return mvs_step(sim, &options); });
   return stats_of(self);

@@ -32,11 +32,11 @@ mvs_id add_tool(Simulator &self, const std::string &kind, const Place &position,
   desc.kind = kind_of(kind);
   std::copy(position.begin(), position.end(), desc.position);
   if (axis) std::copy(axis->begin(), axis->end(), desc.axis);
-  desc.radius = radius.value_or(0);
-  desc.length = length.value_or(0);
-  desc.stiffness = stiffness.value_or(0);
-  desc.max_force = max_force.value_or(0);
-  desc.reach = reach.value_or(0);
+  desc.radius = given_or_default(radius, "radius");
+  desc.length = given_or_default(length, "length");
+  desc.stiffness = given_or_default(stiffness, "stiffness");
+  desc.max_force = given_or_default(max_force, "max_force");
+  desc.reach = given_or_default(reach, "reach");
   desc.by_node = node ? 1 : 0;
   desc.node = node.value_or(0);
   const Bodies bodies(given);

@@ -88,26 +88,27 @@ void bind_generate(py::class_<Simulator> &type) {
          Number annulus_scale, Number chord_slack, Number indentation_depth,
          Number coaptation_depth, const std::optional<std::string> &shape,
          const py::object &leaflet) {
-        const mvs_parametric_desc desc = {.struct_size = sizeof(mvs_parametric_desc),
-                                          .vertices = vertices.value_or(0),
-                                          .chords = chords.value_or(0),
-                                          .branching = branching_of(branching),
-                                          .annulus_ap = annulus_ap.value_or(0),
-                                          .annulus_cc = annulus_cc.value_or(0),
-                                          .saddle_height = saddle_height.value_or(0),
-                                          .anterior_height = anterior_height.value_or(0),
-                                          .posterior_height = posterior_height.value_or(0),
-                                          .commissure_height = commissure_height.value_or(0),
-                                          .thickness = thickness.value_or(0),
-                                          .papillary_depth = papillary_depth.value_or(0),
-                                          .papillary_separation = papillary_separation.value_or(0),
-                                          .annulus_contraction = annulus_contraction.value_or(0),
-                                          .annulus_scale = annulus_scale.value_or(0),
-                                          .chord_slack = chord_slack.value_or(0),
-                                          .indentation_depth = indentation_depth.value_or(0),
-                                          .coaptation_depth = coaptation_depth.value_or(0),
-                                          .shape = shape_of(shape),
-                                          .leaflet_law = law_of(leaflet)};
+        const mvs_parametric_desc desc = {
+            .struct_size = sizeof(mvs_parametric_desc),
+            .vertices = given_or_default(vertices, "vertices"),
+            .chords = given_or_default(chords, "chords"),
+            .branching = branching_of(branching),
+            .annulus_ap = given_or_default(annulus_ap, "annulus_ap"),
+            .annulus_cc = given_or_default(annulus_cc, "annulus_cc"),
+            .saddle_height = given_or_default(saddle_height, "saddle_height"),
+            .anterior_height = given_or_default(anterior_height, "anterior_height"),
+            .posterior_height = given_or_default(posterior_height, "posterior_height"),
+            .commissure_height = given_or_default(commissure_height, "commissure_height"),
+            .thickness = given_or_default(thickness, "thickness"),
+            .papillary_depth = given_or_default(papillary_depth, "papillary_depth"),
+            .papillary_separation = given_or_default(papillary_separation, "papillary_separation"),
+            .annulus_contraction = given_or_default(annulus_contraction, "annulus_contraction"),
+            .annulus_scale = given_or_default(annulus_scale, "annulus_scale"),
+            .chord_slack = given_or_default(chord_slack, "chord_slack"),
+            .indentation_depth = given_or_default(indentation_depth, "indentation_depth"),
+            .coaptation_depth = given_or_default(coaptation_depth, "coaptation_depth"),
+            .shape = shape_of(shape),
+            .leaflet_law = law_of(leaflet)};
         self.call([&](mvs_sim *sim) { return mvs_generate_valve(sim, &desc); });
       },
       py::kw_only(), "vertices"_a = py::none(), "chords"_a = py::none(), "branching"_a = py::none(),
@@ -153,8 +154,8 @@ void refine(Simulator &self, uint32_t times) {
 
 py::object coarsen(Simulator &self, Count vertices, Number edge) {
   auto options = sized<mvs_coarsen_options>();
-  options.vertices = vertices.value_or(0);
-  options.edge = edge.value_or(0);
+  options.vertices = given_or_default(vertices, "vertices");
+  options.edge = given_or_default(edge, "edge");
   return coarsening_value(filled<mvs_coarsening>(self, [&](mvs_sim *sim, mvs_coarsening *made) {
     return mvs_coarsen_valve(sim, &options, made);
   }));

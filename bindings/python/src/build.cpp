@@ -105,13 +105,13 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
       leaflet.is_none()
           ? 0
           : py::module_::import("mvs.laws").attr("leaflet_law_of")(leaflet).cast<uint32_t>();
-  options.edge = edge.value_or(0);
-  options.chord_factor = chord_factor.value_or(0);
-  options.coaptation_length = coaptation_length.value_or(0);
+  options.edge = given_or_default(edge, "edge");
+  options.chord_factor = given_or_default(chord_factor, "chord_factor");
+  options.coaptation_length = given_or_default(coaptation_length, "coaptation_length");
   options.edge_error = edge_error.value_or(0);
-  options.edge_lost = edge_lost.value_or(0);
-  options.thickness_error = thickness_error.value_or(0);
-  options.chords = chords.value_or(0);
+  options.edge_lost = given_or_default(edge_lost, "edge_lost");
+  options.thickness_error = given_or_default(thickness_error, "thickness_error");
+  options.chords = given_or_default(chords, "chords");
   options.without_leak = leak ? 0 : 1;
   mvs_build *build = nullptr;
   self.call_with(std::move(progress),
@@ -123,9 +123,9 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
 py::tuple find_leak_interval(Simulator &self, Number lengths, Number single, Number thickness,
                              py::object progress) {
   auto errors = sized<mvs_leak_errors>();
-  errors.lengths = lengths.value_or(0);
-  errors.single = single.value_or(0);
-  errors.thickness = thickness.value_or(0);
+  errors.lengths = given_or_default(lengths, "lengths");
+  errors.single = given_or_default(single, "single");
+  errors.thickness = given_or_default(thickness, "thickness");
   mvs_build *found = nullptr;
   self.call_with(std::move(progress),
                  [&](mvs_sim *sim) { return mvs_find_leak_interval(sim, &errors, &found); });

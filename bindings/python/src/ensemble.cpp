@@ -62,8 +62,8 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
   options.start = from_start ? MVS_ENSEMBLE_START_SNAPSHOT : MVS_ENSEMBLE_START_REST;
   options.seed = seed;
   if (perturbation == 0.0) options.flags |= MVS_ENSEMBLE_FLAG_UNPERTURBED;
-  options.perturbation = perturbation.value_or(0);
-  options.wavelength = wavelength.value_or(0);
+  options.perturbation = given_or_default(perturbation, "perturbation");
+  options.wavelength = given_or_default(wavelength, "wavelength");
   options.tolerance = given_or_default(same, "same");
   options.progress = &ProgressCall::callback;
   options.user = &call;

@@ -95,7 +95,7 @@ py::dict sensitivity(const Snapshot &self, const py::list &of, const py::list &t
   const std::vector<mvs_parameter> parameters = parameters_of(to, kept);
   auto options = sized<mvs_sensitivity_options>();
   options.flags = flags;
-  options.slack = slack.value_or(0);
+  options.slack = given_or_default(slack, "slack");
   mvs_sensitivity *made = nullptr;
   release_and([&] {
     return mvs_sensitivity_run(self.get(), quantities.data(),

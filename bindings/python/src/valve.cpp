@@ -7,6 +7,35 @@
 namespace mvs_python {
 namespace {
 
+template <typename T>
+constexpr const char *words_of = "a whole number from 0 on is";
+template <>
+constexpr const char *words_of<double> = "a number is";
+template <>
+constexpr const char *words_of<bool> = "True or False is";
+template <>
+constexpr const char *words_of<std::string> = "a text is";
+template <>
+constexpr const char *words_of<std::vector<double>> = "numbers are";
+template <>
+constexpr const char *words_of<std::vector<std::string>> = "texts are";
+template <>
+constexpr const char *words_of<std::vector<py::object>> = "a list is";
+
+// A field of the valve, or of a part in one of its lists: ArgumentError that names it if it has
+// another type.
+template <typename T>
+T field(const py::object &from, const char *name, const char *list = nullptr) {
+  const py::object value = from.attr(name);
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error &) {
+    refuse(MVS_E_ARGUMENT, list ? list : name,
+           std::string(list ? list : "") + (list ? ": " : "") + name + ": " + words_of<T> +
+               " needed, not " + std::string(py::str(py::type::of(value).attr("__name__"))));
+  }
+}
+
 // An optional array with `components` numbers per row of `of`; zeros if it is not given.
 template <typename T>
 std::vector<T> column(const py::object &valve, const char *name, uint32_t type, const char *of,
@@ -25,13 +54,13 @@ std::vector<T> column(const py::object &valve, const char *name, uint32_t type, 
 template <typename Desc, typename Read>
 void read_parts(const py::object &valve, const char *list, std::vector<std::string> &names,
                 std::vector<Desc> &descs, Read &&read) {
-  const auto given = valve.attr(list).cast<std::vector<py::object>>();
+  const auto given = field<std::vector<py::object>>(valve, list);
   names.reserve(given.size());
   for (const py::object &part : given) {
-    names.push_back(part.attr("name").cast<std::string>());
+    names.push_back(field<std::string>(part, "name", list));
     Desc desc{};
     desc.name = c_text(names.back(), list);
-    desc.id = part.attr("id").cast<mvs_id>();
+    desc.id = field<mvs_id>(part, "id", list);
     read(part, desc);
     descs.push_back(desc);
   }
@@ -41,20 +70,14 @@ void read_parts(const py::object &valve, const char *list, std::vector<std::stri
 
 ValveArguments::ValveArguments(const py::object &valve) : valve_(valve) {
   py::module_::import("mvs.arrays").attr("check_types")(valve);
-  try {
-    read();
-  } catch (const py::cast_error &) {
-    refuse(MVS_E_ARGUMENT, "valve",
-           "a number, flag or id of the valve, or of one of its leaflets, rings or curves, has "
-           "another type than help(mvs.Valve) says");
-  }
+  read();
 }
 
 void ValveArguments::read() {
   desc_.struct_size = sizeof desc_;
   name_ = text_of(py::str(valve_.attr("name")), "name");
   desc_.name = c_text(name_, "name");
-  if (valve_.attr("orient").cast<bool>()) desc_.flags |= MVS_VALVE_FLAG_ORIENT;
+  if (field<bool>(valve_, "orient")) desc_.flags |= MVS_VALVE_FLAG_ORIENT;
   read_arrays();
   read_leaflets();
   read_scallops();
@@ -92,17 +115,17 @@ void ValveArguments::read_arrays() {
 
 void ValveArguments::read_leaflets() {
   const py::module_ values = py::module_::import("mvs.arrays");
-  const auto given = valve_.attr("leaflets").cast<std::vector<py::object>>();
+  const auto given = field<std::vector<py::object>>(valve_, "leaflets");
   leaflet_names_.reserve(given.size());
   for (py::object leaflet : given) {
     if (py::isinstance<py::str>(leaflet)) leaflet = values.attr("Leaflet")(leaflet);
-    leaflet_names_.push_back(leaflet.attr("name").cast<std::string>());
+    leaflet_names_.push_back(field<std::string>(leaflet, "name", "leaflets"));
     mvs_leaflet_desc desc{};
     desc.name = c_text(leaflet_names_.back(), "leaflets");
-    desc.id = leaflet.attr("id").cast<mvs_id>();
-    desc.law = leaflet.attr("law").cast<uint32_t>();
-    desc.thickness = leaflet.attr("thickness").cast<double>();
-    const auto constants = leaflet.attr("constants").cast<std::vector<double>>();
+    desc.id = field<mvs_id>(leaflet, "id", "leaflets");
+    desc.law = field<uint32_t>(leaflet, "law", "leaflets");
+    desc.thickness = field<double>(leaflet, "thickness", "leaflets");
+    const auto constants = field<std::vector<double>>(leaflet, "constants", "leaflets");
     if (constants.size() > std::size(desc.constants)) {
       refuse(MVS_E_ARGUMENT, "leaflets", "leaflets: a law has at most 8 constants");
     }
@@ -116,7 +139,7 @@ void ValveArguments::read_leaflets() {
 
 void ValveArguments::read_scallops() {
   if (valve_.attr("scallops").is_none()) return;
-  scallop_names_ = valve_.attr("scallops").cast<std::vector<std::string>>();
+  scallop_names_ = field<std::vector<std::string>>(valve_, "scallops");
   for (const std::string &name : scallop_names_) scallops_.push_back(c_text(name, "scallops"));
   scallop_ids_ =
       column<mvs_id>(valve_, "scallop_id", MVS_TYPE_U64, "scallops", scallop_names_.size());
@@ -177,7 +200,7 @@ void ValveArguments::read_heads() {
 
 void ValveArguments::read_rings() {
   read_parts(valve_, "rings", ring_names_, rings_, [&](const py::object &ring, auto &desc) {
-    desc.kind = ring.attr("kind").template cast<uint32_t>();
+    desc.kind = field<uint32_t>(ring, "kind", "rings");
     const Wanted wanted{"rings", 3, {MVS_TYPE_F64, MVS_TYPE_F32}};
     desc.curve = described(array_argument(ring.attr("curve"), wanted), kept_);
   });
@@ -197,9 +220,9 @@ void ValveArguments::read_curves() {
 }
 
 void ValveArguments::read_numbers() {
-  desc_.density = number("density");
-  desc_.contact_thickness = number("contact_thickness");
-  desc_.contact_stiffness = number("contact_stiffness");
+  desc_.density = positive("density");
+  desc_.contact_thickness = positive("contact_thickness");
+  desc_.contact_stiffness = positive("contact_stiffness");
   desc_.bending_scale = number("bending_scale");
   // 0 means the default in the C struct and "no bending" in Python, where None is the default
   if (desc_.bending_scale == 0 && !valve_.attr("bending_scale").is_none()) {
@@ -208,14 +231,18 @@ void ValveArguments::read_numbers() {
 }
 
 double ValveArguments::number(const char *name) const {
-  const py::object value = valve_.attr(name);
-  return value.is_none() ? 0 : value.cast<double>();
+  return valve_.attr(name).is_none() ? 0 : field<double>(valve_, name);
+}
+
+double ValveArguments::positive(const char *name) const {
+  const bool given = !valve_.attr(name).is_none();
+  return given_or_default(given ? std::optional(number(name)) : std::nullopt, name);
 }
 
 std::vector<std::string> ValveArguments::names(const char *name, size_t count) const {
   const py::object value = valve_.attr(name);
   if (value.is_none()) return {};
-  auto given = value.cast<std::vector<std::string>>();
+  auto given = field<std::vector<std::string>>(valve_, name);
   if (given.size() != count) {
     refuse(MVS_E_ARGUMENT, name,
            std::string(name) + ": " + std::to_string(count) + " names are needed, not " +

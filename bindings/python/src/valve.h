@@ -27,7 +27,8 @@ class ValveArguments {
   void read_rings();
   void read_curves();
   void read_numbers();
-  double number(const char *name) const;
+  double number(const char *name) const;    // 0 for None
+  double positive(const char *name) const;  // the same; refuses a 0 that is given
   std::vector<std::string> names(const char *name, size_t count) const;
 
   py::object valve_;
