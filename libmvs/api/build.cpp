@@ -72,6 +72,8 @@ PatientSurface read_surface(const mvs_surface_desc *given) {
     surface.closed_triangles = triangles_of(desc.closed_triangles, surface.closed_points.size(),
                                             "surface.closed_triangles");
   }
+  surface.closed_annulus = read_points(desc.closed_annulus, "surface.closed_annulus");
+  surface.closed_tips = read_points(desc.closed_tips, "surface.closed_tips");
   return surface;
 }
 

@@ -23,6 +23,12 @@ void find_leaflets_of(const PatientSurface &surface, const MidSheet &mid, Findin
   doubt_tall_leaflets(mid.rims, coordinates, arcs, findings);
 }
 
+std::vector<Vec3> points_along(const std::vector<uint32_t> &rim, const std::vector<Vec3> &x) {
+  std::vector<Vec3> points;
+  for (const uint32_t i : rim) points.push_back(x[i]);
+  return points;
+}
+
 }  // namespace
 
 void tell_progress(const Progress &progress, double share) {
@@ -41,8 +47,10 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   begin_stage(settings, "remesh");
   PatientGeometry g = patient_geometry(
       mid, settings.edge > 0 ? settings.edge : edge_for(mid.sheet, default_vertices), findings);
-  const PapillaryTips tips = find_papillary_tips(surface.tips, g, findings);
   const ClosedSurface closed{surface.closed_points, surface.closed_triangles};
+  const Boundary boundary{find_annulus_motion(points_along(g.rims.annulus, g.sheet.x),
+                                              surface.closed_annulus, closed, findings),
+                          find_papillary_tips(surface.tips, g, findings, surface.closed_tips)};
   LeakUnknowns unknowns;
   unknowns.thickness_error = settings.thickness_error;
   Valve valve;
@@ -51,12 +59,12 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   if (closed.points.empty()) {
     if (settings.law) findings.push_back(given_tissue(*settings.law));
     begin_stage(settings, "chordae");
-    valve = patient_valve(settings, settings.law.value_or(fitted_laws[0]), g, tips, findings);
+    valve = patient_valve(settings, settings.law.value_or(fitted_laws[0]), g, boundary, findings);
     unknowns.edge = find_edge_range(settings.edge_error, settings.edge_lost, g, findings);
     tell_progress(progress, done);
   } else {
     FittedValve fitted =
-        fitted_valve({mid, tips, closed}, settings, g, findings,
+        fitted_valve({mid, boundary, closed}, settings, g, findings,
                      [&](double share) { tell_progress(progress, 0.1 + 0.7 * share); });
     valve = std::move(fitted.valve);
     g = std::move(fitted.g);

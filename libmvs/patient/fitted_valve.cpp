@@ -31,7 +31,7 @@ std::vector<LawFit> fits_of_laws(const std::vector<LeafletLawId> &laws, const Pa
   valves.reserve(laws.size());
   for (const LeafletLawId law : laws) {
     Findings of_law = of_coarse;
-    valves.push_back(patient_valve(settings, law, g, patient.tips, of_law));
+    valves.push_back(patient_valve(settings, law, g, patient.boundary, of_law));
   }
   return fit_laws(std::move(valves), g, patient.closed, edge_is_exact, tell);
 }
@@ -58,7 +58,7 @@ FittedValve fit_valve(const Patient &patient, const BuildSettings &settings, con
                       const PatientGeometry &g, const Findings &findings,
                       const std::function<void(double)> &tell) {
   FittedValve made{coarse.law, g, {}, findings, {}, {}};
-  made.valve = patient_valve(settings, coarse.law, g, patient.tips, made.findings);
+  made.valve = patient_valve(settings, coarse.law, g, patient.boundary, made.findings);
   FitSettings s;
   s.known = coarse.factor;
   const auto tell_search = [&](uint32_t search) {

@@ -9,7 +9,7 @@ namespace mvs::core {
 // A patient's leaflets on their mid-surface, with the landmarks that the meshes of all sizes share.
 struct Patient {
   const MidSheet &mid;
-  const PapillaryTips &tips;
+  const Boundary &boundary;
   const ClosedSurface &closed;
 };
 

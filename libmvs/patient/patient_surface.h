@@ -23,6 +23,7 @@ struct PatientSurface {
   std::vector<Vec3> annulus, commissures, anterior, tips;
   std::vector<Vec3> closed_points;
   std::vector<Tri> closed_triangles;
+  std::vector<Vec3> closed_annulus, closed_tips;
 };
 
 struct BuildSettings {

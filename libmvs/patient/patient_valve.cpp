@@ -125,10 +125,16 @@ PatientGeometry patient_geometry(const MidSheet &mid, double edge, Findings &fin
 }
 
 Valve patient_valve(const BuildSettings &settings, LeafletLawId law, const PatientGeometry &g,
-                    const PapillaryTips &tips, Findings &findings) {
+                    const Boundary &boundary, Findings &findings) {
   Valve valve = tissue_of(g, settings, law, findings);
-  add_chordae(valve, g, tips, {settings.chords, settings.chord_factor, settings.coaptation_length},
-              findings);
+  if (boundary.moves()) {
+    valve.loaded = valve.rest;
+    for (const uint32_t i : g.rims.annulus) {
+      if (boundary.annulus.moves()) valve.loaded.edit()[i] = boundary.annulus(g.sheet.x[i]);
+    }
+  }
+  add_chordae(valve, g, boundary.tips,
+              {settings.chords, settings.chord_factor, settings.coaptation_length}, findings);
   return valve;
 }
 

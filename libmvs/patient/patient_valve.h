@@ -2,6 +2,7 @@
 #pragma once
 
 #include "model/model.h"
+#include "patient/annulus_motion.h"
 #include "patient/chordae/papillary_tips.h"
 #include "patient/mid_sheet.h"
 #include "patient/patient_geometry.h"
@@ -15,8 +16,16 @@ double edge_for(const LeafletSheet &sheet, double vertices);
 // findings.
 PatientGeometry patient_geometry(const MidSheet &mid, double edge, Findings &findings);
 
+// What holds the leaflets, at rest and under load.
+struct Boundary {
+  AnnulusMotion annulus;
+  PapillaryTips tips;
+
+  bool moves() const { return annulus.moves() || !tips.loaded_anterolateral.empty(); }
+};
+
 // Leaflets of one law with their thickness, and chordae to the tips.
 Valve patient_valve(const BuildSettings &settings, LeafletLawId law, const PatientGeometry &g,
-                    const PapillaryTips &tips, Findings &findings);
+                    const Boundary &boundary, Findings &findings);
 
 }  // namespace mvs::core

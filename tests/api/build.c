@@ -228,6 +228,13 @@ static void bad_input_is_refused_and_changes_nothing(surface *s) {
   desc.points.count = 3 * (desc.points.count / 3) - 1;
   MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &build), MVS_E_ARGUMENT, "multiple of 3");
   desc = desc_of(s);
+  const double few[] = {0, 0, 0, 0.01, 0, 0};
+  desc.closed_annulus = (mvs_array){few, 2, 3, MVS_TYPE_F64, 0};
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "closed_annulus");
+  desc = desc_of(s);
+  desc.closed_tips = (mvs_array){few, 1, 3, MVS_TYPE_F64, 0};
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "closed_tips");
+  desc = desc_of(s);
   options.edge = 1;
   MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.edge");
   options.edge = 0;

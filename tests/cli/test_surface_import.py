@@ -150,6 +150,29 @@ class SurfaceImport(unittest.TestCase):
                               self.dir / "found.import.json", edge=3.2)
         self.assertEqual(again["hash"], found["hash"])
 
+    def test_the_loaded_annulus_and_tips_are_inputs(self):
+        found = {f["name"]: f for f in self.imported("open.stl", "still.h5")["findings"]}
+        self.assertNotIn("closed_annulus", found)
+        tips = found["papillary_tips"]["values"]
+        tips = [tips[k:k + 3] for k in range(0, len(tips), 3)]
+        around = found["annulus"]["values"]
+        wider = [[1.1 * x for x in around[k:k + 3]] for k in range(0, len(around), 3)]
+        write_markups(self.dir / "tips.mrk.json", tips, "LPS")
+        write_markups(self.dir / "tips2.mrk.json", [[x, y, z + 2e-3] for x, y, z in tips], "LPS")
+        write_markups(self.dir / "annulus2.mrk.json", wider, "LPS")
+        moved = self.imported("open.stl", "moved.h5", "--tips", self.dir / "tips.mrk.json", "--frame", "LPS",
+                              "--closed-annulus", self.dir / "annulus2.mrk.json",
+                              "--closed-tips", self.dir / "tips2.mrk.json")
+        rows = {f["name"]: f for f in moved["findings"]}
+        self.assertEqual(rows["closed_annulus"]["source"], "given")
+        self.assertIn("move by 2.0 to 2.0 mm under load", rows["closed_tips"]["sentence"])
+        self.ok("close", self.dir / "moved.h5", "-o", self.dir / "moved_closed.h5", "--residual", "1e-2")
+        before, after = (json.loads(self.ok("info", self.dir / name, "--json").stdout)["annulus_cc_mm"]
+                         for name in ("moved.h5", "moved_closed.h5"))
+        self.assertAlmostEqual(after / before, 1.1, delta=0.02)  # points slide along the curve
+        self.fails(1, "give the same tips in the same order", "import", self.dir / "open.stl", "-o",
+                   self.dir / "x.h5", "--closed-tips", self.dir / "tips2.mrk.json", "--frame", "LPS")
+
     def test_an_anterior_point_on_the_posterior_leaflet_is_warned_of(self):
         found = {f["name"]: f for f in self.imported("open.stl", "as_is.h5")["findings"]}
         anterior = found["anterior"]["values"]

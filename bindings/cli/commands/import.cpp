@@ -92,6 +92,10 @@ void add_landmark_options(CLI::App &command, ImportOptions &options) {
   landmark("--commissures", options.commissures, "the two commissures");
   landmark("--anterior", options.anterior, "one point of the anterior leaflet");
   landmark("--tips", options.tips, "tips of the papillary muscles");
+  landmark("--closed-annulus", options.closed_annulus,
+           "points or a curve along the annulus under load [near rims of --closed]");
+  landmark("--closed-tips", options.closed_tips,
+           "the tips of --tips in the same order, under load [the same]");
 }
 
 void add_range_options(CLI::App &command, ImportOptions &options) {

@@ -1,5 +1,6 @@
 #include "import/findings_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -54,6 +55,8 @@ std::vector<double> *target_of(KnownValues &known, const std::string &name) {
   if (name == "commissures") return &known.commissures;
   if (name == "anterior") return &known.anterior;
   if (name == "papillary_tips") return &known.papillary_tips;
+  if (name == "closed_annulus") return &known.closed_annulus;
+  if (name == "closed_tips") return &known.closed_tips;
   if (name == "thickness") return &known.thickness;
   if (name == "edge_error") return &known.edge_error;
   if (name == "edge_lost") return &known.edge_lost;
@@ -118,8 +121,9 @@ KnownValues read_findings(const std::string &path) {
     const std::string source = row.value("source", "");
     if (!target || source == "measured") continue;
     *target = numbers_of(path, name, row);
-    const bool is_number = target != &known.annulus && target != &known.commissures &&
-                           target != &known.anterior && target != &known.papillary_tips;
+    const auto points = {&known.annulus,        &known.commissures,    &known.anterior,
+                         &known.papillary_tips, &known.closed_annulus, &known.closed_tips};
+    const bool is_number = std::find(points.begin(), points.end(), target) == points.end();
     if (target->empty() || target->size() % (is_number ? 1 : 3) != 0 ||
         (is_number && target->size() != 1)) {
       refuse_findings(path, name,

@@ -21,6 +21,7 @@ void write_findings(const std::string &path, const std::string &surface,
 // Values for a build. Empty: not known.
 struct KnownValues {
   std::vector<double> annulus, commissures, anterior, papillary_tips;  // points, x, y, z in turn, m
+  std::vector<double> closed_annulus, closed_tips;                     // the same
   std::vector<double> thickness, edge_error, edge_lost, thickness_error;  // one each, m
   std::vector<double> tissue;                                             // one, MVS_LEAFLET_LAW_*
 };

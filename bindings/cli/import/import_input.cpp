@@ -60,10 +60,11 @@ mvs_array points_of(const std::vector<double> &values) {
 
 ImportInput read_input(const ImportOptions &options, ImportOptions &with_known) {
   const KnownValues known = options.with.empty() ? KnownValues{} : read_findings(options.with);
-  ImportInput input{PatientFiles(options.files, options.surface), {}, {}, {}, {}, {}, {}, {}, {}};
+  ImportInput input{
+      PatientFiles(options.files, options.surface), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   PatientFiles &files = input.files;
-  for (const std::string *path :
-       {&options.annulus, &options.commissures, &options.anterior, &options.tips}) {
+  for (const std::string *path : {&options.annulus, &options.commissures, &options.anterior,
+                                  &options.tips, &options.closed_annulus, &options.closed_tips}) {
     files.add_landmarks(*path);
   }
   files.add_surface(options.closed);
@@ -77,6 +78,8 @@ ImportInput read_input(const ImportOptions &options, ImportOptions &with_known) 
   input.anterior = landmarks(options.anterior, known.anterior);
   input.tips = landmarks(options.tips, known.papillary_tips);
   input.closed = files.points(options.closed);
+  input.closed_annulus = landmarks(options.closed_annulus, known.closed_annulus);
+  input.closed_tips = landmarks(options.closed_tips, known.closed_tips);
   const mvs::SurfaceFile &surface = files.file(options.surface);
   if (!options.label_array.empty()) input.labels = labels_of(surface, options.label_array);
   if (!options.thickness_array.empty()) {
@@ -119,6 +122,8 @@ mvs_surface_desc desc_of(const ImportInput &input, const ImportOptions &options,
   desc.commissures = points_of(input.commissures);
   desc.anterior = points_of(input.anterior);
   desc.papillary_tips = points_of(input.tips);
+  desc.closed_annulus = points_of(input.closed_annulus);
+  desc.closed_tips = points_of(input.closed_tips);
   if (!options.closed.empty()) {
     desc.closed_points = points_of(input.closed);
     desc.closed_triangles = array_of(input.files.file(options.closed).info().triangles);

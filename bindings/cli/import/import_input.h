@@ -11,7 +11,7 @@ namespace cli {
 
 struct ImportOptions {
   std::string surface, out, findings_out, with;
-  std::string annulus, commissures, anterior, tips, closed;
+  std::string annulus, commissures, anterior, tips, closed, closed_annulus, closed_tips;
   std::string kind, leaflet, label_array, thickness_array;
   FileOptions files;
   double edge = 0, thickness = 0, coaptation_length = 0;      // mm
@@ -23,6 +23,7 @@ struct ImportOptions {
 struct ImportInput {
   PatientFiles files;
   std::vector<double> points, annulus, commissures, anterior, tips, thickness, closed;
+  std::vector<double> closed_annulus, closed_tips;
   std::vector<uint32_t> labels;
 };
 

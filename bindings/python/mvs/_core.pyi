@@ -351,6 +351,8 @@ class Simulator:
         papillary_tips: Optional[NDArray[Any]] = None,
         closed_points: Optional[NDArray[Any]] = None,
         closed_triangles: Optional[_U32] = None,
+        closed_annulus: Optional[NDArray[Any]] = None,
+        closed_tips: Optional[NDArray[Any]] = None,
         leaflet: Union[None, LeafletLaw, Literal[
             "spring", "bilinear", "fung", "may_newman_yin", "prot", "neo_hookean"
         ]] = None,

@@ -77,6 +77,7 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
                       const py::object &annulus, const py::object &commissures,
                       const py::object &anterior, const py::object &papillary_tips,
                       const py::object &closed_points, const py::object &closed_triangles,
+                      const py::object &closed_annulus, const py::object &closed_tips,
                       const py::object &leaflet, Number edge, Number chord_factor,
                       Number coaptation_length, Number edge_error, Number edge_lost,
                       Number thickness_error, Count chords, bool leak, py::object progress) {
@@ -94,6 +95,8 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
   surface.papillary_tips = arrays.points(papillary_tips, "papillary_tips");
   surface.closed_points = arrays.points(closed_points, "closed_points");
   surface.closed_triangles = arrays.triangles(closed_triangles, "closed_triangles");
+  surface.closed_annulus = arrays.points(closed_annulus, "closed_annulus");
+  surface.closed_tips = arrays.points(closed_tips, "closed_tips");
   auto options = sized<mvs_build_options>();
   if (py::isinstance<py::float_>(thickness)) {
     options.thickness = thickness.cast<double>();
@@ -141,7 +144,8 @@ void bind_build(py::class_<Simulator> &type) {
       "kind"_a = py::none(), "name"_a = "valve", "triangle_leaflet"_a = py::none(),
       "thickness"_a = py::none(), "annulus"_a = py::none(), "commissures"_a = py::none(),
       "anterior"_a = py::none(), "papillary_tips"_a = py::none(), "closed_points"_a = py::none(),
-      "closed_triangles"_a = py::none(), "leaflet"_a = py::none(), "edge"_a = py::none(),
+      "closed_triangles"_a = py::none(), "closed_annulus"_a = py::none(),
+      "closed_tips"_a = py::none(), "leaflet"_a = py::none(), "edge"_a = py::none(),
       "chord_factor"_a = py::none(), "coaptation_length"_a = py::none(),
       "edge_error"_a = py::none(), "edge_lost"_a = py::none(), "thickness_error"_a = py::none(),
       "chords"_a = py::none(), "leak"_a = true, "progress"_a = py::none(),
@@ -153,7 +157,11 @@ void bind_build(py::class_<Simulator> &type) {
       "posterior\nthickness: m, a number or (n,); None: 0.8 mm\nannulus: (k, 3), in any "
       "order\ncommissures: (2, 3)\nanterior: (1, 3), a point of the anterior "
       "leaflet\npapillary_tips: (k, 3)\nclosed_points, closed_triangles: the same leaflets "
-      "closed; chords get lengths with which the valve closes to them\nleaflet: law of the "
+      "closed; chords get lengths with which the valve closes to them\nclosed_annulus: (k, 3), "
+      "along the "
+      "loaded annulus in any order; None: an affine motion onto rims of the closed "
+      "surface\nclosed_tips: "
+      "(k, 3), papillary_tips under load, in their order; None: they stay\nleaflet: law of the "
       "leaflets; None: \"bilinear\", with a closed surface the law that closes nearest to it "
       "(finding \"tissue\")\nedge: m, of the triangles; None: as for 1,000 "
       "vertices\nchord_factor: on all rest lengths [1]\ncoaptation_length: m, overlap in the "

@@ -14,6 +14,8 @@ namespace {
 constexpr size_t most_tips = 64;
 // m: normal tips are 23.5 +- 4 mm below the annulus, and less than 40 mm in dilated ventricles.
 constexpr double farthest_tip = 80e-3;
+// m: tips move by a few millimetres in a beat.
+constexpr double farthest_motion = 15e-3;
 // m below the mean plane of the annulus: the annulus itself is up to 7 mm off that plane.
 constexpr double least_tip_depth = 5e-3;
 
@@ -41,7 +43,9 @@ PapillaryTips assumed_tips(const PatientGeometry &g, const AnnulusFrame &frame) 
   const double half = 0.5 * assumed_separation * frame.width;
   const double y = -assumed_posterior * frame.diameter;
   return {{frame.global({frame.middle - half, y, -depth})},
-          {frame.global({frame.middle + half, y, -depth})}};
+          {frame.global({frame.middle + half, y, -depth})},
+          {},
+          {}};
 }
 
 void check_tip(const Vec3 &tip, size_t number, const AnnulusFrame &frame) {
@@ -59,13 +63,51 @@ void check_tip(const Vec3 &tip, size_t number, const AnnulusFrame &frame) {
       number, std::abs(local[2]) * 1e3, local[2] > 0 ? "above" : "below", least_tip_depth * 1e3);
 }
 
+// Loaded tips are the same ones, at most a few millimetres away.
+void check_loaded(const std::vector<Vec3> &given, const std::vector<Vec3> &loaded) {
+  MVS_MUST(
+      loaded.empty() || loaded.size() == given.size(), MVS_E_ARGUMENT, "closed_tips",
+      "%zu papillary tips under load are given and %zu at rest: give the same tips in the same "
+      "order, or leave closed_tips out",
+      loaded.size(), given.size());
+  for (size_t k = 0; k < loaded.size(); ++k) {
+    const double by = (loaded[k] - given[k]).norm();
+    MVS_MUST(
+        by <= farthest_motion, MVS_E_OP, "closed_tips",
+        "papillary tip %zu would move by %.1f mm under load, at most %.0f mm are accepted: are "
+        "both in one frame (LPS or RAS), and in the same order?",
+        k + 1, by * 1e3, farthest_motion * 1e3);
+  }
+}
+
+void report_motion(const std::vector<Vec3> &given, const std::vector<Vec3> &loaded,
+                   Findings &findings) {
+  double least = HUGE_VAL, most = 0;
+  for (size_t k = 0; k < given.size(); ++k) {
+    const double by = (loaded[k] - given[k]).norm();
+    least = std::min(least, by);
+    most = std::max(most, by);
+  }
+  findings.push_back(
+      {"closed_tips",
+       FindingSource::given,
+       1,
+       format("the tips of the papillary muscles move by %.1f to %.1f mm under load, "
+              "as given",
+              least * 1e3, most * 1e3),
+       {},
+       ""});
+  set_points(loaded, findings.back());
+}
+
 }  // namespace
 
 PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientGeometry &g,
-                                  Findings &findings) {
+                                  Findings &findings, const std::vector<Vec3> &loaded) {
   const AnnulusFrame frame = annulus_frame(g, AnnulusCurve(g, g.sheet.x));
   MVS_MUST(given.size() <= most_tips, MVS_E_ARGUMENT, "papillary_tips",
            "%zu papillary tips are given, at most %zu are accepted", given.size(), most_tips);
+  check_loaded(given, loaded);
   if (given.empty()) {
     PapillaryTips tips = assumed_tips(g, frame);
     const double depth = -frame.local(tips.anterolateral[0])[2];
@@ -89,6 +131,8 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
     forward += frame.local(given[k])[1] / static_cast<double>(given.size());
     const bool medial = frame.local(given[k])[0] > frame.middle;
     (medial ? tips.posteromedial : tips.anterolateral).push_back(given[k]);
+    if (loaded.empty()) continue;
+    (medial ? tips.loaded_posteromedial : tips.loaded_anterolateral).push_back(loaded[k]);
   }
   MVS_MUST(
       !tips.anterolateral.empty() && !tips.posteromedial.empty(), MVS_E_OP, "papillary_tips",
@@ -109,6 +153,7 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
        {},
        ""});
   put_tips(tips, findings.back());
+  if (!loaded.empty()) report_motion(given, loaded, findings);
   return tips;
 }
 

@@ -30,16 +30,18 @@ uint32_t add_node(Valve &valve, const Vec3 &p) {
 
 // One muscle: its heads in the valve, and closed places of leaflet vertices.
 struct Muscle {
-  const std::vector<Vec3> &tips;
+  const std::vector<Vec3> &tips, &loaded_tips;
   uint32_t first_head;
   const std::vector<Vec3> &closed;
   double length_factor;
 };
 
-uint32_t add_heads(Valve &valve, const std::vector<Vec3> &tips, const char *name) {
+uint32_t add_heads(Valve &valve, const std::vector<Vec3> &tips, const std::vector<Vec3> &loaded,
+                   const char *name) {
   const uint32_t first = static_cast<uint32_t>(valve.rest.size());
   for (size_t k = 0; k < tips.size(); ++k) {
     valve.heads.push_back({0, format("%s%zu", name, k + 1), add_node(valve, tips[k])});
+    if (!valve.loaded.empty()) valve.loaded.edit()[valve.heads.get().back().node] = loaded[k];
   }
   return first;
 }
@@ -75,14 +77,14 @@ void add_tree(Valve &valve, const Muscle &muscle, const ChordTree &tree) {
     open += valve.rest.get()[leaf] / count;
     closed += muscle.closed[leaf] / count;
   }
-  const size_t at = nearest_tip(muscle.tips, closed);
-  const Vec3 &tip = muscle.tips[at];
+  const size_t at = nearest_tip(muscle.loaded_tips, closed);
+  const Vec3 &tip = muscle.tips[at], &loaded_tip = muscle.loaded_tips[at];
   uint32_t from = muscle.first_head + static_cast<uint32_t>(at);
-  Vec3 from_closed = tip;
+  Vec3 from_closed = loaded_tip;
   if (tree.leaves.size() > 1) {
     const uint32_t branch = add_node(valve, tip + trunk_share * (open - tip));
-    from_closed = tip + trunk_share * (closed - tip);
-    add_segment(valve, muscle, from, branch, ChordKind::trunk, (from_closed - tip).norm(),
+    from_closed = loaded_tip + trunk_share * (closed - loaded_tip);
+    add_segment(valve, muscle, from, branch, ChordKind::trunk, (from_closed - loaded_tip).norm(),
                 tree.leaves.size());
     from = branch;
   }
@@ -113,13 +115,20 @@ void add_chordae(Valve &valve, const PatientGeometry &g, const PapillaryTips &ti
   const AnnulusCurve boundary(g, valve.loaded.empty() ? valve.rest : valve.loaded);
   const ClosedTarget target = closed_target(g, boundary, settings.coaptation_length);
   const double factor = settings.chord_factor / (1 + systolic_strain);
-  const uint32_t lateral = add_heads(valve, tips.anterolateral, "AL");
-  const uint32_t medial = add_heads(valve, tips.posteromedial, "PM");
+  const std::vector<Vec3> &lateral_tips = tips.anterolateral, &medial_tips = tips.posteromedial;
+  const auto loaded = [](const std::vector<Vec3> &under_load,
+                         const std::vector<Vec3> &at_rest) -> const std::vector<Vec3> & {
+    return under_load.empty() ? at_rest : under_load;
+  };
+  const std::vector<Vec3> &lateral_loaded = loaded(tips.loaded_anterolateral, lateral_tips);
+  const std::vector<Vec3> &medial_loaded = loaded(tips.loaded_posteromedial, medial_tips);
+  const uint32_t lateral = add_heads(valve, lateral_tips, lateral_loaded, "AL");
+  const uint32_t medial = add_heads(valve, medial_tips, medial_loaded, "PM");
   for (const ChordTree &tree : plan.anterolateral) {
-    add_tree(valve, {tips.anterolateral, lateral, target.x, factor}, tree);
+    add_tree(valve, {lateral_tips, lateral_loaded, lateral, target.x, factor}, tree);
   }
   for (const ChordTree &tree : plan.posteromedial) {
-    add_tree(valve, {tips.posteromedial, medial, target.x, factor}, tree);
+    add_tree(valve, {medial_tips, medial_loaded, medial, target.x, factor}, tree);
   }
   findings.push_back(
       {"chordae",

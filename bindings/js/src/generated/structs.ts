@@ -1294,6 +1294,13 @@ export interface SurfaceDesc {
   closed_points?: ArrayInput;
   /** U32 [as triangles] */
   closed_triangles?: ArrayInput;
+  /**
+   * k x 3, k >= 6, points along the loaded annulus in any order [measured: an affine motion of the
+   * annulus onto rims of the closed surface; without one, or without rims there, it stays]
+   */
+  closed_annulus?: ArrayInput;
+  /** k x 3, each of papillary_tips in their order, under load [they stay] */
+  closed_tips?: ArrayInput;
 }
 
 /** How to build. */
@@ -2224,7 +2231,7 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_surface_desc: {
-    size: 336,
+    size: 400,
     sized: true,
     fields: [
       { name: "kind", kind: "enum", of: "mvs_surface_kind", at: 4 },
@@ -2239,6 +2246,8 @@ export const layouts: Record<string, Layout> = {
       { name: "papillary_tips", kind: "array", at: 240, components: 3, element: "F64" },
       { name: "closed_points", kind: "array", at: 272, components: 3, element: "F64" },
       { name: "closed_triangles", kind: "array", at: 304, components: 3, element: "U32" },
+      { name: "closed_annulus", kind: "array", at: 336, components: 3, element: "F64" },
+      { name: "closed_tips", kind: "array", at: 368, components: 3, element: "F64" },
     ],
   },
   mvs_build_options: {

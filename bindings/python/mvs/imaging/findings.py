@@ -11,7 +11,8 @@ import numpy as np
 
 import mvs
 
-POINTS = ("annulus", "commissures", "anterior", "papillary_tips")
+CLOSED = ("closed_annulus", "closed_tips")
+POINTS = ("annulus", "commissures", "anterior", "papillary_tips", *CLOSED)
 LENGTHS = ("thickness", "edge_error", "edge_lost", "thickness_error")
 LAW = "tissue"
 """Findings that are an input of a build; lengths are one number each, m, the law is that of `mvs.LeafletLaw`."""

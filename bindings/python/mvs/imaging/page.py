@@ -127,7 +127,8 @@ def _loaded(made: ImageValve) -> str:
     if made.loaded is None:
         return "<p>No loaded image was given: chordae have the lengths of the open image or of normal "\
                "anatomy, and nothing here says how well the valve closes.</p>"
-    names = ("registration", "closed_surface", "closed_fit", "closed_distance", "shown_gaps", "loaded_chordae")
+    names = ("registration", "closed_surface", "closed_annulus", "closed_tips", "annulus_motion", "head_motion",
+             "closed_fit", "closed_distance", "shown_gaps", "loaded_chordae")
     sentences = [one.sentence for one in made.findings if one.name in names]
     return (f"<ul>{''.join(f'<li>{html.escape(one)}</li>' for one in sentences)}</ul>"
             '<div class="row">'

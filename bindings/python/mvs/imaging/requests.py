@@ -9,7 +9,7 @@ import numpy as np
 
 import mvs
 from .console import Console
-from .findings import LAW, LENGTHS, finding, read_known
+from .findings import CLOSED, LAW, LENGTHS, finding, read_known
 from .grid import spacing_of
 from .labels import ANTERIOR, POSTERIOR, UNKNOWN, Leaflets, leaflets_in
 from .landmarks import read_part
@@ -28,6 +28,7 @@ def valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve
     """The valve that the arguments of `mvs-image build` ask for."""
     landmarks = read_known(chosen.known) if chosen.known else {}
     lengths = {name: landmarks.pop(name) for name in LENGTHS if name in landmarks}
+    under_load = {name: landmarks.pop(name) for name in CLOSED if name in landmarks}
     law = {"leaflet": landmarks.pop(LAW)} if LAW in landmarks else {}
     landmarks.update(_landmarks(chosen, ""))
     options = {**lengths, **law, **_options(chosen)}
@@ -42,7 +43,7 @@ def valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve
     if loaded is not None and not isinstance(loaded, LabelMap):
         raise mvs.ArgumentError("the open image is a label map and the loaded one a grey volume: give "
                                 "the labels of the loaded leaflets", "loaded")
-    return _valve_of_labels(chosen, image, loaded, landmarks, options, console)
+    return _valve_of_labels(chosen, image, loaded, landmarks, {**under_load, **options}, console)
 
 
 def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Optional[LabelMap],
@@ -70,6 +71,10 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
                                      _landmarks(chosen, "loaded_"))
         surface.points = motion(surface.points)
         found.append(how)
+        own = _landmarks(chosen, "loaded_")
+        for part, name in (("annulus", "closed_annulus"), ("papillary_tips", "closed_tips")):
+            if part in own:
+                options[name] = np.ascontiguousarray(motion(np.atleast_2d(own[part])))
     console.stage("building and closing the valve")
     made = build(leaflets, landmarks, surface, chosen.image.name.split(".")[0],
                  lambda done, _: console.share(done), findings=tuple(found), **options)

@@ -1,0 +1,256 @@
+// Closest points on curves, and the affine motion towards them by least squares.
+#include "patient/annulus_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/error.h"
+#include "geometry/distance.h"
+#include "patient/findings.h"
+#include "patient/fit/closed_pieces.h"
+#include "patient/fit/normal_equations.h"
+#include "patient/surface/annulus_through.h"
+#include "patient/surface/rims.h"
+
+namespace mvs::core {
+namespace {
+
+using Side = std::array<Vec3, 2>;
+
+// m: a point of the annulus moves at most so far to a rim of the leaflets: free edges, and the far
+// sides of gaps in a rim, are 8 mm away and more but beside the commissures.
+constexpr double farthest = 6e-3;
+// A point counts if it is at most 2.5 times as far from the rims as the median (normal errors: 91 %
+// of them), or a millimetre, a voxel and a half of ultrasound.
+constexpr double usual_share = 2.5, usual = 1e-3;
+// Share of the annulus that has to lie on rims.
+constexpr double least_seen = 0.65;
+// m: spread of the points along an axis from which on their stretch along it counts. In its plane
+// the annulus spreads five times as far (RMS), so that a stretch is found to 4 %; across it, by the
+// height of the saddle, a stretch would follow the errors of the rims.
+constexpr double least_spread = 2e-3;
+constexpr int most_rounds = 30;
+constexpr double least_step = 1e-6;  // m
+// m, RMS: errors of rims from images make as much.
+constexpr double no_motion = 0.25e-3;
+// Norm of the stretch: normal annuli change their diameters by 5 to 15 % in a beat, and 0.4 is 28 %
+// of both.
+constexpr double most_stretch = 0.4;
+constexpr double spacing = 1e-3;  // m, of the points of a given curve
+constexpr double confidence_of_rims = 0.6;
+
+std::vector<Side> sides_of(const std::vector<Vec3> &curve) {
+  std::vector<Side> sides;
+  for (size_t k = 0; k < curve.size(); ++k)
+    sides.push_back({curve[k], curve[(k + 1) % curve.size()]});
+  return sides;
+}
+
+// Sides of triangles that have one triangle.
+std::vector<Side> rims_of(const ClosedSurface &closed) {
+  const ClosedPieces pieces = closed_pieces(closed.points, closed.triangles);
+  std::map<Edge, uint32_t> count;
+  for (const Tri &t : closed.triangles) {
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t a = pieces.vertex[t[k]], b = pieces.vertex[t[(k + 1) % 3]];
+      if (a != b) ++count[{std::min(a, b), std::max(a, b)}];
+    }
+  }
+  std::vector<Side> rims;
+  for (const auto &[edge, triangles] : count) {
+    if (triangles == 1) rims.push_back({closed.points[edge[0]], closed.points[edge[1]]});
+  }
+  return rims;
+}
+
+Vec3 nearest_on(const std::vector<Side> &sides, const Vec3 &p) {
+  Vec3 best = p;
+  double least = HUGE_VAL;
+  for (const Side &side : sides) {
+    const SegmentPoint at = closest_on_segment(p, side[0], side[1]);
+    const Vec3 q = side[0] + at.s * (side[1] - side[0]);
+    const double distance2 = (q - p).squaredNorm();
+    if (distance2 >= least) continue;
+    least = distance2;
+    best = q;
+  }
+  return best;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Affine {
+  Mat3 stretch = Mat3::Zero();
+  Vec3 shift = Vec3::Zero();
+};
+
+// The motion of points `from`, relative to their centre, by `step`, by least squares.
+Affine affine_of(const std::vector<Vec3> &from, const std::vector<Vec3> &step) {
+  DenseMatrix h(4);
+  std::array<std::vector<double>, 3> right;
+  right.fill(std::vector<double>(4, 0));
+  for (size_t k = 0; k < from.size(); ++k) {
+    // the constant is about as large as the coordinates
+    const std::array<double, 4> terms = {from[k].x(), from[k].y(), from[k].z(), 1e-2};
+    for (size_t i = 0; i < 4; ++i) {
+      for (size_t j = 0; j < 4; ++j) h.at(i, j) += terms[i] * terms[j];
+      for (size_t axis = 0; axis < 3; ++axis)
+        right[axis][i] += terms[i] * step[k][static_cast<Eigen::Index>(axis)];
+    }
+  }
+  for (size_t i = 0; i < 3; ++i)
+    h.at(i, i) += static_cast<double>(from.size()) * least_spread * least_spread;
+  Affine found;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    const std::vector<double> row = solve_dense(h, right[static_cast<size_t>(axis)]);
+    for (Eigen::Index k = 0; k < 3; ++k) found.stretch(axis, k) = row[static_cast<size_t>(k)];
+    found.shift[axis] = 1e-2 * row[3];
+  }
+  return found;
+}
+
+struct Meeting {
+  Affine motion;
+  double seen = 0;  // share of the points that lie on the curve
+  double rms = 0;   // m, of these from it
+};
+
+// Iterative closest points.
+Meeting meet(const std::vector<Vec3> &annulus, const Vec3 &centre, const std::vector<Side> &sides,
+             double reach) {
+  std::vector<Vec3> around;  // relative to the centre
+  for (const Vec3 &p : annulus) around.push_back(p - centre);
+  Meeting found;
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<Vec3> to;
+    std::vector<double> away;
+    for (const Vec3 &p : around) {
+      const Vec3 here = centre + p + found.motion.stretch * p + found.motion.shift;
+      to.push_back(nearest_on(sides, here));
+      away.push_back((to.back() - here).norm());
+    }
+    const double most = std::min(reach, std::max(usual, usual_share * median(away)));
+    std::vector<Vec3> from, step;
+    double sum = 0;
+    for (size_t k = 0; k < around.size(); ++k) {
+      if (away[k] > most) continue;
+      from.push_back(around[k]);
+      step.push_back(to[k] - centre - around[k]);
+      sum += away[k] * away[k];
+    }
+    found.seen = static_cast<double>(from.size()) / static_cast<double>(around.size());
+    found.rms = std::sqrt(sum / static_cast<double>(std::max<size_t>(1, from.size())));
+    if (found.seen < least_seen) break;
+    const Affine next = affine_of(from, step);
+    double largest = 0;
+    for (const Vec3 &p : around) {
+      const Vec3 change =
+          (next.stretch - found.motion.stretch) * p + next.shift - found.motion.shift;
+      largest = std::max(largest, change.norm());
+    }
+    found.motion = next;
+    if (largest < least_step) break;
+  }
+  return found;
+}
+
+std::string words_of(const std::vector<Vec3> &annulus, const AnnulusMotion &motion) {
+  double sum = 0, most = 0, length = 0, loaded = 0;
+  for (size_t k = 0; k < annulus.size(); ++k) {
+    const Vec3 &p = annulus[k], &next = annulus[(k + 1) % annulus.size()];
+    const double by = (motion(p) - p).norm();
+    sum += by;
+    most = std::max(most, by);
+    length += (next - p).norm();
+    loaded += (motion(next) - motion(p)).norm();
+  }
+  return format(
+      "%.1f mm in the mean, %.1f mm at most; its length is %.0f mm under load, %.0f mm open",
+      sum / static_cast<double>(annulus.size()) * 1e3, most * 1e3, loaded * 1e3, length * 1e3);
+}
+
+void report(const std::vector<Vec3> &annulus, const AnnulusMotion &motion, FindingSource source,
+            double confidence, std::string sentence, Findings &findings) {
+  findings.push_back({"closed_annulus", source, confidence, std::move(sentence), {}, ""});
+  std::vector<Vec3> loaded;
+  for (const Vec3 &p : annulus) loaded.push_back(motion(p));
+  set_points(loaded, findings.back());
+}
+
+// Whether a motion is that of one annulus between two phases.
+bool is_plausible(const Meeting &met) {
+  return met.seen >= least_seen && met.motion.stretch.norm() <= most_stretch &&
+         met.motion.shift.norm() <= farthest_annulus;
+}
+
+}  // namespace
+
+Vec3 AnnulusMotion::operator()(const Vec3 &p) const {
+  if (!moves_) return p;
+  const Vec3 moved = p + stretch_ * (p - centre_) + shift_;
+  return curve_.empty() ? moved : nearest_on(curve_, moved);
+}
+
+AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::vector<Vec3> &given,
+                                  const ClosedSurface &closed, Findings &findings) {
+  AnnulusMotion motion;
+  if (given.empty() && closed.triangles.empty()) return motion;
+  for (const Vec3 &p : annulus) motion.centre_ += p / static_cast<double>(annulus.size());
+  if (!given.empty()) {
+    const std::vector<Vec3> through = annulus_through(given, spacing);
+    MVS_MUST(!through.empty(), MVS_E_ARGUMENT, "closed_annulus",
+             "the %zu points of closed_annulus are no curve around the annulus: give six or more "
+             "all around it",
+             given.size());
+    motion.curve_ = sides_of(through);
+  }
+  const std::vector<Side> sides = given.empty() ? rims_of(closed) : motion.curve_;
+  Meeting met;
+  if (!sides.empty()) {
+    met = meet(annulus, motion.centre_, sides, given.empty() ? farthest : HUGE_VAL);
+  }
+  motion.moves_ = is_plausible(met);
+  motion.stretch_ = met.motion.stretch;
+  motion.shift_ = met.motion.shift;
+  if (!given.empty()) {
+    MVS_MUST(
+        motion.moves(), MVS_E_OP, "closed_annulus",
+        "the loaded annulus cannot be that of the open leaflets: its middle lies %.1f mm from "
+        "theirs, and %.0f %% of it meets the curve; are both in one frame (LPS or RAS), and of "
+        "one patient?",
+        met.motion.shift.norm() * 1e3, 100 * met.seen);
+    report(annulus, motion, FindingSource::given, 1,
+           "the annulus moves onto the given curve, by " + words_of(annulus, motion), findings);
+    return motion;
+  }
+  if (!motion.moves()) {
+    report(annulus, motion, FindingSource::assumed, 0.3,
+           "the annulus is taken to stay under load: too little of it lies near rims of the closed "
+           "surface; give points along the loaded annulus",
+           findings);
+    return motion;
+  }
+  double sum = 0;
+  for (const Vec3 &p : annulus) sum += (motion(p) - p).squaredNorm();
+  if (std::sqrt(sum / static_cast<double>(annulus.size())) < no_motion) {
+    motion.moves_ = false;
+    report(annulus, motion, FindingSource::measured, confidence_of_rims,
+           "the annulus stays under load: rims of the closed surface lie on it", findings);
+    return motion;
+  }
+  report(annulus, motion, FindingSource::measured, confidence_of_rims,
+         "the annulus moves to rims of the closed surface, by " + words_of(annulus, motion) +
+             format("; %.2f mm (RMS) remain on %.0f %% of it; give points along the loaded annulus "
+                    "if they are known",
+                    met.rms * 1e3, 100 * met.seen),
+         findings);
+  return motion;
+}
+
+}  // namespace mvs::core

@@ -1,0 +1,39 @@
+// Where the annulus lies under load.
+//
+// An affine motion is sought with which the annulus meets the rims of the closed leaflets
+// (iterative closest points, Besl and McKay 1992), with a weak preference for none: rims from
+// images are rough and may lack parts, and their free edges are rims as well. So the annulus keeps
+// its local shape, and its size, place and tilt change. A given curve is of the annulus alone: the
+// affine motion brings the annulus near to it, and each point then moves onto it.
+#pragma once
+
+#include <vector>
+
+#include "patient/fit/surface_match.h"
+#include "patient/leaflet_sheet.h"
+
+namespace mvs::core {
+
+class AnnulusMotion {
+ public:
+  bool moves() const { return moves_; }
+  // The loaded place of a point of the annulus.
+  Vec3 operator()(const Vec3 &p) const;
+
+ private:
+  friend AnnulusMotion find_annulus_motion(const std::vector<Vec3> &, const std::vector<Vec3> &,
+                                           const ClosedSurface &, Findings &);
+
+  bool moves_ = false;
+  Vec3 centre_ = Vec3::Zero(), shift_ = Vec3::Zero();
+  Mat3 stretch_ = Mat3::Zero();
+  std::vector<std::array<Vec3, 2>> curve_;  // sides of the given curve; empty: none is given
+};
+
+// `annulus`: points along it at rest. `given`: points along the loaded annulus in any order; empty:
+// not known. Adds the finding "closed_annulus" unless neither a curve nor a surface is given.
+// Throws where given points are no curve around the annulus, or lie elsewhere.
+AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::vector<Vec3> &given,
+                                  const ClosedSurface &closed, Findings &findings);
+
+}  // namespace mvs::core
