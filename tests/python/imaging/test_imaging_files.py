@@ -14,7 +14,9 @@ pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 
 from label_images import NAMES, VOXEL, funnel, image_of  # noqa: E402
 from mvs import imaging  # noqa: E402
-from mvs.imaging.command import main  # noqa: E402
+from mvs.imaging import requests  # noqa: E402
+from mvs.imaging.command import main, parser_of  # noqa: E402
+from mvs.imaging.console import Console  # noqa: E402
 from mvs.imaging.findings import read_known  # noqa: E402
 
 
@@ -206,3 +208,34 @@ def test_the_law_in_a_file_of_findings_is_read(tmp_path):
             continue
         with pytest.raises(mvs.FormatError, match="the number of a law of leaflets, 1 to 6"):
             read_known(path)
+
+
+def test_loaded_landmarks_are_the_boundary_under_load(tmp_path, monkeypatch):
+    """Landmarks of the loaded image, and those of a file of findings, reach the build in the frame of the open image."""
+    sitk.WriteImage(image_of(funnel()[0]), str(tmp_path / "open.nrrd"))
+    tips, lower = [[12, 0, -20], [-12, 0, -20]], [[12, 0, -18], [-12, 0, -18]]
+    ring = [[17 * np.cos(a), 15 * np.sin(a), 9] for a in np.arange(0, 6.2, 0.5)]
+    given = {"--tips": tips, "--loaded-tips": lower, "--loaded-annulus": ring}
+    call = [str(tmp_path / "open.nrrd"), "--loaded", str(tmp_path / "open.nrrd"), "--anterior-label", "1",
+            "--posterior-label", "2", "-o", str(tmp_path / "a.h5")]
+    for option, points in given.items():
+        call += [option, str(markups(tmp_path / f"{option}.mrk.json", points, "LPS"))]
+    seen = {}
+
+    def build(*_args, **options):
+        seen.update(options)
+        raise mvs.ArgumentError("enough", "test")
+
+    monkeypatch.setattr(requests, "build", build)
+    with pytest.raises(mvs.ArgumentError, match="enough"):
+        requests.valve_of_request(parser_of()[0].parse_args(["build", *call]), Console(True))
+    assert seen["closed_tips"] * 1e3 == pytest.approx(np.array(lower))
+    assert seen["closed_annulus"] * 1e3 == pytest.approx(np.array(ring))
+    known = tmp_path / "known.import.json"
+    known.write_text(json.dumps({"format": "libmvs import", "version": 1, "findings": [
+        {"name": "closed_tips", "source": "given", "values": [0.1, 0.2, 0.3]},
+        {"name": "closed_annulus", "source": "measured", "values": [0.0, 0.0, 0.0]}]}))
+    seen.clear()
+    with pytest.raises(mvs.ArgumentError, match="enough"):
+        requests.valve_of_request(parser_of()[0].parse_args(["build", *call[:9], "--with", str(known)]), Console(True))
+    assert seen["closed_tips"].tolist() == [[0.1, 0.2, 0.3]] and "closed_annulus" not in seen
