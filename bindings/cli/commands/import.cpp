@@ -108,7 +108,7 @@ void add_range_options(CLI::App &command, ImportOptions &options) {
   command
       .add_option("--edge-lost", options.edge_lost,
                   "tissue that may be missing at the free edge, mm: widens the interval of leaks "
-                  "[half of the mean depth of its filled notches]")
+                  "[half of the mean depth of its filled notches; 0.001: none]")
       ->check(positive());
   command
       .add_option("--thickness-error", options.thickness_error,

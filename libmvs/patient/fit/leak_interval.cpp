@@ -142,6 +142,13 @@ void add_shape_error(LeakInterval &interval) {
   interval.most = std::max(interval.most, leak + up);
 }
 
+void reach_to(const ShownGaps &shown, LeakInterval &interval) {
+  if (shown.most == 0) return;
+  interval.shown = {shown.least, shown.most};
+  interval.least = std::min(interval.least, shown.least);
+  interval.most = std::max(interval.most, shown.most);
+}
+
 LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
                            const std::vector<double> &known, Findings &findings,
                            const std::function<void(double)> &tell) {
@@ -189,9 +196,8 @@ LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
       add_shape_error(interval);
       const ShownGaps shown =
           shown_gaps(*unknowns.shape.given, *model, as_it_is, *unknowns.shape.geometry);
-      report_shown_gaps(shown, interval.most, findings);
-      interval.shown = shown.most;
-      interval.most = std::max(interval.most, shown.most);
+      report_shown_gaps(shown, interval.leak[1], findings);
+      reach_to(shown, interval);
     }
   }
   report_leaks(interval, edge, thickness_error, findings);

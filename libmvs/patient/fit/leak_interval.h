@@ -26,6 +26,7 @@
 #include "patient/fit/edge_range.h"
 #include "patient/fit/fit_to_closed.h"
 #include "patient/fit/shape_error.h"
+#include "patient/fit/shown_gaps.h"
 
 namespace mvs::core {
 
@@ -50,7 +51,7 @@ struct LeakInterval {
   std::array<double, 2> edge_leak = {};     // m2, edge farther out and in; unused if it is exact
   std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; unused if that is exact
   ShapeLeaks shape;                         // of the valve as it is, if it was fitted
-  double shown = 0;                         // m2, through the gaps of that surface, at most
+  std::array<double, 2> shown = {};         // m2, through the gaps of that surface; 0: none
   double least = NAN, most = NAN;           // m2, the interval; NaN: no closure came to rest
   uint32_t closures = 0, rests = 0;         // of these, those that came to rest
   uint32_t draws = 0;                       // closures with random lengths
@@ -66,6 +67,9 @@ struct LeakUnknowns {
 
 // The interval around the leak of the valve as it is, widened by the error of its shape.
 void add_shape_error(LeakInterval &interval);
+
+// Makes the interval contain the gaps of the closed surface, each narrower and wider by its error.
+void reach_to(const ShownGaps &shown, LeakInterval &interval);
 
 // `known`: leaks of other closures of the same valve that came to rest, m2, which the interval
 // contains. `tell` is

@@ -88,9 +88,10 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
                                  interval.closures - interval.rests, interval.closures);
     }
     if (interval.shape.distance > 0) finding.sentence += shape_words(interval.shape);
-    if (interval.shown >= interval.most) {
+    const auto [narrow, wide] = interval.shown;
+    if (wide > 0 && (narrow <= interval.least || wide >= interval.most)) {
       finding.sentence +=
-          format("; that surface itself has gaps of up to %.1f mm2", interval.shown * 1e6);
+          format("; that surface itself has gaps of %.1f to %.1f mm2", narrow * 1e6, wide * 1e6);
     }
     finding.value = {interval.least, interval.most};
   } else {

@@ -28,6 +28,9 @@ constexpr double width_error = 1.4e-3;
 constexpr double share_of_piece = 0.8, share_of_other = 0.2;
 // A surface with less of a leaflet than this share of it in the fitted valve is one of the others.
 constexpr double least_of_leaflet = 0.6;
+// A valve closes gaps if it leaks less than this share of them, and leaks far more if they are less
+// than this share of its leak: intervals of fitted valves are about as wide.
+constexpr double share_of_shown = 0.5;
 // Confidence of gaps that the valve shows as well, and of those that it closes, which is doubtful.
 constexpr double confidence_of_same = 0.7, confidence_of_other = 0.3;
 
@@ -151,7 +154,7 @@ ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::
                      const PatientGeometry &g) {
   Tissue tissue = tissue_of(given, model, x);
   if (std::string missing = missing_leaflet(tissue, model, x); !missing.empty()) {
-    return {std::move(missing), {}, 0, 0};
+    return {std::move(missing), {}, 0, 0, 0};
   }
   add_certain(model, x, g, tissue);
   const Orifice orifice = cut_orifice_of(tissue.points, tissue.triangles, model, x);
@@ -165,17 +168,19 @@ ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::
     if (width < least_width || !around[k].is_between_leaflets()) continue;
     shown.gaps.push_back({part.area, width, place_of(part)});
     shown.area += part.area;
+    shown.least += part.area * std::max(0.0, width - width_error) / width;
     shown.most += part.area * (width + width_error) / width;
   }
-  if (shown.area < least_area) shown.most = 0;
+  if (shown.area < least_area) shown.least = shown.most = 0;
   return shown;
 }
 
-void report_shown_gaps(const ShownGaps &shown, double most, Findings &findings) {
-  const bool closes = shown.most > 0 && shown.area > most;
+void report_shown_gaps(const ShownGaps &shown, double leak, Findings &findings) {
+  const bool closes = shown.most > 0 && leak < share_of_shown * shown.area;
+  const bool opens = shown.most > 0 && share_of_shown * leak > shown.most;
   Finding finding{"shown_gaps",
                   FindingSource::measured,
-                  closes ? confidence_of_other : confidence_of_same,
+                  closes || opens ? confidence_of_other : confidence_of_same,
                   {},
                   {shown.area},
                   "m2"};
@@ -195,10 +200,17 @@ void report_shown_gaps(const ShownGaps &shown, double most, Findings &findings) 
                                  gap.place.c_str());
     }
     if (shown.most == 0) finding.sentence += "; errors of a surface show as much";
+    const std::string has =
+        format("; the valve that was fitted to it leaks %.1f mm2: ", leak * 1e6);
     if (closes) {
       finding.sentence +=
-          "; the valve that was fitted to it closes them: its chordae and tissue there are not "
-          "those of the patient, or the surface lacks tissue there";
+          has +
+          "its chordae and tissue there are not those of the patient, or the surface "
+          "lacks tissue there";
+    }
+    if (opens) {
+      finding.sentence +=
+          has + "its chordae, its tissue or its free edge are not those of the patient";
     }
   }
   findings.push_back(std::move(finding));

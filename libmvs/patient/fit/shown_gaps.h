@@ -29,8 +29,9 @@ struct ShownGaps {
   std::string missing;         // a leaflet that the surface lacks: nothing is measured
   std::vector<ShownGap> gaps;  // the largest first; none is narrower than errors of edges are
   double area = 0;             // m2, of all
-  double most = 0;             // m2, the same with each gap wider by the error of its edges; 0: not
-                               // more than errors of the surface show
+  // m2, the same with each gap narrower and wider by the error of its edges; 0: not more than
+  // errors of the surface show
+  double least = 0, most = 0;
 };
 
 // `x`: the valve that was fitted to the surface, closed; the nodes of the model begin with the
@@ -38,8 +39,9 @@ struct ShownGaps {
 ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x,
                      const PatientGeometry &g);
 
-// The finding "shown_gaps": doubtful if the surface shows more than the leaks of the valve reach
-// to, `most`, m2.
-void report_shown_gaps(const ShownGaps &shown, double most, Findings &findings);
+// The finding "shown_gaps". It is doubtful if the valve, which leaks `leak` (m2), closes most of
+// what the surface shows, or leaks far more. A wide interval of its leaks excuses neither: the
+// worse a valve fits, the wider it is.
+void report_shown_gaps(const ShownGaps &shown, double leak, Findings &findings);
 
 }  // namespace mvs::core

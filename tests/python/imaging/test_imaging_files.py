@@ -168,6 +168,9 @@ def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
     assert made["converged"] and "mid-surface" in output.err
     assert {"image_thickness", "mesh", "mesh_distance"} <= {row["name"] for row in made["findings"]}
     rows = {row["name"]: row for row in made["findings"]}
+    kept = json.loads((tmp_path / "a.import.json").read_text())["findings"]
+    assert [row["name"] for row in kept if row["doubtful"]] == ["tall_leaflets"]
+    assert rows["tall_leaflets"]["doubtful"] and not rows["thickness"]["doubtful"]
     assert rows["edge_error"]["source"] == rows["edge_lost"]["source"] == "assumed"
     # half a voxel and two voxels of 0.7 mm
     assert "0.35 mm" in rows["edge_error"]["sentence"] and "1.40 mm" in rows["edge_lost"]["sentence"]
@@ -194,6 +197,7 @@ def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
     text = page.read_text(encoding="utf-8")
     assert "The repaired valve" in text and "Repaired, closed, from the atrium" in text
     assert "Interval: " in text and "farther out" in text
+    assert "Look at these first" in text and "<strong>tall_leaflets</strong>" in text
     assert main([str(tmp_path / "none.nrrd"), "-o", str(tmp_path / "c.h5"), "--quiet"]) == 1
     assert "no such file" in capsys.readouterr().err
 

@@ -183,7 +183,7 @@ def _print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None
     vertices = int((opened.node_kind <= mvs.NodeKind.ANNULUS).sum())
     leak = closed.measures.regurgitant_orifice_area * 1e6
     rows = [{"name": f.name, "source": mvs.FindingSource(f.source).name.lower(),
-             "confidence": f.confidence, "sentence": f.sentence} for f in made.findings]
+             "confidence": f.confidence, "sentence": f.sentence, "doubtful": f.doubtful} for f in made.findings]
     if chosen.json:
         print(json.dumps({
             "file": str(chosen.output), "findings_file": str(findings), "vertices": vertices,
@@ -195,8 +195,8 @@ def _print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None
           f"chord segments, {len(opened.head_nodes)} papillary heads")
     print(f"{findings}: what was found, guessed and assumed; edit it and give it by --with")
     interval = next((f.values for f in made.findings if f.name == "leak_interval" and len(f.values) == 2), None)
-    print(f"closed under 120 mmHg: {'at rest' if made.converged else 'NOT at rest'}, "
-          f"{'sealed' if leak < 0.05 else f'leaks through {leak:.1f} mm2'}"
+    shape = "sealed" if leak < 0.05 else f"leaks through {leak:.1f} mm2"
+    print(f"closed under 120 mmHg: {f'at rest, {shape}' if made.converged else 'NOT at rest: no figure of this shape holds'}"
           + (f"; {interval[0] * 1e6:.1f} to {interval[1] * 1e6:.1f} mm2 over what is not sure"
              if interval is not None else ""))
     if made.repair:

@@ -31,7 +31,7 @@ def write_findings(path: Union[str, "os.PathLike[str]"], source: str,
     rows: list[dict[str, Any]] = [
         {"name": one.name, "source": mvs.FindingSource(one.source).name.lower(),
          "confidence": float(one.confidence), "sentence": one.sentence, "unit": one.unit,
-         "values": [float(value) for value in one.values]}
+         "values": [float(value) for value in one.values], "doubtful": one.doubtful}
         for one in findings
     ]
     text = json.dumps({"format": "libmvs import", "version": 1, "surface": source,

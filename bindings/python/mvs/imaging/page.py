@@ -32,6 +32,7 @@ PAGE = Template("""<!DOCTYPE html>
 <p class="warning"><strong>Planning and research tool, not a cleared medical device.</strong>
 Nothing here may be used to decide on the treatment of a patient.</p>
 <p>$verdict</p>
+$warnings
 <h2>Image and mesh</h2>$slices
 <h2>The valve</h2><div class="row">$pictures</div>
 <h2>Thickness</h2><div class="row">$thickness</div>
@@ -55,20 +56,27 @@ def write_page(path: Union[str, "os.PathLike[str]"], made: ImageValve, source: s
 
 def page_of(made: ImageValve, source: str) -> str:
     leak = made.closed.measures.regurgitant_orifice_area * 1e6
-    rest = "at rest" if made.converged else "NOT at rest"
-    verdict = f"Closed under 120 mmHg: {rest}, " + (
-        "sealed." if leak < 0.05 else f"leaks through {leak:.1f} mm2.")
+    verdict = "Closed under 120 mmHg: " + (
+        "NOT at rest: no figure of this shape holds." if not made.converged else
+        "at rest, sealed." if leak < 0.05 else f"at rest, leaks through {leak:.1f} mm2.")
     said = {one.name: one.sentence for one in made.findings}
     interval = " ".join(f"{words}." for words in (
         said.get("leak"), "Interval: " + said["leak_interval"] if "leak_interval" in said else None)
         if words)
     return PAGE.substitute(
         title=html.escape(source), source=html.escape(source), version=mvs.__version__,
-        verdict=html.escape(f"{verdict} {interval}"), slices=_slices(made), pictures=_pictures(made),
+        verdict=html.escape(f"{verdict} {interval}"), warnings=_warnings(made), slices=_slices(made), pictures=_pictures(made),
         thickness=figure(thickness_histogram(made),
                          "Thickness of the tissue over the area of the leaflets"),
         loaded=_loaded(made), repair=chapter(made.closed, made.repair) if made.repair else "",
         findings=_findings(made), stages=_stages(made))
+
+
+def _warnings(made: ImageValve) -> str:
+    """What contradicts the image or normal anatomy, as the command prints it."""
+    rows = [f"<li><strong>{html.escape(one.name)}</strong> ({100 * one.confidence:.0f} % sure): {html.escape(one.sentence)}</li>"
+            for one in made.findings if one.doubtful]
+    return f'<div class="warning"><strong>Look at these first:</strong><ul>{"".join(rows)}</ul></div>' if rows else ""
 
 
 def _findings(made: ImageValve) -> str:
