@@ -193,8 +193,31 @@ bool is_plausible(const Meeting &met) {
 
 Vec3 AnnulusMotion::operator()(const Vec3 &p) const {
   if (!moves_) return p;
-  const Vec3 moved = p + stretch_ * (p - centre_) + shift_;
-  return curve_.empty() ? moved : nearest_on(curve_, moved);
+  if (!given_) return affine(p);
+  const double s = given_->annulus.nearest(p);
+  const auto after = std::upper_bound(given_->start.begin() + 1, given_->start.end() - 1, s);
+  const size_t k = static_cast<size_t>(after - given_->start.begin()) - 1;
+  const double share = (s - given_->start[k]) / (given_->start[k + 1] - given_->start[k]);
+  return given_->curve.at(given_->place[k] + share * (given_->place[k + 1] - given_->place[k]));
+}
+
+bool AnnulusMotion::put_on(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve) {
+  std::vector<Vec3> moved;
+  for (const Vec3 &p : annulus) moved.push_back(affine(p));
+  ClosedCurve to(curve);
+  std::vector<double> place = places_along(to, moved);
+  if (place.empty()) {
+    to = to.reversed();
+    place = places_along(to, moved);
+  }
+  if (place.empty()) return false;
+  place.push_back(place[0] + to.length());
+  std::vector<double> start = {0};
+  for (size_t k = 0; k < annulus.size(); ++k) {
+    start.push_back(start.back() + (annulus[(k + 1) % annulus.size()] - annulus[k]).norm());
+  }
+  given_.emplace(OnCurve{ClosedCurve(annulus), std::move(to), std::move(start), std::move(place)});
+  return true;
 }
 
 AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::vector<Vec3> &given,
@@ -202,15 +225,14 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
   AnnulusMotion motion;
   if (given.empty() && closed.triangles.empty()) return motion;
   for (const Vec3 &p : annulus) motion.centre_ += p / static_cast<double>(annulus.size());
+  const std::vector<Vec3> through = annulus_through(given, spacing);
   if (!given.empty()) {
-    const std::vector<Vec3> through = annulus_through(given, spacing);
     MVS_MUST(!through.empty(), MVS_E_ARGUMENT, "closed_annulus",
              "the %zu points of closed_annulus are no curve around the annulus: give six or more "
              "all around it",
              given.size());
-    motion.curve_ = sides_of(through);
   }
-  const std::vector<Side> sides = given.empty() ? rims_of(closed) : motion.curve_;
+  const std::vector<Side> sides = given.empty() ? rims_of(closed) : sides_of(through);
   Meeting met;
   if (!sides.empty()) {
     met = meet(annulus, motion.centre_, sides, given.empty() ? farthest : HUGE_VAL);

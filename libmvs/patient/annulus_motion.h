@@ -4,11 +4,13 @@
 // (iterative closest points, Besl and McKay 1992), with a weak preference for none: rims from
 // images are rough and may lack parts, and their free edges are rims as well. So the annulus keeps
 // its local shape, and its size, place and tilt change. A given curve is of the annulus alone: the
-// affine motion brings the annulus near to it, and each point then moves onto it.
+// affine motion brings the annulus near to it, and each point then moves to its place along it.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "patient/closed_curve.h"
 #include "patient/fit/surface_match.h"
 #include "patient/leaflet_sheet.h"
 
@@ -23,11 +25,19 @@ class AnnulusMotion {
  private:
   friend AnnulusMotion find_annulus_motion(const std::vector<Vec3> &, const std::vector<Vec3> &,
                                            const ClosedSurface &, Findings &);
+  Vec3 affine(const Vec3 &p) const { return p + stretch_ * (p - centre_) + shift_; }
+  // Returns false if the curve does not run once around the annulus.
+  bool put_on(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve);
 
   bool moves_ = false;
   Vec3 centre_ = Vec3::Zero(), shift_ = Vec3::Zero();
   Mat3 stretch_ = Mat3::Zero();
-  std::vector<std::array<Vec3, 2>> curve_;  // sides of the given curve; empty: none is given
+  // the annulus at rest, the given curve, and the place of each point of the one along the other
+  struct OnCurve {
+    ClosedCurve annulus, curve;
+    std::vector<double> start, place;  // m; the first one again a lap later
+  };
+  std::optional<OnCurve> given_;  // empty: no curve is given
 };
 
 // `annulus`: points along it at rest. `given`: points along the loaded annulus in any order; empty:

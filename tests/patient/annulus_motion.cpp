@@ -100,6 +100,13 @@ TEST_CASE("a_given_curve_decides_in_any_order_of_its_points") {
     for (const Vec3 &q : points_in(findings[0])) nearest = std::min(nearest, (q - g).norm());
     CHECK(nearest < 2 * mm);  // nodes of the annulus are 3 mm apart
   }
+  // 10 to 15 % longer everywhere: points do not crowd at the corners of the curve
+  const std::vector<Vec3> loaded = points_in(findings[0]);
+  for (size_t k = 0; k < annulus.size(); ++k) {
+    const size_t next = (k + 1) % annulus.size();
+    const double ratio = (loaded[next] - loaded[k]).norm() / (annulus[next] - annulus[k]).norm();
+    CHECK((ratio > 1.05 && ratio < 1.2));  // 5 %: corners of the polygon
+  }
   for (Vec3 &g : given) g.x() += 30 * mm;
   CHECK_THROWS_WITH_AS(find_annulus_motion(annulus, given, {}, findings),
                        doctest::Contains("in one frame (LPS or RAS)"), Error);
