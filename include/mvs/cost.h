@@ -1,8 +1,6 @@
 /* Cost of a repair: how far the valve opens in diastole, how near its coaptation lies to the
  * septum, and what chordae and annulus bear. Every valve closes in a ring that is small enough;
- * a search for a repair has to weigh these figures against the leak. Open leaflets hang in one of
- * several folds, so that open area and gradient scatter from one repair to the next:
- * compare trends over several sizes, not two neighbours. */
+ * a search for a repair has to weigh these figures against the leak. */
 #ifndef MVS_COST_H
 #define MVS_COST_H
 

@@ -35,7 +35,7 @@ std::string measures_text(const mvs_measures &measures,
 // Two valves side by side.
 std::string measures_text(const mvs_measures &before, const mvs_measures &after);
 
-// Cost of a repair, in mm, mm2, mmHg and N: {"open_area_mm2": 597.4, ...}; null where it is not
+// Cost of a repair, in mm, mm2, mmHg and N: {"open_area_mm2": 606.7, ...}; null where it is not
 // known.
 Json cost_json(const mvs_cost &cost);
 std::string cost_text(const mvs_cost &cost);

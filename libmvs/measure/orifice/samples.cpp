@@ -8,6 +8,7 @@
 
 #include "geometry/distance.h"
 #include "measure/orifice/rim_parts.h"
+#include "measure/orifice/wall.h"
 
 namespace mvs::core::orifice {
 namespace {
@@ -58,8 +59,7 @@ void add_ring(const Sheet &sheet, double outwards, double step, double shift, Sa
   for (size_t i = 0; i < count; ++i) {
     const double part = (static_cast<double>(i) + shift) / static_cast<double>(count);
     const Vec3 p = sheet.annulus.at(part * length);
-    const Vec3 direction = Vec3(p.x(), p.y(), 0).normalized();
-    samples.point.push_back(p + outwards * direction);
+    samples.point.push_back(p + outwards * outwards_at(p));
     samples.spacing.push_back(2 * step);
   }
 }

@@ -9,6 +9,7 @@
 
 #include "geometry/delaunay3d.h"
 #include "geometry/max_flow.h"
+#include "measure/orifice/wall.h"
 #include "model/sides.h"
 
 namespace mvs::core::orifice {
@@ -46,37 +47,47 @@ class Space {
  public:
   Space(const Sheet &sheet, const TriangleBvh &tree, const Samples &samples);
 
-  // Breadth-first search from the atrium through open triangles; returns whether it reaches the
-  // ventricle.
+  // Searches from the atrium through open triangles; returns whether it reaches the ventricle.
   bool leaks();
   std::vector<Tri> cut();
 
  private:
+  struct CellFace {
+    uint32_t cell, face;
+  };
   struct Opening {
-    uint32_t cell, face;  // the side from which the search came
+    CellFace from;  // where the search came from
     uint32_t beyond;
   };
 
   Tri face(uint32_t cell, uint32_t k) const;
+  bool is_of_wall(const Tri &t) const;
   bool is_open(uint32_t cell, uint32_t k) const;
+  void search_on();
+  void pass(uint32_t cell, uint32_t k);
   Ball tightest(uint32_t cell, uint32_t k) const;
 
   const Sheet &sheet_;
   const Samples &samples_;
   const TriangleBvh &tree_;
+  const Wall wall_;
   Delaunay mesh_;
   std::vector<Vec3> vertex_;  // on the lattice, in m, so that every cell has positive volume
   std::vector<Ball> ball_;    // through the corners of each cell
   std::vector<uint32_t> number_;
   std::vector<Opening> openings_;
   uint32_t numbers_ = first_between;
+  bool arrived_ = false;
+  size_t visited_ = 0;
+  std::vector<uint32_t> queue_;    // cells; the first `visited_` of them are done
+  std::vector<CellFace> of_wall_;  // of these cells, those between three points of the wall
 };
 
 // The bounding box is three times as large as the sheet, so that no cell joins its top and bottom
 // through the valve: the sphere of such a cell would contain a part of the wall. Cells outside the
 // wall do join both.
 Space::Space(const Sheet &sheet, const TriangleBvh &tree, const Samples &samples)
-    : sheet_(sheet), samples_(samples), tree_(tree) {
+    : sheet_(sheet), samples_(samples), tree_(tree), wall_(sheet) {
   const double half = 3 * sheet.radius, unit = 2 * half / lattice_size;
   std::vector<LatticePoint> lattice;
   for (const Vec3 &p : samples.point) {
@@ -122,62 +133,91 @@ Ball Space::tightest(uint32_t cell, uint32_t k) const {
   return ball_through(a, vertex_[t[1]], vertex_[t[2]]);
 }
 
+bool Space::is_of_wall(const Tri &t) const {
+  return std::all_of(t.begin(), t.end(), [&](uint32_t v) { return v >= samples_.on_sheet; });
+}
+
 // Returns whether a ball of the contact thickness passes. Samples alone do not decide for a ball
 // smaller than their spacing, and overestimate the distance to the sheet by up to `slack`; in this
-// range the distance to the triangles decides.
+// range the distance to the triangles decides. Far out, samples of the wall are too coarse for
+// that: three of them are a part of it if the way from cell to cell, between the centres of their
+// balls, meets the wall itself, and otherwise stand over a hollow of it.
 bool Space::is_open(uint32_t cell, uint32_t k) const {
   const Tri t = face(cell, k);
   double spacing = 0;
-  bool only_wall = true;
   for (const uint32_t v : t) {
     if (v >= samples_.point.size()) return false;
     spacing = std::max(spacing, samples_.spacing[v]);
-    only_wall &= v >= samples_.on_sheet;
   }
   const Ball ball = tightest(cell, k);
   const double needed = 0.5 * sheet_.seal, slack = reach_of_spacing * spacing;
-  if (only_wall || !(ball.radius > std::max(needed, slack))) return false;
+  if (!(ball.radius > std::max(needed, slack))) return false;
+  const Vec3 &here = ball_[cell].centre, &there = ball_[mesh_.tetrahedra[cell].neighbour[k]].centre;
+  if (is_of_wall(t) && wall_.is_crossed(here, there)) return false;
   if (ball.radius * ball.radius > needed * needed + slack * slack) return true;
   return !tree_.is_within(ball.centre, needed);
 }
 
-bool Space::leaks() {
-  std::vector<uint32_t> queue;
-  for (uint32_t c = 0; c < number_.size(); ++c) {
-    if (number_[c] == atrium) queue.push_back(c);
-  }
-  bool arrived = false;
-  for (size_t i = 0; i < queue.size(); ++i) {
-    const uint32_t cell = queue[i];
+// Goes through a face if it is open and the search has not come through it.
+void Space::pass(uint32_t cell, uint32_t k) {
+  const uint32_t beyond = mesh_.tetrahedra[cell].neighbour[k];
+  const bool arrives = number_[beyond] == ventricle;
+  // of two cells with numbers, the lower one handles their face
+  if (!arrives && number_[beyond] <= number_[cell]) return;
+  if (!is_open(cell, k)) return;
+  openings_.push_back({{cell, k}, beyond});
+  arrived_ |= arrives;
+  if (number_[beyond] != none) return;
+  number_[beyond] = numbers_++;
+  queue_.push_back(beyond);
+}
+
+// Breadth-first, but not through faces between points of the wall, which it lists.
+void Space::search_on() {
+  for (; visited_ < queue_.size(); ++visited_) {
+    const uint32_t cell = queue_[visited_];
     for (uint32_t k = 0; k < 4; ++k) {
       const uint32_t beyond = mesh_.tetrahedra[cell].neighbour[k];
       if (beyond == none || number_[beyond] == in_wall) continue;
-      const bool arrives = number_[beyond] == ventricle;
-      // cells are visited in the order of their numbers: lower ones have handled this face
-      if (!arrives && number_[beyond] <= number_[cell]) continue;
-      if (!is_open(cell, k)) continue;
-      openings_.push_back({cell, k, beyond});
-      arrived |= arrives;
-      if (number_[beyond] != none) continue;
-      number_[beyond] = numbers_++;
-      queue.push_back(beyond);
+      if (is_of_wall(face(cell, k))) {
+        of_wall_.push_back({cell, k});
+      } else {
+        pass(cell, k);
+      }
     }
   }
-  return arrived;
+}
+
+// The atrial cells end at a roof over the samples, at the height of the highest points of the
+// annulus, and the ventricular ones at a floor. Where a saddle-shaped annulus is lower, or higher,
+// triangles between points of the wall are parts of these: were they closed, the cut would end at
+// them, in the blood. They come last, so that an opening deep in the valve, which does not need
+// them, has the same triangles in the same order as without them.
+bool Space::leaks() {
+  for (uint32_t c = 0; c < number_.size(); ++c) {
+    if (number_[c] == atrium) queue_.push_back(c);
+  }
+  search_on();
+  for (size_t i = 0; i < of_wall_.size(); ++i) {
+    const CellFace next = of_wall_[i];  // the list may grow
+    pass(next.cell, next.face);
+    search_on();
+  }
+  return arrived_;
 }
 
 std::vector<Tri> Space::cut() {
   MaxFlow flow(numbers_);
   for (const Opening &o : openings_) {
-    const double units = triangle_area(samples_.point, face(o.cell, o.face)) / flow_unit;
-    flow.add_edge(number_[o.cell], number_[o.beyond], std::llround(units));
+    const double units = triangle_area(samples_.point, face(o.from.cell, o.from.face)) / flow_unit;
+    flow.add_edge(number_[o.from.cell], number_[o.beyond], std::llround(units));
   }
   flow.run(atrium, ventricle);
   std::vector<Tri> triangles;
   for (const Opening &o : openings_) {
-    const bool here = flow.is_on_source_side(number_[o.cell]);
+    const bool here = flow.is_on_source_side(number_[o.from.cell]);
     if (here == flow.is_on_source_side(number_[o.beyond])) continue;
-    Tri t = face(o.cell, o.face);
+    Tri t = face(o.from.cell, o.from.face);
     if (here) std::swap(t[1], t[2]);  // the normal points into the atrium
     triangles.push_back(t);
   }
