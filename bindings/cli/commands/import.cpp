@@ -50,7 +50,8 @@ void run_import(const ImportOptions &given, Console &console) {
   options.build.edge_lost = options.edge_lost * 1e-3;
   options.build.thickness_error = options.thickness_error * 1e-3;
   options.build.leaflet_law = law_of(options.leaflet);
-  const ImportInput input = read_input(given, options);
+  KnownValues known;
+  const ImportInput input = read_input(given, options, known);
   warn_of_whole_valve(options.surface);
   const std::string name = std::filesystem::path(options.surface).stem().string();
   Progress progress(console);
@@ -58,8 +59,9 @@ void run_import(const ImportOptions &given, Console &console) {
   how.progress = &Progress::callback;
   how.user = &progress;
   mvs::Simulator sim = make_sim(how);
-  const std::vector<mvs::BuildFinding> findings =
+  std::vector<mvs::BuildFinding> findings =
       mvs::build_valve(sim, desc_of(input, options, name), options.build);
+  keep_doubts(known, findings);
   warn_of_contradictions(findings);
   const mvs::Snapshot valve = sim.snapshot();
   valve.save(options.out);

@@ -1,7 +1,9 @@
 #include "import/findings_file.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 
 #include "text/replace_file.h"
@@ -15,6 +17,23 @@ const char *source_name(mvs_finding_source source) {
   return source >= MVS_FINDING_SOURCE_GIVEN && source <= MVS_FINDING_SOURCE_ASSUMED
              ? sources[source]
              : "unknown";
+}
+
+mvs_finding_source source_of(const std::string &name) {
+  for (uint32_t k = 1; k < std::size(sources); ++k) {
+    if (name == sources[k]) return k;
+  }
+  return 0;
+}
+
+// Of the bits of the values (FNV-1a), by which an edited row is known.
+std::string digest_of(const std::vector<double> &values) {
+  uint64_t hash = 14695981039346656037u;
+  for (const double value : values) {
+    const auto bits = std::bit_cast<uint64_t>(value);
+    for (int k = 0; k < 64; k += 8) hash = (hash ^ ((bits >> k) & 255)) * 1099511628211u;
+  }
+  return text("%016llx", static_cast<unsigned long long>(hash));
 }
 
 [[noreturn]] void refuse_findings(const std::string &path, const std::string &part,
@@ -76,6 +95,7 @@ Json findings_json(const std::vector<mvs::BuildFinding> &findings) {
                     {"sentence", finding.sentence},
                     {"unit", finding.unit},
                     {"values", finding.values},
+                    {"unedited", digest_of(finding.values)},
                     {"doubtful", finding.doubtful}});
   }
   return rows;
@@ -130,8 +150,27 @@ KnownValues read_findings(const std::string &path) {
                       "the finding \"" + name + "\" has " + std::to_string(target->size()) +
                           " values: points need x, y, z each, the others one");
     }
+    if (source == "given" || row.value("unedited", "") != digest_of(*target)) continue;
+    mvs::BuildFinding found;
+    found.name = name;
+    found.source = source_of(source);
+    found.confidence = row.value("confidence", 1.0);
+    found.doubtful = row.value("doubtful", false);
+    known.unsure[name] = std::move(found);
   }
   return known;
+}
+
+void keep_doubts(const KnownValues &known, std::vector<mvs::BuildFinding> &findings) {
+  for (mvs::BuildFinding &finding : findings) {
+    const auto at = known.unsure.find(finding.name);
+    if (at == known.unsure.end() || finding.source != MVS_FINDING_SOURCE_GIVEN) continue;
+    finding.source = at->second.source;
+    finding.confidence = std::min(finding.confidence, at->second.confidence);
+    finding.doubtful = finding.doubtful || at->second.doubtful;
+    finding.sentence += std::string("; ") + source_name(finding.source) +
+                        " in an earlier import: change its source to \"given\" if it is known";
+  }
 }
 
 }  // namespace cli

@@ -1,6 +1,7 @@
 // The file of findings that `mvs import` writes beside a valve, and reads back by --with.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,16 @@ struct KnownValues {
   std::vector<double> closed_annulus, closed_tips;                     // the same
   std::vector<double> thickness, edge_error, edge_lost, thickness_error;  // one each, m
   std::vector<double> tissue;                                             // one, MVS_LEAFLET_LAW_*
+  // guesses and assumptions of the file whose values nobody has edited, by name
+  std::map<std::string, mvs::BuildFinding> unsure;
 };
 
 // The values of a file of findings that are given, guessed or assumed. Measured ones are left out,
 // as the build measures them again; a source that is changed to "given" counts.
 KnownValues read_findings(const std::string &path);
+
+// A value that was read back as it was found is as sure as it was found: gives such findings of a
+// build that takes it for given their source, confidence and doubt.
+void keep_doubts(const KnownValues &known, std::vector<mvs::BuildFinding> &findings);
 
 }  // namespace cli

@@ -47,6 +47,25 @@ std::vector<uint32_t> labels_of(const mvs::SurfaceFile &file, const std::string 
   return labels;
 }
 
+// Guesses that an option replaces.
+void forget_given(const ImportOptions &options, KnownValues &known) {
+  const std::pair<const char *, bool> given[] = {
+      {"annulus", !options.annulus.empty()},
+      {"commissures", !options.commissures.empty()},
+      {"anterior", !options.anterior.empty()},
+      {"papillary_tips", !options.tips.empty()},
+      {"closed_annulus", !options.closed_annulus.empty()},
+      {"closed_tips", !options.closed_tips.empty()},
+      {"thickness", options.thickness != 0},
+      {"edge_error", options.edge_error != 0},
+      {"edge_lost", options.edge_lost != 0},
+      {"thickness_error", options.thickness_error != 0},
+      {"tissue", !options.leaflet.empty()}};
+  for (const auto &[name, is_given] : given) {
+    if (is_given) known.unsure.erase(name);
+  }
+}
+
 mvs_array array_of(const mvs_view &view) {
   return {view.data, view.count, view.components, view.type, view.stride};
 }
@@ -58,8 +77,10 @@ mvs_array points_of(const std::vector<double> &values) {
 
 }  // namespace
 
-ImportInput read_input(const ImportOptions &options, ImportOptions &with_known) {
-  const KnownValues known = options.with.empty() ? KnownValues{} : read_findings(options.with);
+ImportInput read_input(const ImportOptions &options, ImportOptions &with_known,
+                       KnownValues &known) {
+  if (!options.with.empty()) known = read_findings(options.with);
+  forget_given(options, known);
   ImportInput input{
       PatientFiles(options.files, options.surface), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   PatientFiles &files = input.files;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "import/findings_file.h"
 #include "import/landmarks.h"
 
 namespace cli {
@@ -27,8 +28,9 @@ struct ImportInput {
   std::vector<uint32_t> labels;
 };
 
-// Reads the files. Known values of --with go to `with_known`, where no option gives them.
-ImportInput read_input(const ImportOptions &options, ImportOptions &with_known);
+// Reads the files. `known`, the values of --with, go to `with_known`, where no option gives them;
+// those that an option gives are no longer known.
+ImportInput read_input(const ImportOptions &options, ImportOptions &with_known, KnownValues &known);
 
 // Points to the memory of the input and of the name.
 mvs_surface_desc desc_of(const ImportInput &input, const ImportOptions &options,

@@ -191,6 +191,10 @@ def test_the_command_makes_a_valve_that_closes(tmp_path, capsys):
     output = capsys.readouterr()
     second = json.loads(output.out)
     assert second["hash"] == made["hash"]
+    read_back = {row["name"]: row for row in second["findings"]}
+    for name in ("commissures", "anterior", "edge_lost"):  # guesses stay guesses
+        assert read_back[name]["source"] == rows[name]["source"] != "given"
+        assert read_back[name]["confidence"] == rows[name]["confidence"]
     # these leaflets are as high at the commissures as between them; nothing else is said with --quiet
     assert [line.split(",")[0] for line in output.err.splitlines()] == ["mvs-image: warning: tall_leaflets"]
     assert second["repair"]["operations"] == 1 and second["repair"]["converged"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import os
 from collections.abc import Iterable, Sequence
@@ -31,7 +32,8 @@ def write_findings(path: Union[str, "os.PathLike[str]"], source: str,
     rows: list[dict[str, Any]] = [
         {"name": one.name, "source": mvs.FindingSource(one.source).name.lower(),
          "confidence": float(one.confidence), "sentence": one.sentence, "unit": one.unit,
-         "values": [float(value) for value in one.values], "doubtful": one.doubtful}
+         "values": [float(value) for value in one.values], "unedited": _digest(one.values),
+         "doubtful": one.doubtful}
         for one in findings
     ]
     text = json.dumps({"format": "libmvs import", "version": 1, "surface": source,
@@ -40,6 +42,34 @@ def write_findings(path: Union[str, "os.PathLike[str]"], source: str,
     with open(beside, "w", encoding="utf-8") as file:
         file.write(text + "\n")
     os.replace(beside, path)
+
+
+def _digest(values: Sequence[float]) -> str:
+    """Of the bits of the values (FNV-1a), by which an edited row is known, as `mvs import` writes it."""
+    known = 14695981039346656037
+    for byte in np.asarray(values, "<f8").tobytes():
+        known = (known ^ byte) * 1099511628211 % 2**64
+    return f"{known:016x}"
+
+
+def keep_doubts(path: Union[str, "os.PathLike[str]"], given: Iterable[str],
+                findings: Iterable[mvs.Finding]) -> tuple[mvs.Finding, ...]:
+    """Findings of a build with the values of a file: what was guessed or assumed there and not edited keeps its source,
+    confidence and doubt, though the build takes it for given. `given`: names that options give."""
+    with open(path, encoding="utf-8") as file:
+        rows = {row["name"]: row for row in json.load(file)["findings"]
+                if row["source"] not in ("given", "measured") and row.get("unedited") == _digest(row["values"])}
+
+    def kept(one: mvs.Finding) -> mvs.Finding:
+        row = rows.get(one.name)
+        if row is None or one.name in given or one.source != mvs.FindingSource.GIVEN:
+            return one
+        return dataclasses.replace(
+            one, source=mvs.FindingSource[row["source"].upper()], confidence=min(one.confidence, row["confidence"]),
+            doubtful=one.doubtful or bool(row.get("doubtful")),
+            sentence=f"{one.sentence}; {row['source']} in an earlier import: change its source to \"given\" if it is known")
+
+    return tuple(kept(one) for one in findings)
 
 
 def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
