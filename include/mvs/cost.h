@@ -46,9 +46,10 @@ typedef struct mvs_cost {
   uint32_t opened;             /* 1: the open valve came to rest; otherwise open_area is NaN */
   double open_area;            /* m2, smallest cross-section of the open valve */
   double gradient;             /* Pa, mean pressure drop of the flow through open_area */
-  double anterior_height;      /* m, tissue from annulus to free edge, unloaded, central AP plane */
+  double anterior_height;      /* m, tissue from annulus to free edge, unloaded, central AP plane
+                                  or, with a seam there, beside it */
   double posterior_height;     /* m, the same of the posterior leaflet */
-  double anterior_length;      /* m, from annulus to coaptation, closed, central AP plane */
+  double anterior_length;      /* m, from annulus to coaptation, closed, in the same way */
   double posterior_length;     /* m, the same of the posterior leaflet */
   double length_ratio;         /* anterior_length / posterior_length */
   double septal_distance;      /* m, from coaptation in the central AP plane to the nearest point of

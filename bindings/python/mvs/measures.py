@@ -82,11 +82,11 @@ class Cost:
         float, "Pa", "mean pressure drop of the flow through the open area; only with a flow"
     ]
     anterior_height: Annotated[
-        float, "m", "tissue from annulus to free edge, unloaded, central AP plane"
+        float, "m", "tissue from annulus to free edge, unloaded, central AP plane or beside a seam there"
     ]
     posterior_height: Annotated[float, "m", "the same of the posterior leaflet"]
     anterior_length: Annotated[
-        float, "m", "from annulus to coaptation along the closed leaflet, central AP plane"
+        float, "m", "from annulus to coaptation along the closed leaflet, in the same way"
     ]
     posterior_length: Annotated[float, "m", "the same of the posterior leaflet"]
     length_ratio: Annotated[float, "1", "anterior over posterior length to coaptation"]

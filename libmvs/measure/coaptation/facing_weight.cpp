@@ -96,6 +96,15 @@ void FacingWeight::list_candidates() {
   }
 }
 
+void FacingWeight::leave_out_gathered_tissue(const Seams &seams) {
+  const size_t leaflets = model_.valve.leaflets.size();
+  if (seams.nodes.empty() || leaflets < 2) return;
+  faces_others_only_.assign(leaflets, 0);
+  for (const std::vector<uint32_t> &seam : seams.nodes) {
+    faces_others_only_[leaflet_of_seam(model_, seam)] = 1;
+  }
+}
+
 bool FacingWeight::begin(uint32_t triangle) {
   triangle_ = triangle;
   return first_candidate_[triangle] < first_candidate_[triangle + 1];
@@ -139,6 +148,7 @@ void FacingWeight::for_each_faced(const FacingPoints &points, Visit visit) {
   pairs_.count = 0;
   for (uint32_t i = first_candidate_[triangle_]; i < first_candidate_[triangle_ + 1]; ++i) {
     const uint32_t t = candidate_[i].triangle;
+    if (leaves_out(t)) continue;
     const Tri &c = model_.valve.triangles[t];
     const Vec3 a = x_[c[0]], b = x_[c[1]], d = x_[c[2]];
     mark_near(bounds_[t], points, limit * limit, near);

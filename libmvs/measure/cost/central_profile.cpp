@@ -9,11 +9,11 @@
 namespace mvs::core {
 namespace {
 
-// The plane through the centre of the annulus across its CC axis.
+// A plane across the CC axis, at a distance from the centre of the annulus.
 class CentralPlane {
  public:
-  CentralPlane(const Model &model, const std::vector<Vec3> &x)
-      : x_(x), frame_(valve_frame(model, x)) {}
+  CentralPlane(const Model &model, const std::vector<Vec3> &x, double offset)
+      : x_(x), frame_(valve_frame(model, x)), offset_(offset) {}
 
   // A node on the plane counts as in front of it, so that each triangle is cut twice or not at all.
   bool cuts(const Edge &edge) const { return (across(edge[0]) < 0) != (across(edge[1]) < 0); }
@@ -24,10 +24,11 @@ class CentralPlane {
   double towards_anterior(const Vec3 &p) const { return frame_.local(p)[0]; }
 
  private:
-  double across(uint32_t node) const { return frame_.local(x_[node])[1]; }
+  double across(uint32_t node) const { return frame_.local(x_[node])[1] - offset_; }
 
   const std::vector<Vec3> &x_;
   Frame frame_;
+  double offset_;
 };
 
 // The annulus edge of the leaflet that the plane cuts, the outermost one; `none` without one.
@@ -63,9 +64,9 @@ uint32_t exit_of(const Topology &topology, const CentralPlane &plane, uint32_t t
 }  // namespace
 
 std::vector<ProfilePiece> central_profile(const Model &model, const std::vector<Vec3> &x,
-                                          bool anterior) {
+                                          bool anterior, double offset) {
   const Topology &topology = model.topology;
-  const CentralPlane plane(model, x);
+  const CentralPlane plane(model, x, offset);
   std::vector<ProfilePiece> profile;
   uint32_t edge = first_edge(model, plane, anterior);
   if (edge == none) return profile;

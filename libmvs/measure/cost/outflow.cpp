@@ -1,19 +1,23 @@
 #include "measure/cost/outflow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "measure/coaptation/coaptation_parts.h"
 #include "measure/coaptation/facing_weight.h"
 #include "measure/cost/central_profile.h"
+#include "measure/cost/section_planes.h"
 
 namespace mvs::core {
 namespace {
 
+constexpr double unknown_length = std::numeric_limits<double>::quiet_NaN();
+
 // The first point of a profile that faces other tissue with a weight of at least one half, as in
 // central_section, and the length up to it.
 struct Begin {
-  double length = std::numeric_limits<double>::quiet_NaN();
+  double length = unknown_length;
   std::optional<Vec3> point;
 };
 
@@ -45,6 +49,57 @@ Begin find_coaptation(const Model &model, const std::vector<ProfilePiece> &profi
   return {};
 }
 
+// The weighted mean of those values that are known; NaN without any.
+class MeanOfKnown {
+ public:
+  void add(double value, double weight) {
+    if (std::isnan(value)) return;
+    sum_ += weight * value;
+    weight_ += weight;
+  }
+  double value() const { return weight_ > 0 ? sum_ / weight_ : unknown_length; }
+
+ private:
+  double sum_ = 0, weight_ = 0;
+};
+
+double height_of(const Model &model, const Seams &seams, bool anterior) {
+  const std::vector<Vec3> &rest = model.valve.rest;
+  const SeamsOf leaflets = anterior ? SeamsOf::anterior : SeamsOf::posterior;
+  MeanOfKnown height;
+  for (const auto &[offset, weight] : section_planes(model, rest, seams, leaflets)) {
+    height.add(length_of(central_profile(model, rest, anterior, offset)), weight);
+  }
+  return height.value();
+}
+
+// Where the coaptation begins on both leaflets in one plane.
+struct Section {
+  Begin anterior, posterior;
+  double weight;
+  bool coapts() const { return anterior.point && posterior.point; }
+};
+
+// One section, or one on either side of a seam. Where only one of these coapts, it stands for both:
+// the lengths of both leaflets are to be of the same places.
+std::vector<Section> sections_of(const Model &model, const std::vector<Vec3> &x,
+                                 const Seams &seams) {
+  const Surface surface = surface_of(model.valve.triangles, x);
+  const FacingTree tree(model, x, surface);
+  FacingWeight facing(model, x, surface, tree);
+  facing.leave_out_gathered_tissue(seams);
+  std::vector<Section> sections;
+  for (const auto &[offset, weight] : section_planes(model, x, seams, SeamsOf::both)) {
+    sections.push_back({find_coaptation(model, central_profile(model, x, true, offset), facing),
+                        find_coaptation(model, central_profile(model, x, false, offset), facing),
+                        weight});
+  }
+  if (std::ranges::any_of(sections, &Section::coapts)) {
+    std::erase_if(sections, [](const Section &section) { return !section.coapts(); });
+  }
+  return sections;
+}
+
 }  // namespace
 
 double Outflow::distance_to(const std::vector<Vec3> &septum) const {
@@ -55,18 +110,20 @@ double Outflow::distance_to(const std::vector<Vec3> &septum) const {
 }
 
 Outflow measure_outflow(const Model &model, const std::vector<Vec3> &x) {
-  const Surface surface = surface_of(model.valve.triangles, x);
-  const FacingTree tree(model, x, surface);
-  FacingWeight facing(model, x, surface, tree);
-  const Begin anterior = find_coaptation(model, central_profile(model, x, true), facing);
-  const Begin posterior = find_coaptation(model, central_profile(model, x, false), facing);
-  const std::vector<Vec3> &rest = model.valve.rest;
-  Outflow outflow = {length_of(central_profile(model, rest, true)),
-                     length_of(central_profile(model, rest, false)), anterior.length,
-                     posterior.length, std::nullopt};
-  if (anterior.point && posterior.point) {
-    outflow.coaptation = 0.5 * (*anterior.point + *posterior.point);
+  const Seams seams = find_seams(model);
+  MeanOfKnown anterior, posterior;
+  Vec3 sum = Vec3::Zero();
+  double weight = 0;
+  for (const Section &section : sections_of(model, x, seams)) {
+    anterior.add(section.anterior.length, section.weight);
+    posterior.add(section.posterior.length, section.weight);
+    if (!section.coapts()) continue;
+    sum += section.weight * 0.5 * (*section.anterior.point + *section.posterior.point);
+    weight += section.weight;
   }
+  Outflow outflow = {height_of(model, seams, true), height_of(model, seams, false),
+                     anterior.value(), posterior.value(), std::nullopt};
+  if (weight > 0) outflow.coaptation = sum / weight;
   return outflow;
 }
 

@@ -9,7 +9,8 @@
 
 namespace mvs::core {
 
-// In the central AP plane; NaN where the plane finds no leaflet or no coaptation.
+// In the central AP plane, or beside a seam there (section_planes.h): then means of both sides. NaN
+// where the plane finds no leaflet or no coaptation.
 struct Outflow {
   double anterior_height, posterior_height;  // m, annulus to free edge, in the rest shape
   double anterior_length, posterior_length;  // m, annulus to the coaptation, in the present shape

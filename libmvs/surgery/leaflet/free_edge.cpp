@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "geometry/distance.h"
-#include "surgery/leaflet/seams.h"
+#include "model/seams.h"
 #include "surgery/leaflet/sheet_map.h"
 
 namespace mvs::core {

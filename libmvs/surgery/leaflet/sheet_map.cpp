@@ -7,7 +7,7 @@
 
 #include "base/math.h"
 #include "measure/annulus/frame.h"
-#include "surgery/leaflet/seams.h"
+#include "model/seams.h"
 
 namespace mvs::core {
 namespace {

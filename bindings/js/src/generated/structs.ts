@@ -614,11 +614,14 @@ export interface Cost {
   open_area: number;
   /** Pa, mean pressure drop of the flow through open_area */
   gradient: number;
-  /** m, tissue from annulus to free edge, unloaded, central AP plane */
+  /**
+   * m, tissue from annulus to free edge, unloaded, central AP plane or, with a seam there, beside
+   * it
+   */
   anterior_height: number;
   /** m, the same of the posterior leaflet */
   posterior_height: number;
-  /** m, from annulus to coaptation, closed, central AP plane */
+  /** m, from annulus to coaptation, closed, in the same way */
   anterior_length: number;
   /** m, the same of the posterior leaflet */
   posterior_length: number;

@@ -1,5 +1,5 @@
 // Follows sutures from the node where the two sides of a cut part.
-#include "surgery/leaflet/seams.h"
+#include "model/seams.h"
 
 namespace mvs::core {
 namespace {
@@ -25,16 +25,23 @@ Seams find_seams(const Model &model) {
       uint32_t c = suture_between(model, loop[(turn + n - 1) % n], loop[(turn + 1) % n]);
       if (c == none) continue;
       seams.inside[loop[turn]] = 1;
+      std::vector<uint32_t> &nodes = seams.nodes.emplace_back(std::vector{loop[turn]});
+      nodes.insert(nodes.end(), {chords[c].a, chords[c].b});
       for (size_t k = 2; 2 * k < n; ++k) {
         const uint32_t next = suture_between(model, loop[(turn + n - k) % n], loop[(turn + k) % n]);
         if (next == none) break;
         seams.inside[chords[c].a] = seams.inside[chords[c].b] = 1;
         seams.sutures.push_back(c);
         c = next;
+        nodes.insert(nodes.end(), {chords[c].a, chords[c].b});
       }
     }
   }
   return seams;
+}
+
+uint32_t leaflet_of_seam(const Model &model, const std::vector<uint32_t> &nodes) {
+  return model.valve.triangle_leaflet[model.topology.node_triangles[nodes[0]][0]];
 }
 
 }  // namespace mvs::core
