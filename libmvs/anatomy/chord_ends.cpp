@@ -70,16 +70,31 @@ std::vector<uint32_t> ChordTree::reached(const Chord &chord, bool up) const {
   return queue;
 }
 
+// The part of a scallop in the triangles around a node. Of equal counts the larger area wins: the
+// order of scallops would treat the two sides of a symmetric valve differently.
+struct Vote {
+  uint32_t triangles = 0;
+  double area = 0;
+
+  bool operator<(const Vote &other) const {
+    return triangles != other.triangles ? triangles < other.triangles : area < other.area;
+  }
+};
+
 // The scallop of each node that holds a chord: its index, by node.
 std::map<uint32_t, uint32_t> scallops_of_nodes(const Model &model) {
   const Valve &valve = model.valve;
   std::map<uint32_t, uint32_t> found;
   for (uint32_t node = 0; node < model.node_count(); ++node) {
     if (model.topology.node_chords[node].empty()) continue;
-    std::vector<uint32_t> votes(valve.scallops.size());
-    for (const uint32_t t : model.topology.node_triangles[node]) ++votes[valve.triangle_scallop[t]];
+    std::vector<Vote> votes(valve.scallops.size());
+    for (const uint32_t t : model.topology.node_triangles[node]) {
+      Vote &vote = votes[valve.triangle_scallop[t]];
+      ++vote.triangles;
+      vote.area += model.rest_area[t];
+    }
     const auto most = std::max_element(votes.begin(), votes.end());
-    if (most != votes.end() && *most > 0) {
+    if (most != votes.end() && most->triangles > 0) {
       found[node] = static_cast<uint32_t>(most - votes.begin());
     }
   }

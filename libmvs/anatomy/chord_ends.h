@@ -15,7 +15,8 @@ struct ChordEnds {
 };
 
 // Heads are the roots of the chordae, nodes of the leaflets their ends. A node between scallops
-// belongs to the one with most of its triangles, or the first of these.
+// belongs to the one with most of its triangles, of these to the one with most of their area at
+// rest.
 ChordEnds find_chord_ends(const Model &model);
 
 }  // namespace mvs::core

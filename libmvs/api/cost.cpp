@@ -39,6 +39,12 @@ CostOptions read_options(const mvs_cost_options *options) {
   given.density = or_default(given.density, 1060, 500, 2000, "options.density");
   given.discharge = or_default(given.discharge, 0.85, 0.1, 1, "options.discharge");
   read.septum = read_points(given.septum, "options.septum");
+  for (size_t k = 0; k < read.septum.size(); ++k) {
+    const Vec3 &p = read.septum[k];
+    MVS_MUST(p.allFinite(), MVS_E_ARGUMENT, "options.septum",
+             "options.septum: point %zu is (%g, %g, %g): all coordinates have to be finite", k,
+             p[0], p[1], p[2]);
+  }
   const double extent = aabb_of(read.septum).longest_side();
   MVS_MUST(read.septum.size() < 2 || extent >= least_septum, MVS_E_ARGUMENT, "options.septum",
            "options.septum: its %zu points lie within %.3g m: give points of the septum in m (to "

@@ -14,7 +14,8 @@ namespace {
 
 void check_workers(const mvs_sim_desc &how) {
   MVS_MUST(how.workers <= MVS_MAX_WORKERS, MVS_E_ARGUMENT, "desc.workers",
-           "desc.workers is %u: it has to be at most %d, and no more than the processor has cores",
+           "desc.workers is %u: it has to be at most %d; more than the processor has cores gain "
+           "nothing",
            how.workers, MVS_MAX_WORKERS);
   must_be_zero(how.reserved, "desc.reserved");
   MVS_MUST((how.pool_width == nullptr) == (how.run_tasks == nullptr), MVS_E_ARGUMENT,

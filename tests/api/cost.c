@@ -202,6 +202,10 @@ static void bad_input_changes_nothing(void) {
   points.septum = packed(tiny, 2, 3, MVS_TYPE_F64);
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
             "options.septum");
+  const double broken[2][3] = {{20e-3, 0, -10e-3}, {20e-3, NAN, -10e-3}};
+  points.septum = packed(broken, 2, 3, MVS_TYPE_F64);
+  MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
+            "point 1 is");
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &stop, &cost, &opened), MVS_E_CANCELLED, "");
   MUST_FAIL(mvs_snapshot_measure_cost(NULL, NULL, &cost, NULL), MVS_E_ARGUMENT, "snapshot");
   CHECK(cost.rings == 77 && opened == NULL);

@@ -234,7 +234,7 @@ static void simulators_have_workers_of_their_own(void) {
 static void impossible_workers_are_refused(void) {
   mvs_sim *sim = NULL;
   mvs_sim_desc desc = {.struct_size = sizeof desc, .workers = MVS_MAX_WORKERS + 1};
-  MUST_FAIL(mvs_create(&desc, &sim), MVS_E_ARGUMENT, "at most 256");
+  MUST_FAIL(mvs_create(&desc, &sim), MVS_E_ARGUMENT, "at most 256; more than");
   desc.workers = UINT32_MAX;
   MUST_FAIL(mvs_create(&desc, &sim), MVS_E_ARGUMENT, "4294967295");
   desc.workers = 0;

@@ -42,6 +42,17 @@ class Chords(Shell):
                 # a chord at the border of two scallops may end on a vertex of the other one
                 self.assertEqual(row["site"][0], row["name"][0])
 
+    def test_mirrored_chordae_have_mirrored_sites(self):
+        def mirrored(text):
+            return re.sub(r"(?<=[AP])[13]", lambda found: "13"[found[0] == "1"], text)
+
+        self.ok("generate", "-o", "even.obj")  # mirrors itself, with vertices between scallops
+        site = {row["name"]: set(row["site"].split("+")) for row in self.rows(file="even.obj")}
+        sides = [name for name in site if name[1] in "13"]
+        self.assertGreater(len(sides), 40)
+        for name in sides:
+            self.assertEqual(site[mirrored(name)], {mirrored(part) for part in site[name]}, name)
+
     def test_a_chord_ends_at_the_site_where_it_was_tied(self):
         self.ok("op", "closed.obj", "neochord", "--head", "PM1", "--site", "P2:0.5:0.9", "--name",
                 "loop", "-o", "tied.obj")

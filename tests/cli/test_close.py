@@ -42,6 +42,14 @@ class Close(Command):
         self.assertIn("(no grade: not at rest)", self.ok("measure", "early.obj").stdout)
         self.ok(*early, "--allow-unsettled")
 
+    def test_numbers_that_are_none_are_named_in_short(self):
+        said = self.misused("close", "v.obj", "--pressure", "nan")
+        self.assertEqual(said.splitlines()[0],
+                         "--pressure: nan is no number: pressures are in mmHg, 120 in systole")
+        for given in ("inf", "nan", 0, -1):
+            said = self.misused("close", "v.obj", "--dt", given)
+            self.assertEqual(said.splitlines()[0], f"--dt: a number above 0 is needed, not {given}")
+
     def test_measure_prints_only_the_groups_asked_for(self):
         whole = self.json("measure", "closed.obj")
         some = self.json("measure", "closed.obj", "--only", "orifice,coaptation")

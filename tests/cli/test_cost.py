@@ -50,6 +50,21 @@ class Cost(Shell):
         self.assertRegex(done.stdout, r"^v\.obj: under no pressure, not at rest; opened by 5 mmHg\n")
         self.assertIn("warning: v.obj is under no pressure", done.stderr)
 
+    def test_an_open_valve_is_not_said_to_be_closed(self):
+        self.ok("cost", "closed.obj", "-o", "opened.obj")
+        done = mvs("cost", "opened.obj", cwd=self.dir)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"^opened\.obj: open under -5 mmHg, at rest; opened by 5 mmHg\n")
+        self.assertIn("warning: opened.obj is open under -5 mmHg: figures of the closed valve", done.stderr)
+
+    def test_a_point_of_the_septum_that_is_no_number_is_named_by_its_line(self):
+        cost = ("cost", "closed.obj", "--septum", "broken.txt")
+        for line in ("60, nan, -10", "inf 0 0"):
+            (self.dir / "broken.txt").write_text(f"60, 0, -10\n{line}\n")
+            self.refused(1, "broken.txt:2: needs three numbers", *cost)
+            (self.dir / "broken.txt").write_text(f"{line}\n60, 0, -10\n")
+            self.refused(1, "broken.txt:1: needs three numbers", *cost)
+
     def test_wrong_input_is_named(self):
         sweep = ("sweep", "v.obj", "--op", "ring size=28", "--csv", "u.csv")
         self.refused(1, "none.txt", "cost", "closed.obj", "--septum", "none.txt")

@@ -13,6 +13,11 @@ struct CommandOptions {
   CostOptions cost;
 };
 
+std::string words_of_load(double pressure) {
+  if (pressure == 0) return "under no pressure";
+  return text(pressure > 0 ? "closed under %g mmHg" : "open under %g mmHg", pressure / pa_per_mmhg);
+}
+
 void run_cost(const CommandOptions &options, Console &console) {
   const mvs::Snapshot closed = load(options.file);
   const CostMeter meter(options.cost);
@@ -20,15 +25,12 @@ void run_cost(const CommandOptions &options, Console &console) {
   const mvs::Cost cost = meter.of(closed, &progress);
   if (!options.out.empty()) cost.opened.save(options.out);
   const double pressure = closed.load().pressure;
-  if (pressure == 0) {
-    std::fprintf(
-        stderr,
-        "mvs: warning: %s is under no pressure: figures of the closed valve are meaningless; "
-        "close it first: mvs close %s -o closed.h5\n",
-        options.file.c_str(), options.file.c_str());
+  if (!(pressure > 0)) {
+    std::fprintf(stderr,
+                 "mvs: warning: %s is %s: figures of the closed valve are meaningless; "
+                 "close it first: mvs close %s -o closed.h5\n",
+                 options.file.c_str(), words_of_load(pressure).c_str(), options.file.c_str());
   }
-  const std::string under =
-      pressure == 0 ? "under no pressure" : text("closed under %g mmHg", pressure / pa_per_mmhg);
   const std::string state = closed.at_rest() ? "at rest" : "not at rest";
   print(console,
         {{"file", options.file},
@@ -36,8 +38,8 @@ void run_cost(const CommandOptions &options, Console &console) {
          {"diastole_mmHg", options.cost.diastole_mmhg},
          {"at_rest", closed.at_rest()},
          {"cost", cost_json(cost.figures)}},
-        text("%s: %s, %s; opened by %g mmHg\n", options.file.c_str(), under.c_str(), state.c_str(),
-             options.cost.diastole_mmhg) +
+        text("%s: %s, %s; opened by %g mmHg\n", options.file.c_str(),
+             words_of_load(pressure).c_str(), state.c_str(), options.cost.diastole_mmhg) +
             cost_text(cost.figures));
   if (cost.figures.opened == 0) {
     std::fprintf(stderr, "mvs: warning: the open valve did not come to rest: no open area\n");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 
 #include "valve/host.h"
@@ -87,12 +88,15 @@ std::vector<std::array<double, 3>> read_points_file(const std::string &path) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.find_first_not_of(" \t") == std::string::npos || line[0] == '#') continue;
     std::array<double, 3> row;
-    if (read_row(line, row)) {
-      points.push_back(row);
-    } else if (number > 1) {
+    // the first line may be a heading
+    const bool is_row = read_row(line, row);
+    if (!is_row && number == 1) continue;
+    if (!is_row ||
+        !std::all_of(row.begin(), row.end(), [](double x) { return std::isfinite(x); })) {
       fail(MVS_E_FORMAT, path,
            path + ":" + std::to_string(number) + ": needs three numbers in mm: x, y, z", number);
     }
+    points.push_back(row);
   }
   if (file.bad() || points.empty()) {
     fail(MVS_E_FORMAT, path, path + " has no points: it needs three numbers per line, in mm");

@@ -11,12 +11,14 @@
 
 namespace cli {
 
-// An error sentence for a pressure above the limit of the library, such as one given in Pa; else
-// "".
+// An error sentence for a pressure above the limit of the library, such as one given in Pa, or for
+// no number; else "".
 inline std::string wrong_pressure(const std::string &given) {
   constexpr double limit_mmhg = 3000;  // of mvs_set_load
   // strtod takes numbers out of range as infinite; the option has refused other words before
-  if (std::abs(std::strtod(given.c_str(), nullptr)) <= limit_mmhg) return "";
+  const double pressure = std::strtod(given.c_str(), nullptr);
+  if (std::isnan(pressure)) return given + " is no number: pressures are in mmHg, 120 in systole";
+  if (std::abs(pressure) <= limit_mmhg) return "";
   return given + " mmHg is above 3000: pressures are in mmHg, 120 in systole";
 }
 
