@@ -28,8 +28,31 @@ def test_the_septum_gives_a_distance_and_a_risk(closed):
         assert 0 < cost.septal_distance < away + 30e-3
     with pytest.raises(mvs.ArgumentError, match="septum"):
         closed.cost(septum=np.zeros((2, 2)))
+    with pytest.raises(mvs.ArgumentError, match=r"point 1 is \(0\.02, nan, 0\)"):
+        closed.cost(septum=np.array([[20e-3, 0, 0], [20e-3, np.nan, 0]]))
     with pytest.raises(mvs.ArgumentError, match="pressure"):
         closed.cost(pressure_pa=-5.0)
+
+
+@pytest.mark.filterwarnings("ignore::mvs.ValveWarning")
+def test_a_resection_changes_neither_the_risk_nor_the_height_of_the_leaflet():
+    costs = []
+    for resected in ({}, {"width": 5e-3}, {"width": 8e-3, "base_width": 5e-3}):
+        with mvs.Simulator() as sim:
+            sim.generate()
+            if resected:
+                sim.apply("resect", **resected)
+            sim.set_load(mvs.SYSTOLE_PA)
+            assert sim.settle().converged
+            valve = sim.snapshot()
+            septum = valve.frame.origin + [[60e-3, 0, -10e-3]] @ valve.frame.axes
+            costs.append(valve.cost(septum=septum))
+    for cost in costs:
+        assert cost.sam_risk is mvs.SamRisk.LOW
+        # 2.8 mm from the annulus to the seam
+        assert cost.posterior_height == pytest.approx(costs[0].posterior_height, abs=1.1e-3)
+        # 11.5 with the strip of the quadrangle taken for coaptation
+        assert 1.3 < cost.length_ratio < 2.6
 
 
 def test_the_annulus_bears_the_forces_on_its_nodes(closed):
