@@ -17,39 +17,39 @@
 namespace mvs::core {
 namespace {
 
-using Side = std::array<Vec3, 2>;
+using CurveSide = std::array<Vec3, 2>;
 
 // m: a point of the annulus moves at most so far to a rim of the leaflets: free edges, and the far
 // sides of gaps in a rim, are 8 mm away and more but beside the commissures.
-constexpr double farthest = 6e-3;
-// A point counts if it is at most 2.5 times as far from the rims as the median (normal errors: 91 %
-// of them), or a millimetre, a voxel and a half of ultrasound.
-constexpr double usual_share = 2.5, usual = 1e-3;
+constexpr double farthest_rim = 6e-3;
+// A point counts if it is at most 2.5 times as far from the rims as the median_distance (normal
+// errors: 91 % of them), or a millimetre, a voxel and a half of ultrasound.
+constexpr double usual_rim_share = 2.5, usual_rim = 1e-3;
 // Share of the annulus that has to lie on rims.
 constexpr double least_seen = 0.65;
 // m: spread of the points along an axis from which on their stretch along it counts. In its plane
 // the annulus spreads five times as far (RMS), so that a stretch is found to 4 %; across it, by the
 // height of the saddle, a stretch would follow the errors of the rims.
 constexpr double least_spread = 2e-3;
-constexpr int most_rounds = 30;
-constexpr double least_step = 1e-6;  // m
+constexpr int most_motion_rounds = 30;
+constexpr double least_motion_step = 1e-6;  // m
 // m, RMS: errors of rims from images make as much.
 constexpr double no_motion = 0.25e-3;
 // Norm of the stretch: normal annuli change their diameters by 5 to 15 % in a beat, and 0.4 is 28 %
 // of both.
 constexpr double most_stretch = 0.4;
-constexpr double spacing = 1e-3;  // m, of the points of a given curve
+constexpr double curve_spacing = 1e-3;  // m, of the points of a given curve
 constexpr double confidence_of_rims = 0.6;
 
-std::vector<Side> sides_of(const std::vector<Vec3> &curve) {
-  std::vector<Side> sides;
+std::vector<CurveSide> sides_of(const std::vector<Vec3> &curve) {
+  std::vector<CurveSide> sides;
   for (size_t k = 0; k < curve.size(); ++k)
     sides.push_back({curve[k], curve[(k + 1) % curve.size()]});
   return sides;
 }
 
 // Sides of triangles that have one triangle.
-std::vector<Side> rims_of(const ClosedSurface &closed) {
+std::vector<CurveSide> rims_of(const ClosedSurface &closed) {
   const ClosedPieces pieces = closed_pieces(closed.points, closed.triangles);
   std::map<Edge, uint32_t> count;
   for (const Tri &t : closed.triangles) {
@@ -58,17 +58,17 @@ std::vector<Side> rims_of(const ClosedSurface &closed) {
       if (a != b) ++count[{std::min(a, b), std::max(a, b)}];
     }
   }
-  std::vector<Side> rims;
+  std::vector<CurveSide> rims;
   for (const auto &[edge, triangles] : count) {
     if (triangles == 1) rims.push_back({closed.points[edge[0]], closed.points[edge[1]]});
   }
   return rims;
 }
 
-Vec3 nearest_on(const std::vector<Side> &sides, const Vec3 &p) {
+Vec3 nearest_on_sides(const std::vector<CurveSide> &sides, const Vec3 &p) {
   Vec3 best = p;
   double least = HUGE_VAL;
-  for (const Side &side : sides) {
+  for (const CurveSide &side : sides) {
     const SegmentPoint at = closest_on_segment(p, side[0], side[1]);
     const Vec3 q = side[0] + at.s * (side[1] - side[0]);
     const double distance2 = (q - p).squaredNorm();
@@ -79,7 +79,7 @@ Vec3 nearest_on(const std::vector<Side> &sides, const Vec3 &p) {
   return best;
 }
 
-double median(std::vector<double> values) {
+double median_distance(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -122,20 +122,21 @@ struct Meeting {
 };
 
 // Iterative closest points.
-Meeting meet(const std::vector<Vec3> &annulus, const Vec3 &centre, const std::vector<Side> &sides,
-             double reach) {
+Meeting meet(const std::vector<Vec3> &annulus, const Vec3 &centre,
+             const std::vector<CurveSide> &sides, double reach) {
   std::vector<Vec3> around;  // relative to the centre
   for (const Vec3 &p : annulus) around.push_back(p - centre);
   Meeting found;
-  for (int round = 0; round < most_rounds; ++round) {
+  for (int round = 0; round < most_motion_rounds; ++round) {
     std::vector<Vec3> to;
     std::vector<double> away;
     for (const Vec3 &p : around) {
       const Vec3 here = centre + p + found.motion.stretch * p + found.motion.shift;
-      to.push_back(nearest_on(sides, here));
+      to.push_back(nearest_on_sides(sides, here));
       away.push_back((to.back() - here).norm());
     }
-    const double most = std::min(reach, std::max(usual, usual_share * median(away)));
+    const double most =
+        std::min(reach, std::max(usual_rim, usual_rim_share * median_distance(away)));
     std::vector<Vec3> from, step;
     double sum = 0;
     for (size_t k = 0; k < around.size(); ++k) {
@@ -155,7 +156,7 @@ Meeting meet(const std::vector<Vec3> &annulus, const Vec3 &centre, const std::ve
       largest = std::max(largest, change.norm());
     }
     found.motion = next;
-    if (largest < least_step) break;
+    if (largest < least_motion_step) break;
   }
   return found;
 }
@@ -175,8 +176,9 @@ std::string words_of(const std::vector<Vec3> &annulus, const AnnulusMotion &moti
       sum / static_cast<double>(annulus.size()) * 1e3, most * 1e3, loaded * 1e3, length * 1e3);
 }
 
-void report(const std::vector<Vec3> &annulus, const AnnulusMotion &motion, FindingSource source,
-            double confidence, std::string sentence, Findings &findings) {
+void report_loaded_annulus(const std::vector<Vec3> &annulus, const AnnulusMotion &motion,
+                           FindingSource source, double confidence, std::string sentence,
+                           Findings &findings) {
   findings.push_back({"closed_annulus", source, confidence, std::move(sentence), {}, ""});
   std::vector<Vec3> loaded;
   for (const Vec3 &p : annulus) loaded.push_back(motion(p));
@@ -225,17 +227,17 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
   AnnulusMotion motion;
   if (given.empty() && closed.triangles.empty()) return motion;
   for (const Vec3 &p : annulus) motion.centre_ += p / static_cast<double>(annulus.size());
-  const std::vector<Vec3> through = annulus_through(given, spacing);
+  const std::vector<Vec3> through = annulus_through(given, curve_spacing);
   if (!given.empty()) {
     MVS_MUST(!through.empty(), MVS_E_ARGUMENT, "closed_annulus",
              "the %zu points of closed_annulus are no curve around the annulus: give six or more "
              "all around it",
              given.size());
   }
-  const std::vector<Side> sides = given.empty() ? rims_of(closed) : sides_of(through);
+  const std::vector<CurveSide> sides = given.empty() ? rims_of(closed) : sides_of(through);
   Meeting met;
   if (!sides.empty()) {
-    met = meet(annulus, motion.centre_, sides, given.empty() ? farthest : HUGE_VAL);
+    met = meet(annulus, motion.centre_, sides, given.empty() ? farthest_rim : HUGE_VAL);
   }
   motion.moves_ = is_plausible(met);
   motion.stretch_ = met.motion.stretch;
@@ -247,31 +249,35 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
         "theirs, and %.0f %% of it meets the curve; are both in one frame (LPS or RAS), and of "
         "one patient?",
         met.motion.shift.norm() * 1e3, 100 * met.seen);
-    report(annulus, motion, FindingSource::given, 1,
-           "the annulus moves onto the given curve, by " + words_of(annulus, motion), findings);
+    report_loaded_annulus(annulus, motion, FindingSource::given, 1,
+                          "the annulus moves onto the given curve, by " + words_of(annulus, motion),
+                          findings);
     return motion;
   }
   if (!motion.moves()) {
-    report(annulus, motion, FindingSource::assumed, 0.3,
-           "the annulus is taken to stay under load: too little of it lies near rims of the closed "
-           "surface; give points along the loaded annulus",
-           findings);
+    report_loaded_annulus(
+        annulus, motion, FindingSource::assumed, 0.3,
+        "the annulus is taken to stay under load: too little of it lies near rims of the closed "
+        "surface; give points along the loaded annulus",
+        findings);
     return motion;
   }
   double sum = 0;
   for (const Vec3 &p : annulus) sum += (motion(p) - p).squaredNorm();
   if (std::sqrt(sum / static_cast<double>(annulus.size())) < no_motion) {
     motion.moves_ = false;
-    report(annulus, motion, FindingSource::measured, confidence_of_rims,
-           "the annulus stays under load: rims of the closed surface lie on it", findings);
+    report_loaded_annulus(annulus, motion, FindingSource::measured, confidence_of_rims,
+                          "the annulus stays under load: rims of the closed surface lie on it",
+                          findings);
     return motion;
   }
-  report(annulus, motion, FindingSource::measured, confidence_of_rims,
-         "the annulus moves to rims of the closed surface, by " + words_of(annulus, motion) +
-             format("; %.2f mm (RMS) remain on %.0f %% of it; give points along the loaded annulus "
-                    "if they are known",
-                    met.rms * 1e3, 100 * met.seen),
-         findings);
+  report_loaded_annulus(
+      annulus, motion, FindingSource::measured, confidence_of_rims,
+      "the annulus moves to rims of the closed surface, by " + words_of(annulus, motion) +
+          format("; %.2f mm (RMS) remain on %.0f %% of it; give points along the loaded annulus "
+                 "if they are known",
+                 met.rms * 1e3, 100 * met.seen),
+      findings);
   return motion;
 }
 

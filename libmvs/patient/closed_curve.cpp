@@ -11,7 +11,7 @@ namespace mvs::core {
 namespace {
 
 // Share of a lap over which differences from even places are averaged, on both sides.
-constexpr double window = 0.125;
+constexpr double averaging_share = 0.125;
 
 }  // namespace
 
@@ -66,7 +66,7 @@ std::vector<double> places_along(const ClosedCurve &curve, const std::vector<Vec
   for (size_t k = 0; k < n; ++k) {
     double sum = 0, weight = 0;
     for (size_t j = 0; j < n; ++j) {
-      const double away = std::abs(around(even[k], even[j], lap)) / (window * lap);
+      const double away = std::abs(around(even[k], even[j], lap)) / (averaging_share * lap);
       if (away >= 1) continue;
       sum += (1 - away) * off[j];
       weight += 1 - away;
