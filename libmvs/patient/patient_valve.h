@@ -16,7 +16,7 @@ double edge_for(const LeafletSheet &sheet, double vertices);
 // findings.
 PatientGeometry patient_geometry(const MidSheet &mid, double edge, Findings &findings);
 
-// What holds the leaflets, at rest and under load.
+// Annulus and papillary tips, at rest and under load.
 struct Boundary {
   AnnulusMotion annulus;
   PapillaryTips tips;

@@ -107,7 +107,7 @@ class SurfaceImport(unittest.TestCase):
         self.assertEqual(again["hash"], first["hash"])
         before, after = ({row["name"]: (row["source"], row["confidence"]) for row in made["findings"]}
                          for made in (first, again))
-        for name in ("commissures", "anterior", "thickness", "papillary_tips"):  # nobody has vouched for them
+        for name in ("commissures", "anterior", "thickness", "papillary_tips"):  # unedited
             self.assertIn(before[name][0], ("guessed", "assumed"))
             self.assertEqual(after[name], before[name])
         self.assertEqual(after["edge_error"][0], "given")  # by the option

@@ -26,7 +26,7 @@ mvs_finding_source source_of(const std::string &name) {
   return 0;
 }
 
-// Of the bits of the values (FNV-1a), by which an edited row is known.
+// A digest of the bits of the values (FNV-1a): an edited row has another one.
 std::string digest_of(const std::vector<double> &values) {
   uint64_t hash = 14695981039346656037u;
   for (const double value : values) {

@@ -25,7 +25,7 @@ struct KnownValues {
   std::vector<double> closed_annulus, closed_tips;                     // the same
   std::vector<double> thickness, edge_error, edge_lost, thickness_error;  // one each, m
   std::vector<double> tissue;                                             // one, MVS_LEAFLET_LAW_*
-  // guesses and assumptions of the file whose values nobody has edited, by name
+  // guesses and assumptions of the file with unedited values, by name
   std::map<std::string, mvs::BuildFinding> unsure;
 };
 

@@ -45,7 +45,7 @@ def write_findings(path: Union[str, "os.PathLike[str]"], source: str,
 
 
 def _digest(values: Sequence[float]) -> str:
-    """Of the bits of the values (FNV-1a), by which an edited row is known, as `mvs import` writes it."""
+    """A digest of the bits of the values (FNV-1a), as `mvs import` writes it: an edited row has another one."""
     known = 14695981039346656037
     for byte in np.asarray(values, "<f8").tobytes():
         known = (known ^ byte) * 1099511628211 % 2**64
@@ -54,8 +54,8 @@ def _digest(values: Sequence[float]) -> str:
 
 def keep_doubts(path: Union[str, "os.PathLike[str]"], given: Iterable[str],
                 findings: Iterable[mvs.Finding]) -> tuple[mvs.Finding, ...]:
-    """Findings of a build with the values of a file: what was guessed or assumed there and not edited keeps its source,
-    confidence and doubt, though the build takes it for given. `given`: names that options give."""
+    """Findings of a build with the values of a file. Unedited guesses and assumptions of the file keep their source,
+    confidence and doubt, though the build takes them for given. `given`: names that options give."""
     with open(path, encoding="utf-8") as file:
         rows = {row["name"]: row for row in json.load(file)["findings"]
                 if row["source"] not in ("given", "measured") and row.get("unedited") == _digest(row["values"])}

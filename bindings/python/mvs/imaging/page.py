@@ -73,7 +73,7 @@ def page_of(made: ImageValve, source: str) -> str:
 
 
 def _warnings(made: ImageValve) -> str:
-    """What contradicts the image or normal anatomy, as the command prints it."""
+    """The doubtful findings, as the command prints them."""
     rows = [f"<li><strong>{html.escape(one.name)}</strong> ({100 * one.confidence:.0f} % sure): {html.escape(one.sentence)}</li>"
             for one in made.findings if one.doubtful]
     return f'<div class="warning"><strong>Look at these first:</strong><ul>{"".join(rows)}</ul></div>' if rows else ""
