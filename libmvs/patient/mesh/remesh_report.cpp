@@ -18,7 +18,10 @@ RemeshReport report_on(const InputSheet &input, const SheetMesh &mesh, const Lea
   for (const auto &[a, b] : edges) {
     const double length = mesh.length(a, b);
     sum += length;
-    report.shortest = std::min(report.shortest, length);
+    if (length < report.shortest) {
+      report.shortest = length;
+      report.shortest_at = 0.5 * (mesh.x[a] + mesh.x[b]);
+    }
     report.longest = std::max(report.longest, length);
   }
   report.mean_edge = sum / static_cast<double>(edges.size());
@@ -26,7 +29,11 @@ RemeshReport report_on(const InputSheet &input, const SheetMesh &mesh, const Lea
   for (const Tri &t : mesh.triangles) {
     if (t[0] == none) continue;
     const Vec3 &a = mesh.x[t[0]], &b = mesh.x[t[1]], &c = mesh.x[t[2]];
-    worst = std::max(worst, worst_cosine(a, b, c));
+    const double cosine = worst_cosine(a, b, c);
+    if (cosine > worst) {
+      worst = cosine;
+      report.worst_at = (a + b + c) / 3;
+    }
     const Vec3 samples[] = {a, 0.5 * (a + b), (a + b + c) / 3};
     for (const Vec3 &p : samples) {
       double nearest2 = 1e300;

@@ -27,8 +27,10 @@ constexpr double poor_cosine = 0.8572;  // cos 31 degrees: triangles below are i
 // Corners of rims that a vertex goes to: those that stand out by this height over a straight line
 // to this distance on both sides, in wanted edges. A turn by 40 degrees does.
 constexpr double corner_reach = 0.5, corner_height = 0.17;
-constexpr double longest_made =
-    1.6;                            // edge, in wanted ones, that a collapse for the angles may make
+// Edge, in wanted ones, that collapses for the angles, and of tiny edges, may make.
+constexpr double longest_made = 1.6;
+// Edges below this share of the wanted one are collapsed at last, even if that makes long ones.
+constexpr double tiny = 0.25;
 constexpr double least_way = 2e-3;  // of an edge: shorter moves are left out
 
 // Along a rim the arc counts, so that no notch is skipped.
@@ -77,14 +79,16 @@ bool split_long(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, d
   return any;
 }
 
-bool collapse_short(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double edge) {
+// Collapses edges below a length, unless that makes edges longer than `longest`.
+bool collapse_short(const InputSheet &input, SheetMesh &mesh, SheetEditor &editor, double below,
+                    double longest) {
   bool any = false;
-  const auto is_short = [&](double l) { return l < collapse_below * edge; };
+  const auto is_short = [&](double l) { return l < below; };
   for (const SizedEdge &c : edges_by_length(input, mesh, is_short, false)) {
     const auto [a, b] = c.edge;
-    if (!mesh.are_joined(a, b) || length_of(input, mesh, c.edge) >= collapse_below * edge) continue;
-    any = editor.collapse(a, b, split_above * edge, EditFor::spacing) ||
-          editor.collapse(b, a, split_above * edge, EditFor::spacing) || any;
+    if (!mesh.are_joined(a, b) || length_of(input, mesh, c.edge) >= below) continue;
+    any = editor.collapse(a, b, longest, EditFor::spacing) ||
+          editor.collapse(b, a, longest, EditFor::spacing) || any;
   }
   return any;
 }
@@ -199,8 +203,9 @@ void search_place(SheetMesh &mesh, SheetEditor &editor, double edge, uint32_t v)
   }
 }
 
-// One pass over the poor triangles: a flip or a collapse that raises the least angle around, else a
-// better place of each corner. Returns whether there was a poor triangle.
+// One pass over the poor triangles: a flip or a collapse that raises the least angle around, or a
+// corner of a rim cut off, else a better place of each corner. Returns whether there was a poor
+// triangle.
 bool improve_poor(SheetMesh &mesh, SheetEditor &editor, double edge) {
   bool any = false;
   const size_t count = mesh.triangles.size();
@@ -218,6 +223,9 @@ bool improve_poor(SheetMesh &mesh, SheetEditor &editor, double edge) {
       if (mesh.length(a, b) > collapse_below * edge) continue;
       changed = editor.collapse(a, b, longest_made * edge, EditFor::angle) ||
                 editor.collapse(b, a, longest_made * edge, EditFor::angle);
+    }
+    for (size_t k = 0; k < 3 && !changed; ++k) {
+      changed = editor.cut_corner(tri[k], longest_made * edge);
     }
     for (size_t k = 0; k < 3 && !changed; ++k) search_place(mesh, editor, edge, tri[k]);
   }
@@ -252,7 +260,9 @@ RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
   double edge = goal.edge;  // at which edges are split and collapsed
   for (int round = 0; round < goal.rounds; ++round) {
     repeat([&] { return split_long(input, mesh, editor, edge); });
-    repeat([&] { return collapse_short(input, mesh, editor, edge); });
+    repeat([&] {
+      return collapse_short(input, mesh, editor, collapse_below * edge, split_above * edge);
+    });
     repeat([&] { return flip_all(mesh, editor, EditFor::spacing); });
     relax_vertices(input, mesh, editor, goal.edge);
     edge = std::clamp(edge * goal.edge / mean_length(mesh), goal.edge, most_scale * goal.edge);
@@ -262,7 +272,9 @@ RemeshedSheet remesh_sheet(const LeafletSheet &sheet, const SheetRims &rims,
     relax_vertices(input, mesh, editor, goal.edge);
   }
   for (int k = 0; k < improvements; ++k) {
-    if (!improve_poor(mesh, editor, goal.edge)) break;
+    const bool was_tiny =
+        collapse_short(input, mesh, editor, tiny * goal.edge, longest_made * goal.edge);
+    if (!improve_poor(mesh, editor, goal.edge) && !was_tiny) break;
   }
   SheetAndRims made = sheet_of(input, mesh);
   RemeshedSheet result{std::move(made.sheet), std::move(made.rims), {}};

@@ -34,6 +34,12 @@ class SheetEditor {
   bool flip(const Edge &edge, EditFor reason);
   // Merges vertex a into b, unless that makes edges longer than `longest`.
   bool collapse(uint32_t a, uint32_t b, double longest, EditFor reason);
+  // Takes a vertex of a rim off with the three triangles of the vertex inside behind it, which
+  // joins it and its neighbours on the rim alone: no collapse opens such a corner, since two of its
+  // vertices have two neighbours in common. The rim then passes along the third triangle's side,
+  // unless that is farther from the vertex than the middles of edges may be, or longer than
+  // `longest` along the rim.
+  bool cut_corner(uint32_t v, double longest);
   // Moves a vertex inside to the place on the input to which a walk towards `target` leads.
   bool move_inside(uint32_t v, const Vec3 &target, EditFor reason);
   // Moves a vertex on a rim to an arc length.

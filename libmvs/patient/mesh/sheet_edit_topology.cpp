@@ -1,6 +1,7 @@
 // Splits, flips and collapses (Botsch & Kobbelt 2004).
 #include <algorithm>
 
+#include "geometry/distance.h"
 #include "patient/coordinates.h"
 #include "patient/mesh/sheet_edit.h"
 
@@ -192,6 +193,31 @@ bool SheetEditor::collapse(uint32_t a, uint32_t b, double longest, EditFor reaso
     mesh_.vertex[old.before].after = old.after;
     mesh_.vertex[old.after].before = old.before;
   }
+  return true;
+}
+
+bool SheetEditor::cut_corner(uint32_t v, double longest) {
+  const MeshVertex old = mesh_.vertex[v];
+  if (old.rim == Rim::inside || mesh_.star[v].size() != 2) return false;
+  const uint32_t p = old.before, q = old.after;
+  uint32_t w = none;  // behind the vertex: the corner that its two triangles share
+  for (const uint32_t corner : mesh_.triangles[mesh_.star[v][0]]) {
+    if (corner != v && corner != p && corner != q) w = corner;
+  }
+  if (w == none || mesh_.vertex[w].rim != Rim::inside || mesh_.star[w].size() != 3) return false;
+  if (mesh_.vertex[p].before == q) return false;  // a rim of three sides
+  const double way =
+      around(mesh_.vertex[p].arc, mesh_.vertex[q].arc, input_.curve(old.rim).length());
+  const double limit = off_input * edge_;
+  if (std::abs(way) > longest ||
+      closest_on_segment(mesh_.x[v], mesh_.x[p], mesh_.x[q]).distance2 > limit * limit) {
+    return false;
+  }
+  SheetPatch patch = star_of(w);
+  std::fill(patch.after.begin(), patch.after.end(), Tri{none, none, none});
+  commit(patch);
+  mesh_.vertex[p].after = q;
+  mesh_.vertex[q].before = p;
   return true;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "model/compressed_rows.h"
@@ -215,11 +216,12 @@ void relax(LeafletSheet &sheet, const std::vector<Tri> &patch, uint32_t first) {
   }
 }
 
-// The label of the triangle at each side of the loop.
-std::vector<LeafletLabel> loop_labels(const LeafletSheet &sheet,
-                                      const std::vector<uint32_t> &loop) {
+// The label of the triangle at each side of the loop; none at a side without one, the mouth of a
+// notch.
+std::vector<std::optional<LeafletLabel>> loop_labels(const LeafletSheet &sheet,
+                                                     const std::vector<uint32_t> &loop) {
   const Rows stars = rows_of(sheet.x.size(), sheet.triangles);
-  std::vector<LeafletLabel> label(loop.size(), LeafletLabel::unknown);
+  std::vector<std::optional<LeafletLabel>> label(loop.size());
   for (size_t k = 0; k < loop.size(); ++k) {
     const uint32_t to = loop[(k + 1) % loop.size()];
     for (const uint32_t t : stars[loop[k]]) {
@@ -239,7 +241,7 @@ size_t fill_hole(LeafletSheet &sheet, const std::vector<uint32_t> &loop) {
            most_loop_vertices);
   double length = 0;
   for (size_t k = 0; k < n; ++k) length += (sheet.x[loop[(k + 1) % n]] - sheet.x[loop[k]]).norm();
-  const std::vector<LeafletLabel> label = loop_labels(sheet, loop);
+  const std::vector<std::optional<LeafletLabel>> label = loop_labels(sheet, loop);
   std::vector<Edge> sheet_edges;
   for (const Side &side : sorted_sides(sheet.triangles)) sheet_edges.push_back(side.edge);
   // the filling passes along the loop the other way
@@ -257,17 +259,18 @@ size_t fill_hole(LeafletSheet &sheet, const std::vector<uint32_t> &loop) {
   relax(sheet, patch, first);
   for (const Tri &t : patch) {
     const Vec3 middle = (sheet.x[t[0]] + sheet.x[t[1]] + sheet.x[t[2]]) / 3;
-    size_t nearest = 0;
+    LeafletLabel nearest = LeafletLabel::unknown;
     double least = INFINITY;
     for (size_t k = 0; k < n; ++k) {
+      if (!label[k]) continue;
       const double apart2 =
           (0.5 * (sheet.x[loop[k]] + sheet.x[loop[(k + 1) % n]]) - middle).squaredNorm();
       if (apart2 >= least) continue;
       least = apart2;
-      nearest = k;
+      nearest = *label[k];
     }
     sheet.triangles.push_back(t);
-    sheet.label.push_back(label[nearest]);
+    sheet.label.push_back(nearest);
   }
   return patch.size();
 }

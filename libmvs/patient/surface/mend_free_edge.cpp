@@ -73,6 +73,8 @@ class FreeEdge {
   std::vector<uint32_t> fill(const Notch &notch) {
     std::vector<uint32_t> ring;
     for (size_t k = 0; k < notch.count; ++k) ring.push_back(vertex(notch.first + k));
+    const std::vector<uint32_t> mouth = divide_mouth(notch);
+    ring.insert(ring.end(), mouth.rbegin(), mouth.rend());
     const size_t before = sheet_.triangles.size();
     fill_hole(sheet_, ring);
     for (size_t t = before; t < sheet_.triangles.size(); ++t) {
@@ -87,11 +89,33 @@ class FreeEdge {
     std::vector<uint32_t> kept;
     for (size_t k = notch.count - 1; k <= loop_.size(); ++k)
       kept.push_back(vertex(notch.first + k));
+    kept.insert(kept.end(), mouth.begin(), mouth.end());
     loop_ = std::move(kept);
-    return {ring.begin() + 1, ring.end() - 1};
+    return {ring.begin() + 1, ring.end() - static_cast<std::ptrdiff_t>(mouth.size()) - 1};
   }
 
  private:
+  // New vertices on the straight line over a notch, from its first to its last, about as far apart
+  // as those of the notch. On a mouth of one side, 50 times as long as the others, halving put
+  // vertex after vertex: triangles without height, whose folds stayed in every mesh made from them.
+  // They are fewer than the vertices that leave the edge, so that filling ends.
+  std::vector<uint32_t> divide_mouth(const Notch &notch) {
+    const uint32_t a = vertex(notch.first), b = vertex(notch.first + notch.count - 1);
+    const double side = (notch.width + notch.saved) / static_cast<double>(notch.count - 1);
+    const size_t nearest = static_cast<size_t>(notch.width / side + 0.5);
+    const size_t sides = std::min(nearest, notch.count - 2);
+    std::vector<uint32_t> made;
+    for (size_t k = 1; k < sides; ++k) {
+      const double to_b = static_cast<double>(k) / static_cast<double>(sides), to_a = 1 - to_b;
+      made.push_back(static_cast<uint32_t>(sheet_.x.size()));
+      sheet_.x.push_back(Vec3(to_a * sheet_.x[a] + to_b * sheet_.x[b]));
+      normal_.push_back(Vec3(to_a * normal_[a] + to_b * normal_[b]));
+      if (sheet_.thickness.empty()) continue;
+      sheet_.thickness.push_back(to_a * sheet_.thickness[a] + to_b * sheet_.thickness[b]);
+    }
+    return made;
+  }
+
   bool stays(uint32_t i) const { return i < kept_.size() && kept_[i] != 0; }
   uint32_t vertex(size_t k) const { return loop_[k % loop_.size()]; }
   const Vec3 &at(size_t k) const { return sheet_.x[vertex(k)]; }
