@@ -125,6 +125,7 @@ struct Meeting {
 Meeting meet(const std::vector<Vec3> &annulus, const Vec3 &centre,
              const std::vector<CurveSide> &sides, double reach) {
   std::vector<Vec3> around;  // relative to the centre
+  around.reserve(annulus.size());
   for (const Vec3 &p : annulus) around.push_back(p - centre);
   Meeting found;
   for (int round = 0; round < most_motion_rounds; ++round) {
@@ -181,6 +182,7 @@ void report_loaded_annulus(const std::vector<Vec3> &annulus, const AnnulusMotion
                            Findings &findings) {
   findings.push_back({"closed_annulus", source, confidence, std::move(sentence), {}, ""});
   std::vector<Vec3> loaded;
+  loaded.reserve(annulus.size());
   for (const Vec3 &p : annulus) loaded.push_back(motion(p));
   set_points(loaded, findings.back());
 }
@@ -205,6 +207,7 @@ Vec3 AnnulusMotion::operator()(const Vec3 &p) const {
 
 bool AnnulusMotion::put_on(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve) {
   std::vector<Vec3> moved;
+  moved.reserve(annulus.size());
   for (const Vec3 &p : annulus) moved.push_back(affine(p));
   ClosedCurve to(curve);
   std::vector<double> place = places_along(to, moved);

@@ -119,14 +119,14 @@ def test_a_wrong_array_is_refused_by_name(valve, name, spoil, words):
     [
         ("leaflets", "AP", "leaflets: a sequence is needed, of which each is a name or a mvs.Leaflet"),
         ("leaflets", [1, 2], r"leaflets\[0\]: a name or a mvs.Leaflet is needed, not 1 \(int\)"),
-        ("leaflets", [mvs.Leaflet("A", thickness="thin"), "P"], "help"),
+        ("leaflets", [mvs.Leaflet("A", thickness="thin"), "P"], "leaflets: thickness: a number is needed, not str"),
         ("scallops", 3, "scallops: a sequence"),
         ("head_names", b"P", "head_names: a sequence"),
         ("rings", ["ring"], r"rings\[0\]: a mvs.Ring is needed"),
         ("curves", [None], r"curves\[0\]: a mvs.Curve is needed"),
         ("name", b"x", "name: a text is needed, not b'x'"),
-        ("density", "heavy", "another type"),
-        ("orient", "no", "another type"),
+        ("density", "heavy", "density: a number is needed, not str"),
+        ("orient", "no", "orient: True or False is needed, not str"),
     ],
 )
 def test_a_field_of_another_type_is_refused_by_name(valve, field, value, sentence):

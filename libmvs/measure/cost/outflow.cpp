@@ -94,8 +94,9 @@ std::vector<Section> sections_of(const Model &model, const std::vector<Vec3> &x,
                         find_coaptation(model, central_profile(model, x, false, offset), facing),
                         weight});
   }
-  if (std::ranges::any_of(sections, &Section::coapts)) {
-    std::erase_if(sections, [](const Section &section) { return !section.coapts(); });
+  const auto coapts = [](const Section &section) { return section.coapts(); };
+  if (std::any_of(sections.begin(), sections.end(), coapts)) {
+    std::erase_if(sections, [&](const Section &section) { return !coapts(section); });
   }
   return sections;
 }
