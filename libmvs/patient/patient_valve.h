@@ -18,15 +18,11 @@ double edge_for(const LeafletSheet &sheet, double vertices);
 // findings.
 PatientGeometry patient_geometry(const MidSheet &mid, double edge, Findings &findings);
 
-<<<<<<< HEAD
-// Annulus and papillary tips, at rest and under load.
-=======
 // The figures of a new mesh. With a flat triangle or a side far below the wanted one it has a low
 // confidence and says where to mend the labels or the surface.
 Finding mesh_finding(size_t vertices, double edge, const RemeshReport &report);
 
-// What holds the leaflets, at rest and under load.
->>>>>>> a70f9b9f (patient: the mouth of a filled notch is divided, corners of rims are cut, tiny sides collapse; a flat mesh is a doubtful finding)
+// Annulus and papillary tips, at rest and under load.
 struct Boundary {
   AnnulusMotion annulus;
   PapillaryTips tips;
