@@ -1,4 +1,5 @@
-// Notches and corners of rims of which flat triangles remained in the mesh, and their finding.
+// Notches and corners of rims of which flat triangles remained in the mesh, and their finding;
+// findings that are doubtful.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -51,6 +52,10 @@ double shortest_side(const LeafletSheet &sheet) {
     }
   }
   return least;
+}
+
+bool doubtful(const char *name, FindingSource source, double confidence) {
+  return is_doubtful({name, source, confidence, "", {}, ""});
 }
 
 }  // namespace
@@ -141,4 +146,20 @@ TEST_CASE("a_mesh_with_a_flat_triangle_or_a_tiny_side_is_a_doubtful_finding") {
   const Finding flat = mesh_finding(900, 1.8e-3, report);
   CHECK(is_doubtful(flat));
   CHECK(flat.sentence.find("triangle is flat near (10.0, 0.0, 0.0) mm") != std::string::npos);
+}
+
+TEST_CASE("given_landmarks_are_doubtful_sooner_than_guessed_ones") {
+  for (const char *name : {"annulus", "commissures", "anterior"}) {
+    CHECK(doubtful(name, FindingSource::given, 0.5));
+    CHECK_FALSE(doubtful(name, FindingSource::given, 0.51));
+    CHECK(doubtful(name, FindingSource::guessed, 0.1));
+    CHECK_FALSE(doubtful(name, FindingSource::guessed, 0.11));
+  }
+}
+
+TEST_CASE("findings_of_faults_are_doubtful_and_assumptions_are_not") {
+  CHECK(doubtful("tall_leaflets", FindingSource::measured, 1));
+  CHECK(doubtful("closed_fit", FindingSource::measured, 0.33));
+  CHECK_FALSE(doubtful("closed_fit", FindingSource::measured, 0.34));
+  CHECK_FALSE(doubtful("thickness", FindingSource::assumed, 0));
 }
