@@ -25,6 +25,7 @@ void find_leaflets_of(const PatientSurface &surface, const MidSheet &mid, Findin
 
 std::vector<Vec3> points_along(const std::vector<uint32_t> &rim, const std::vector<Vec3> &x) {
   std::vector<Vec3> points;
+  points.reserve(rim.size());
   for (const uint32_t i : rim) points.push_back(x[i]);
   return points;
 }
