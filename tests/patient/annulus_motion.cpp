@@ -25,6 +25,7 @@ Vec3 moved(const Vec3 &p) {
 
 std::vector<Vec3> annulus_of(const ParametricSheet &p) {
   std::vector<Vec3> points;
+  points.reserve(p.rims.annulus.size());
   for (const uint32_t i : p.rims.annulus) points.push_back(p.sheet.x[i]);
   return points;
 }
