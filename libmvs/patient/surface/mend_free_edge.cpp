@@ -102,7 +102,7 @@ class FreeEdge {
   std::vector<uint32_t> divide_mouth(const Notch &notch) {
     const uint32_t a = vertex(notch.first), b = vertex(notch.first + notch.count - 1);
     const double side = (notch.width + notch.saved) / static_cast<double>(notch.count - 1);
-    const size_t nearest = static_cast<size_t>(notch.width / side + 0.5);
+    const auto nearest = static_cast<size_t>(std::floor(notch.width / side + 0.5));
     const size_t sides = std::min(nearest, notch.count - 2);
     std::vector<uint32_t> made;
     for (size_t k = 1; k < sides; ++k) {
