@@ -225,9 +225,12 @@ namespace local_subproblem {
 
 inline constexpr double disturbed_residual = 0.25;  // rest forces: above it a node is disturbed
 inline constexpr double max_disturbed_share = 0.1;  // of the nodes: above it no subproblem
-inline constexpr double max_free_share = 0.2;       // of the nodes that are free in it
-inline constexpr double radius = 10e-3;             // m, around the disturbed nodes
-inline constexpr double max_displacement = 4e-3;    // m, of a node from its start
+// Averages over neighbours before a valve counts as far from rest as a whole. Noise of 1 um in all
+// positions has forces of up to two rest forces at nodes, of which these leave a twentieth.
+inline constexpr int averaging_passes = 4;
+inline constexpr double max_free_share = 0.2;     // of the nodes that are free in it
+inline constexpr double radius = 10e-3;           // m, around the disturbed nodes
+inline constexpr double max_displacement = 4e-3;  // m, of a node from its start
 inline constexpr uint32_t max_iterations = 12;
 inline constexpr double residual = 0.2;  // rest forces: its rim is as far from rest
 

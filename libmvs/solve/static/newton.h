@@ -83,7 +83,8 @@ class Newton {
   // Settles the neighbourhood of a few disturbed nodes, held by the remaining valve: many
   // iterations there cost less than one of the whole valve.
   void presolve_locally(const Load &load);
-  // Whether more nodes are disturbed than a local subproblem may have.
+  // Whether more nodes are disturbed than a local subproblem may have, also by the mean of the
+  // forces around them: noise in the positions is no distance from rest.
   bool has_many_disturbed() const;
   // Settles the neighbourhood of the nodes with the largest forces, if these are few and above the
   // tolerance, N. Moves no node unless the forces of the whole valve fall.
