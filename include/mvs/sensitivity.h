@@ -116,7 +116,9 @@ enum mvs_sensitivity_notes_e {
                                                 libmvs/measure/DEFINITIONS.md */
   MVS_SENSITIVITY_NOTE_EXTREME = 1 << 5,     /* a largest or smallest value: its derivative changes
                                                 where another place takes over */
-  MVS_SENSITIVITY_NOTE_ENVELOPE = 1 << 6, /* the orifice: its rim is taken as fixed in the tissue */
+  MVS_SENSITIVITY_NOTE_ENVELOPE = 1 << 6, /* the orifice: its rim is taken as fixed in the tissue.
+                                             An estimate: of a leak of a few mm2 it can be wrong by
+                                             several times */
   MVS_SENSITIVITY_NOTE_CONTACT = 1 << 7, /* contact begins, ends or passes from a face to an edge or
                                             a corner: see ABOVE, BELOW. Contact that begins has the
                                             mean stiffness of its first `slack` */
@@ -162,7 +164,8 @@ typedef struct mvs_sensitivity_summary {
   double residual;         /* N, out-of-balance force of the snapshot */
   double linear_error;     /* largest |K y - b| / |b| of all solutions */
   double stiffness_margin; /* N/m, smallest eigenvalue of the symmetric part of K over the
-                              leaflets, with branch points in equilibrium */
+                              leaflets, with branch points in equilibrium: another number than
+                              that of mvs_stability, where branch points move by themselves */
 } mvs_sensitivity_summary;
 
 /* Reads the summary. */

@@ -199,7 +199,9 @@ MVS_API mvs_result mvs_snapshot_get_rest(const mvs_snapshot *snapshot, mvs_rest 
 typedef struct mvs_stability {
   uint32_t struct_size;
   uint32_t stable;         /* 1: growth_rate is at most 1e-3 1/s, or Ks is positive definite */
-  double stiffness_margin; /* N/m, smallest eigenvalue of Ks: near 0 a fold is about to snap */
+  double stiffness_margin; /* N/m, smallest eigenvalue of Ks: near 0 a fold is about to snap.
+                              Below 0 beside a growth_rate below 0, damping and the follower
+                              pressure hold the fold */
   double growth_rate;      /* 1/s, largest real part of an eigenvalue of -D^-1 K */
 } mvs_stability;
 

@@ -779,7 +779,10 @@ export const SensitivityNotes = {
   note_raster: 16,
   /** a largest or smallest value: its derivative changes where another place takes over */
   note_extreme: 32,
-  /** the orifice: its rim is taken as fixed in the tissue */
+  /**
+   * the orifice: its rim is taken as fixed in the tissue. An estimate: of a leak of a few mm2 it
+   * can be wrong by several times
+   */
   note_envelope: 64,
   /**
    * contact begins, ends or passes from a face to an edge or a corner: see ABOVE, BELOW. Contact

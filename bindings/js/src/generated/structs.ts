@@ -417,7 +417,10 @@ export interface Rest {
 export interface Stability {
   /** 1: growth_rate is at most 1e-3 1/s, or Ks is positive definite */
   stable: number;
-  /** N/m, smallest eigenvalue of Ks: near 0 a fold is about to snap */
+  /**
+   * N/m, smallest eigenvalue of Ks: near 0 a fold is about to snap. Below 0 beside a growth_rate
+   * below 0, damping and the follower pressure hold the fold
+   */
   stiffness_margin: number;
   /** 1/s, largest real part of an eigenvalue of -D^-1 K */
   growth_rate: number;
@@ -1211,7 +1214,7 @@ export interface SensitivitySummary {
   linear_error: number;
   /**
    * N/m, smallest eigenvalue of the symmetric part of K over the leaflets, with branch points in
-   * equilibrium
+   * equilibrium: another number than that of mvs_stability, where branch points move by themselves
    */
   stiffness_margin: number;
 }
