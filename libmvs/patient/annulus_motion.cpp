@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 
 #include "base/error.h"
 #include "geometry/distance.h"
+#include "model/sides.h"
 #include "patient/findings.h"
 #include "patient/fit/closed_pieces.h"
 #include "patient/fit/normal_equations.h"
@@ -22,8 +22,8 @@ using CurveSide = std::array<Vec3, 2>;
 // m: a point of the annulus moves at most so far to a rim of the leaflets: free edges, and the far
 // sides of gaps in a rim, are 8 mm away and more but beside the commissures.
 constexpr double farthest_rim = 6e-3;
-// A point counts if it is at most 2.5 times as far from the rims as the median_distance (normal
-// errors: 91 % of them), or a millimetre, a voxel and a half of ultrasound.
+// A point counts if it is at most 2.5 times as far from the rims as the median (normal errors: 91 %
+// of them), or a millimetre, a voxel and a half of ultrasound.
 constexpr double usual_rim_share = 2.5, usual_rim = 1e-3;
 // Share of the annulus that has to lie on rims.
 constexpr double least_seen = 0.65;
@@ -31,6 +31,7 @@ constexpr double least_seen = 0.65;
 // the annulus spreads five times as far (RMS), so that a stretch is found to 4 %; across it, by the
 // height of the saddle, a stretch would follow the errors of the rims.
 constexpr double least_spread = 2e-3;
+constexpr double constant_term = 1e-2;  // m, of the affine motion: about as large as coordinates
 constexpr int most_motion_rounds = 30;
 constexpr double least_motion_step = 1e-6;  // m
 // m, RMS: errors of rims from images make as much.
@@ -48,20 +49,18 @@ std::vector<CurveSide> sides_of(const std::vector<Vec3> &curve) {
   return sides;
 }
 
-// Sides of triangles that have one triangle.
+// Sides that have one triangle.
 std::vector<CurveSide> rims_of(const ClosedSurface &closed) {
   const ClosedPieces pieces = closed_pieces(closed.points, closed.triangles);
-  std::map<Edge, uint32_t> count;
-  for (const Tri &t : closed.triangles) {
-    for (size_t k = 0; k < 3; ++k) {
-      const uint32_t a = pieces.vertex[t[k]], b = pieces.vertex[t[(k + 1) % 3]];
-      if (a != b) ++count[{std::min(a, b), std::max(a, b)}];
-    }
-  }
+  std::vector<Tri> joined;
+  joined.reserve(closed.triangles.size());
+  for (const Tri &t : closed.triangles) joined.push_back(pieces.joined(t));
+  const std::vector<Side> sides = sorted_sides(joined);
   std::vector<CurveSide> rims;
-  for (const auto &[edge, triangles] : count) {
-    if (triangles == 1) rims.push_back({closed.points[edge[0]], closed.points[edge[1]]});
-  }
+  for_each_edge(sides, [&](size_t first, size_t last) {
+    const auto [a, b] = sides[first].edge;
+    if (last == first + 1 && a != b) rims.push_back({closed.points[a], closed.points[b]});
+  });
   return rims;
 }
 
@@ -96,8 +95,7 @@ Affine affine_of(const std::vector<Vec3> &from, const std::vector<Vec3> &step) {
   std::array<std::vector<double>, 3> right;
   right.fill(std::vector<double>(4, 0));
   for (size_t k = 0; k < from.size(); ++k) {
-    // the constant is about as large as the coordinates
-    const std::array<double, 4> terms = {from[k].x(), from[k].y(), from[k].z(), 1e-2};
+    const std::array<double, 4> terms = {from[k].x(), from[k].y(), from[k].z(), constant_term};
     for (size_t i = 0; i < 4; ++i) {
       for (size_t j = 0; j < 4; ++j) h.at(i, j) += terms[i] * terms[j];
       for (size_t axis = 0; axis < 3; ++axis)
@@ -110,7 +108,7 @@ Affine affine_of(const std::vector<Vec3> &from, const std::vector<Vec3> &step) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const std::vector<double> row = solve_dense(h, right[static_cast<size_t>(axis)]);
     for (Eigen::Index k = 0; k < 3; ++k) found.stretch(axis, k) = row[static_cast<size_t>(k)];
-    found.shift[axis] = 1e-2 * row[3];
+    found.shift[axis] = constant_term * row[3];
   }
   return found;
 }
@@ -198,11 +196,9 @@ bool is_plausible(const Meeting &met) {
 Vec3 AnnulusMotion::operator()(const Vec3 &p) const {
   if (!moves_) return p;
   if (!given_) return affine(p);
-  const double s = given_->annulus.nearest(p);
-  const auto after = std::upper_bound(given_->start.begin() + 1, given_->start.end() - 1, s);
-  const size_t k = static_cast<size_t>(after - given_->start.begin()) - 1;
-  const double share = (s - given_->start[k]) / (given_->start[k + 1] - given_->start[k]);
-  return given_->curve.at(given_->place[k] + share * (given_->place[k + 1] - given_->place[k]));
+  const auto [side, share] = given_->annulus.locate(given_->annulus.nearest(p));
+  const std::vector<double> &place = given_->place;
+  return given_->curve.at(place[side] + share * (place[side + 1] - place[side]));
 }
 
 bool AnnulusMotion::put_on(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve) {
@@ -217,11 +213,7 @@ bool AnnulusMotion::put_on(const std::vector<Vec3> &annulus, const std::vector<V
   }
   if (place.empty()) return false;
   place.push_back(place[0] + to.length());
-  std::vector<double> start = {0};
-  for (size_t k = 0; k < annulus.size(); ++k) {
-    start.push_back(start.back() + (annulus[(k + 1) % annulus.size()] - annulus[k]).norm());
-  }
-  given_.emplace(OnCurve{ClosedCurve(annulus), std::move(to), std::move(start), std::move(place)});
+  given_.emplace(OnCurve{ClosedCurve(annulus), std::move(to), std::move(place)});
   return true;
 }
 
@@ -231,12 +223,10 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
   if (given.empty() && closed.triangles.empty()) return motion;
   for (const Vec3 &p : annulus) motion.centre_ += p / static_cast<double>(annulus.size());
   const std::vector<Vec3> through = annulus_through(given, curve_spacing);
-  if (!given.empty()) {
-    MVS_MUST(!through.empty(), MVS_E_ARGUMENT, "closed_annulus",
-             "the %zu points of closed_annulus are no curve around the annulus: give six or more "
-             "all around it",
-             given.size());
-  }
+  MVS_MUST(given.empty() || !through.empty(), MVS_E_ARGUMENT, "closed_annulus",
+           "the %zu points of closed_annulus are no curve around the annulus: give six or more "
+           "all around it",
+           given.size());
   const std::vector<CurveSide> sides = given.empty() ? rims_of(closed) : sides_of(through);
   Meeting met;
   if (!sides.empty()) {

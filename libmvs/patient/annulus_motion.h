@@ -35,7 +35,7 @@ class AnnulusMotion {
   // the annulus at rest, the given curve, and the place of each point of the one along the other
   struct OnCurve {
     ClosedCurve annulus, curve;
-    std::vector<double> start, place;  // m; the first one again a lap later
+    std::vector<double> place;  // m; the first one again a lap later
   };
   std::optional<OnCurve> given_;  // empty: no curve is given
 };

@@ -23,13 +23,6 @@ void find_leaflets_of(const PatientSurface &surface, const MidSheet &mid, Findin
   doubt_tall_leaflets(mid.rims, coordinates, arcs, findings);
 }
 
-std::vector<Vec3> points_along(const std::vector<uint32_t> &rim, const std::vector<Vec3> &x) {
-  std::vector<Vec3> points;
-  points.reserve(rim.size());
-  for (const uint32_t i : rim) points.push_back(x[i]);
-  return points;
-}
-
 }  // namespace
 
 void tell_progress(const Progress &progress, double share) {

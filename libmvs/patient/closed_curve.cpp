@@ -21,13 +21,17 @@ ClosedCurve::ClosedCurve(std::vector<Vec3> corners) : corners_(std::move(corners
   }
 }
 
-Vec3 ClosedCurve::at(double s) const {
-  const double place = wrapped(s, length());
-  const auto after = std::upper_bound(start_.begin() + 1, start_.end() - 1, place);
+ClosedCurve::OnSide ClosedCurve::locate(double s) const {
+  const double in = wrapped(s, length());
+  const auto after = std::upper_bound(start_.begin() + 1, start_.end() - 1, in);
   const size_t k = static_cast<size_t>(after - start_.begin()) - 1;
-  const Vec3 &a = corners_[k], &b = corners_[(k + 1) % corners_.size()];
-  const double side = start_[k + 1] - start_[k];
-  return side > 0 ? Vec3(a + (place - start_[k]) / side * (b - a)) : a;
+  const double span = start_[k + 1] - start_[k];
+  return {k, span > 0 ? std::clamp((in - start_[k]) / span, 0.0, 1.0) : 0.0};
+}
+
+Vec3 ClosedCurve::at(double s) const {
+  const OnSide on = locate(s);
+  return (1 - on.share) * corners_[on.side] + on.share * corners_[(on.side + 1) % size()];
 }
 
 double ClosedCurve::nearest(const Vec3 &p) const {
@@ -45,20 +49,26 @@ ClosedCurve ClosedCurve::reversed() const {
   return ClosedCurve({corners_.rbegin(), corners_.rend()});
 }
 
+std::vector<Vec3> points_along(const std::vector<uint32_t> &loop, const std::vector<Vec3> &x) {
+  std::vector<Vec3> points;
+  points.reserve(loop.size());
+  for (const uint32_t i : loop) points.push_back(x[i]);
+  return points;
+}
+
 std::vector<double> places_along(const ClosedCurve &curve, const std::vector<Vec3> &loop) {
   const size_t n = loop.size();
   const ClosedCurve own(loop);
   const double lap = curve.length();
   std::vector<double> even(n), off(n);  // m: evenly, and how far nearest points are beyond that
-  double before = 0, place = 0, along = 0;
+  double before = 0, place = 0;
   for (size_t k = 0; k <= n; ++k) {
     const double here = curve.nearest(loop[k % n]);
     place = k == 0 ? here : place + around(before, here, lap);
     before = here;
     if (k == n) break;
-    even[k] = along / own.length() * lap;
+    even[k] = own.start_of(k) / own.length() * lap;
     off[k] = place - even[k];
-    along += (loop[(k + 1) % n] - loop[k]).norm();
   }
   const double laps = (place - off[0]) / lap;
   if (!(laps > 0.5 && laps < 1.5)) return {};

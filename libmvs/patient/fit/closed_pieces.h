@@ -15,6 +15,9 @@ struct ClosedPieces {
   std::vector<uint8_t> turned;        // triangles that are wound the other way than their piece
   uint32_t count = 0;
   std::vector<uint32_t> vertex;  // of each point: the first of those that are one vertex with it
+
+  // A triangle with corners in common with its neighbours.
+  Tri joined(const Tri &t) const { return {vertex[t[0]], vertex[t[1]], vertex[t[2]]}; }
 };
 
 // Triangles are joined across sides whose points are equal, also if the points are repeated

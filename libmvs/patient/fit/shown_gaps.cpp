@@ -72,8 +72,7 @@ Tissue tissue_of(const ClosedSurface &given, const Model &model, const std::vect
   Tissue tissue;
   tissue.points = given.points;
   for (size_t k = 0; k < given.triangles.size(); ++k) {
-    const Tri &t = given.triangles[k];
-    const Tri corners = {pieces.vertex[t[0]], pieces.vertex[t[1]], pieces.vertex[t[2]]};
+    const Tri corners = pieces.joined(given.triangles[k]);
     if (!(triangle_area(given.points, corners) > 0)) continue;
     tissue.triangles.push_back(corners);
     tissue.leaflet.push_back(leaflet[k]);

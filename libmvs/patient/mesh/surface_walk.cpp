@@ -155,11 +155,11 @@ SurfacePlace SurfaceWalk::closest_from(const SurfacePlace &start, const Vec3 &p)
   return {at, best.weight};
 }
 
-RimCurve::RimCurve(const LeafletSheet &sheet, const std::vector<uint32_t> &loop, const char *name) {
+RimCurve::RimCurve(const LeafletSheet &sheet, const std::vector<uint32_t> &loop, const char *name)
+    : line_(points_along(loop, sheet.x)) {
   MVS_MUST(loop.size() >= 3, MVS_E_OP, name, "the %s has %zu vertices, a loop has at least 3", name,
            loop.size());
   const Rows stars = rows_of(sheet.x.size(), sheet.triangles);
-  double s = 0;
   for (size_t k = 0; k < loop.size(); ++k) {
     const uint32_t a = loop[k], b = loop[(k + 1) % loop.size()];
     const uint32_t t = only_triangle_at(sheet.triangles, stars, a, b);
@@ -171,50 +171,35 @@ RimCurve::RimCurve(const LeafletSheet &sheet, const std::vector<uint32_t> &loop,
     const auto corner_of = [&](uint32_t vertex) {
       return static_cast<uint32_t>(std::find(tri.begin(), tri.end(), vertex) - tri.begin());
     };
-    x_.push_back(sheet.x[a]);
-    start_.push_back(s);
     triangle_.push_back(t);
     corner_.push_back({corner_of(a), corner_of(b)});
-    s += (sheet.x[b] - sheet.x[a]).norm();
   }
-  start_.push_back(s);
-  MVS_MUST(s > 0, MVS_E_OP, name, "the %s has no length", name);
-}
-
-RimCurve::OnSegment RimCurve::locate(double s) const {
-  const double in = wrapped(s, length());
-  const auto after = std::upper_bound(start_.begin() + 1, start_.end() - 1, in);
-  const size_t k = static_cast<size_t>(after - start_.begin()) - 1;
-  const double span = start_[k + 1] - start_[k];
-  return {k, span > 0 ? std::clamp((in - start_[k]) / span, 0.0, 1.0) : 0.0};
-}
-
-Vec3 RimCurve::at(double s) const {
-  const OnSegment on = locate(s);
-  return (1 - on.share) * x_[on.segment] + on.share * x_[(on.segment + 1) % x_.size()];
+  MVS_MUST(length() > 0, MVS_E_OP, name, "the %s has no length", name);
 }
 
 SurfacePlace RimCurve::place_at(double s) const {
-  const OnSegment on = locate(s);
-  SurfacePlace place{triangle_[on.segment], {}};
-  place.weight[corner_[on.segment][0]] = 1 - on.share;
-  place.weight[corner_[on.segment][1]] = on.share;
+  const auto [side, share] = line_.locate(s);
+  SurfacePlace place{triangle_[side], {}};
+  place.weight[corner_[side][0]] = 1 - share;
+  place.weight[corner_[side][1]] = share;
   return place;
 }
 
 std::vector<double> RimCurve::corners(double reach, double height) const {
-  std::vector<double> out(x_.size()), found;
-  for (size_t k = 0; k < x_.size(); ++k) {
+  const size_t n = line_.size();
+  std::vector<double> out(n), found;
+  for (size_t k = 0; k < n; ++k) {
     out[k] = std::sqrt(
-        closest_on_segment(x_[k], at(start_[k] - reach), at(start_[k] + reach)).distance2);
+        closest_on_segment(line_.corner(k), at(start_of(k) - reach), at(start_of(k) + reach))
+            .distance2);
   }
-  for (size_t k = 0; k < x_.size(); ++k) {
+  for (size_t k = 0; k < n; ++k) {
     bool most = out[k] > height;
-    for (size_t j = 0; j < x_.size() && most; ++j) {
-      if (j == k || std::abs(around(start_[k], start_[j], length())) > reach) continue;
+    for (size_t j = 0; j < n && most; ++j) {
+      if (j == k || std::abs(around(start_of(k), start_of(j), length())) > reach) continue;
       most = out[j] < out[k] || (out[j] == out[k] && k < j);
     }
-    if (most) found.push_back(start_[k]);
+    if (most) found.push_back(start_of(k));
   }
   return found;
 }

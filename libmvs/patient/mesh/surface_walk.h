@@ -3,6 +3,7 @@
 #pragma once
 
 #include "model/compressed_rows.h"
+#include "patient/closed_curve.h"
 #include "patient/leaflet_sheet.h"
 
 namespace mvs::core {
@@ -42,24 +43,16 @@ class RimCurve {
   // Throws if two vertices in turn are not joined by a side of exactly one triangle.
   RimCurve(const LeafletSheet &sheet, const std::vector<uint32_t> &loop, const char *name);
 
-  double length() const { return start_.back(); }
-  double start_of(size_t corner) const { return start_[corner]; }
-  Vec3 at(double s) const;
+  double length() const { return line_.length(); }
+  double start_of(size_t corner) const { return line_.start_of(corner); }
+  Vec3 at(double s) const { return line_.at(s); }
   SurfacePlace place_at(double s) const;
   // Arc lengths of the corners that stand out by more than `height` from the chord that reaches
   // `reach` to either side, and more than all others within `reach`.
   std::vector<double> corners(double reach, double height) const;
 
  private:
-  // The segment that holds an arc length, and the share of it.
-  struct OnSegment {
-    size_t segment;
-    double share;
-  };
-  OnSegment locate(double s) const;
-
-  std::vector<Vec3> x_;        // of the loop's corners
-  std::vector<double> start_;  // arc length of each corner, then the whole length
+  ClosedCurve line_;
   std::vector<uint32_t> triangle_;
   std::vector<Edge> corner_;  // of the triangle: those of the segment's ends
 };

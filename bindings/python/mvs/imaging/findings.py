@@ -52,28 +52,8 @@ def _digest(values: Sequence[float]) -> str:
     return f"{known:016x}"
 
 
-def keep_doubts(path: Union[str, "os.PathLike[str]"], given: Iterable[str],
-                findings: Iterable[mvs.Finding]) -> tuple[mvs.Finding, ...]:
-    """Findings of a build with the values of a file. Unedited guesses and assumptions of the file keep their source,
-    confidence and doubt, though the build takes them for given. `given`: names that options give."""
-    with open(path, encoding="utf-8") as file:
-        rows = {row["name"]: row for row in json.load(file)["findings"]
-                if row["source"] not in ("given", "measured") and row.get("unedited") == _digest(row["values"])}
-
-    def kept(one: mvs.Finding) -> mvs.Finding:
-        row = rows.get(one.name)
-        if row is None or one.name in given or one.source != mvs.FindingSource.GIVEN:
-            return one
-        return dataclasses.replace(
-            one, source=mvs.FindingSource[row["source"].upper()], confidence=min(one.confidence, row["confidence"]),
-            doubtful=one.doubtful or bool(row.get("doubtful")),
-            sentence=f"{one.sentence}; {row['source']} in an earlier import: change its source to \"given\" if it is known")
-
-    return tuple(kept(one) for one in findings)
-
-
-def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
-    """The inputs of a build in a file of findings that are given, guessed or assumed (`--with`).
+def read_rows(path: Union[str, "os.PathLike[str]"]) -> list[dict[str, Any]]:
+    """The inputs of a build among the findings of a file (`--with`) that are given, guessed or assumed.
 
     Measured ones are left out: they are measured again. ArgumentError for another file.
     """
@@ -85,12 +65,18 @@ def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
         raise mvs.FormatError(f"{os.fspath(path)}: is no file of findings ({error})", "with") from error
     if rows is None or read.get("version") != 1:
         raise mvs.FormatError(f"{os.fspath(path)}: is no file of findings of this version", "with")
+    return [row for row in rows if row["name"] in (*POINTS, *LENGTHS, LAW) and row["source"] != "measured"]
+
+
+def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
+    """The values of the rows of a file, by name."""
+    return known_values(path, read_rows(path))
+
+
+def known_values(path: Union[str, "os.PathLike[str]"], rows: Iterable[dict[str, Any]]) -> dict[str, Any]:
+    """The values of rows of a file, by name; FormatError if they are no numbers."""
     known: dict[str, Any] = {}
     for row in rows:
-        if row["name"] not in (*POINTS, *LENGTHS, LAW):
-            continue
-        if row["source"] == "measured":
-            continue
         values = np.asarray(row["values"], float)
         if not len(values) or not np.isfinite(values).all():
             raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" needs numbers",
@@ -98,6 +84,24 @@ def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
         known[row["name"]] = (float(values[0]) if row["name"] in LENGTHS else _law(path, values[0])
                               if row["name"] == LAW else values.reshape(-1, 3).copy())
     return known
+
+
+def keep_doubts(rows: Iterable[dict[str, Any]], findings: Iterable[mvs.Finding]) -> tuple[mvs.Finding, ...]:
+    """Findings of a build with the values of rows of a file. Unedited guesses and assumptions keep their source,
+    confidence and doubt, though the build takes them for given."""
+    unsure = {row["name"]: row for row in rows
+              if row["source"] != "given" and row.get("unedited") == _digest(row["values"])}
+
+    def kept(one: mvs.Finding) -> mvs.Finding:
+        row = unsure.get(one.name)
+        if row is None or one.source != mvs.FindingSource.GIVEN:
+            return one
+        return dataclasses.replace(
+            one, source=mvs.FindingSource[row["source"].upper()], confidence=min(one.confidence, row["confidence"]),
+            doubtful=one.doubtful or bool(row.get("doubtful")),
+            sentence=f"{one.sentence}; {row['source']} in an earlier import: change its source to \"given\" if it is known")
+
+    return tuple(kept(one) for one in findings)
 
 
 def _law(path: Union[str, "os.PathLike[str]"], number: float) -> mvs.LeafletLaw:

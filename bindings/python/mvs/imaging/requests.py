@@ -9,7 +9,7 @@ import numpy as np
 
 import mvs
 from .console import Console
-from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, read_known
+from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, known_values, read_rows
 from .grid import spacing_of
 from .labels import ANTERIOR, POSTERIOR, UNKNOWN, Leaflets, leaflets_in
 from .landmarks import read_part
@@ -26,15 +26,16 @@ PARTS = {"annulus": "annulus", "commissures": "commissures", "anterior": "anteri
 
 def valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve:
     """The valve that the arguments of `mvs-image build` ask for."""
-    made = _valve_of_request(chosen, console)
-    if chosen.known:
-        given = {*_landmarks(chosen, ""), *_options(chosen), *((LAW,) if chosen.leaflet else ())}
-        made.findings = keep_doubts(chosen.known, given, made.findings)
+    rows = read_rows(chosen.known) if chosen.known else []
+    made = _valve_of_request(chosen, known_values(chosen.known, rows), console)
+    given = {*_options(chosen), *(part for option, part in PARTS.items() if getattr(chosen, option)),
+             *((LAW,) if chosen.leaflet else ())}
+    made.findings = keep_doubts([row for row in rows if row["name"] not in given], made.findings)
     return made
 
 
-def _valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve:
-    landmarks = read_known(chosen.known) if chosen.known else {}
+def _valve_of_request(chosen: argparse.Namespace, landmarks: dict[str, Any], console: Console) -> ImageValve:
+    """The same with the values of `--with` as far as no option gives them."""
     lengths = {name: landmarks.pop(name) for name in LENGTHS if name in landmarks}
     under_load = {name: landmarks.pop(name) for name in CLOSED if name in landmarks}
     law = {"leaflet": landmarks.pop(LAW)} if LAW in landmarks else {}
