@@ -41,8 +41,9 @@ class AnnulusMotion {
 };
 
 // `annulus`: points along it at rest. `given`: points along the loaded annulus in any order; empty:
-// not known. Adds the finding "closed_annulus" unless neither a curve nor a surface is given.
-// Throws where given points are no curve around the annulus, or lie elsewhere.
+// not known. Adds the finding "closed_annulus", or "annulus_motion" if too little is seen, unless
+// neither a curve nor a surface is given. Throws where given points are no curve around the
+// annulus, or lie elsewhere.
 AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::vector<Vec3> &given,
                                   const ClosedSurface &closed, Findings &findings);
 

@@ -81,6 +81,9 @@ TEST_CASE("the_annulus_stays_where_rims_lie_on_it_or_are_not_seen") {
   std::erase_if(half.triangles, [&](const Tri &t) { return half.points[t[0]].x() < 0; });
   CHECK(!find_annulus_motion(annulus, {}, half, findings).moves());
   CHECK(findings.back().source == FindingSource::assumed);
+  // no input of a build: read back as a curve it would give other bits
+  CHECK(findings.back().name == "annulus_motion");
+  CHECK(findings.back().value.empty());
 }
 
 TEST_CASE("a_given_curve_decides_in_any_order_of_its_points") {

@@ -150,7 +150,8 @@ KnownValues read_findings(const std::string &path) {
                       "the finding \"" + name + "\" has " + std::to_string(target->size()) +
                           " values: points need x, y, z each, the others one");
     }
-    if (source == "given" || row.value("unedited", "") != digest_of(*target)) continue;
+    const bool is_unsure = source == "guessed" || source == "assumed";
+    if (!is_unsure || row.value("unedited", "") != digest_of(*target)) continue;
     mvs::BuildFinding found;
     found.name = name;
     found.source = source_of(source);

@@ -90,7 +90,7 @@ def keep_doubts(rows: Iterable[dict[str, Any]], findings: Iterable[mvs.Finding])
     """Findings of a build with the values of rows of a file. Unedited guesses and assumptions keep their source,
     confidence and doubt, though the build takes them for given."""
     unsure = {row["name"]: row for row in rows
-              if row["source"] != "given" and row.get("unedited") == _digest(row["values"])}
+              if row["source"] in ("guessed", "assumed") and row.get("unedited") == _digest(row["values"])}
 
     def kept(one: mvs.Finding) -> mvs.Finding:
         row = unsure.get(one.name)
