@@ -51,8 +51,8 @@ typedef struct mvs_surface_desc {
   mvs_array closed_annulus;   /* k x 3, k >= 6, points along the loaded annulus in any order
                                  [measured: an affine motion of the annulus onto rims of the closed
                                  surface; without one, or without rims there, it stays] */
-  mvs_array closed_tips;      /* k x 3, each of papillary_tips in their order, under load [they
-                                 stay] */
+  mvs_array closed_tips;      /* k x 3, each of papillary_tips in their order, under load [all
+                                 follow the rigid part of the annulus' motion] */
 } mvs_surface_desc;
 
 /* How to build. */

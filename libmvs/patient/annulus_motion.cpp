@@ -175,14 +175,18 @@ std::string words_of(const std::vector<Vec3> &annulus, const AnnulusMotion &moti
       sum / static_cast<double>(annulus.size()) * 1e3, most * 1e3, loaded * 1e3, length * 1e3);
 }
 
-void report_loaded_annulus(const std::vector<Vec3> &annulus, const AnnulusMotion &motion,
-                           FindingSource source, double confidence, std::string sentence,
-                           Findings &findings) {
-  findings.push_back({"closed_annulus", source, confidence, std::move(sentence), {}, ""});
+std::vector<Vec3> moved_by(const AnnulusMotion &motion, const std::vector<Vec3> &annulus) {
   std::vector<Vec3> loaded;
   loaded.reserve(annulus.size());
   for (const Vec3 &p : annulus) loaded.push_back(motion(p));
-  set_points(loaded, findings.back());
+  return loaded;
+}
+
+void report_measured(const std::vector<Vec3> &annulus, const AnnulusMotion &motion,
+                     std::string sentence, Findings &findings) {
+  findings.push_back(
+      {"closed_annulus", FindingSource::measured, confidence_of_rims, std::move(sentence), {}, ""});
+  set_points(moved_by(motion, annulus), findings.back());
 }
 
 // Whether a motion is that of one annulus between two phases.
@@ -242,9 +246,13 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
         "theirs, and %.0f %% of it meets the curve; are both in one frame (LPS or RAS), and of "
         "one patient?",
         met.motion.shift.norm() * 1e3, 100 * met.seen);
-    report_loaded_annulus(annulus, motion, FindingSource::given, 1,
-                          "the annulus moves onto the given curve, by " + words_of(annulus, motion),
-                          findings);
+    findings.push_back({"closed_annulus",
+                        FindingSource::given,
+                        1,
+                        "the annulus moves onto the given curve, by " + words_of(annulus, motion),
+                        {},
+                        ""});
+    set_points(given, findings.back());  // read back it is the same curve
     return motion;
   }
   if (!motion.moves()) {
@@ -263,19 +271,22 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
   for (const Vec3 &p : annulus) sum += (motion(p) - p).squaredNorm();
   if (std::sqrt(sum / static_cast<double>(annulus.size())) < no_motion) {
     motion.moves_ = false;
-    report_loaded_annulus(annulus, motion, FindingSource::measured, confidence_of_rims,
-                          "the annulus stays under load: rims of the closed surface lie on it",
-                          findings);
+    report_measured(annulus, motion,
+                    "the annulus stays under load: rims of the closed surface lie on it", findings);
     return motion;
   }
-  report_loaded_annulus(
-      annulus, motion, FindingSource::measured, confidence_of_rims,
+  report_measured(
+      annulus, motion,
       "the annulus moves to rims of the closed surface, by " + words_of(annulus, motion) +
           format("; %.2f mm (RMS) remain on %.0f %% of it; give points along the loaded annulus "
                  "if they are known",
                  met.rms * 1e3, 100 * met.seen),
       findings);
   return motion;
+}
+
+Rigid rigid_part(const AnnulusMotion &motion, const std::vector<Vec3> &annulus) {
+  return register_points(annulus, moved_by(motion, annulus));
 }
 
 }  // namespace mvs::core

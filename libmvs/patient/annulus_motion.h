@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "measure/comparison/register.h"
 #include "patient/closed_curve.h"
 #include "patient/fit/surface_match.h"
 #include "patient/leaflet_sheet.h"
@@ -46,5 +47,8 @@ class AnnulusMotion {
 // annulus, or lie elsewhere.
 AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::vector<Vec3> &given,
                                   const ClosedSurface &closed, Findings &findings);
+
+// The rigid motion nearest to that of these points of the annulus.
+Rigid rigid_part(const AnnulusMotion &motion, const std::vector<Vec3> &annulus);
 
 }  // namespace mvs::core

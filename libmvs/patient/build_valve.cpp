@@ -1,6 +1,8 @@
 // The steps of a build in their order.
 #include "patient/build_valve.h"
 
+#include <optional>
+
 #include "base/error.h"
 #include "patient/findings.h"
 #include "patient/fit/edge_range.h"
@@ -23,6 +25,17 @@ void find_leaflets_of(const PatientSurface &surface, const MidSheet &mid, Findin
   doubt_tall_leaflets(mid.rims, coordinates, arcs, findings);
 }
 
+// The heads follow the annulus as a whole, unless they are given under load.
+Boundary boundary_of(const PatientSurface &surface, const PatientGeometry &g,
+                     const ClosedSurface &closed, Findings &findings) {
+  const std::vector<Vec3> annulus = points_along(g.rims.annulus, g.sheet.x);
+  AnnulusMotion motion = find_annulus_motion(annulus, surface.closed_annulus, closed, findings);
+  std::optional<Rigid> rigid;
+  if (motion.moves()) rigid = rigid_part(motion, annulus);
+  return {std::move(motion),
+          find_papillary_tips(surface.tips, g, findings, surface.closed_tips, rigid)};
+}
+
 }  // namespace
 
 void tell_progress(const Progress &progress, double share) {
@@ -42,9 +55,7 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   PatientGeometry g = patient_geometry(
       mid, settings.edge > 0 ? settings.edge : edge_for(mid.sheet, default_vertices), findings);
   const ClosedSurface closed{surface.closed_points, surface.closed_triangles};
-  const Boundary boundary{find_annulus_motion(points_along(g.rims.annulus, g.sheet.x),
-                                              surface.closed_annulus, closed, findings),
-                          find_papillary_tips(surface.tips, g, findings, surface.closed_tips)};
+  const Boundary boundary = boundary_of(surface, g, closed, findings);
   LeakUnknowns unknowns;
   unknowns.thickness_error = settings.thickness_error;
   Valve valve;

@@ -1,13 +1,14 @@
 // The steps from a surface as people have it to one clean sheet.
 #include "patient/mid_sheet.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "geometry/intersect.h"
 #include "patient/skin/mid_surface.h"
 #include "patient/skin/skin_holes.h"
 #include "patient/surface/boundary.h"
 #include "patient/surface/clean_surface.h"
-#include "patient/surface/mend_crossings.h"
 #include "patient/surface/mend_free_edge.h"
 #include "patient/surface/rims.h"
 
@@ -38,6 +39,9 @@ SurfaceKind kind_of(const PatientSurface &surface, const LeafletSheet &sheet, Fi
   return surface.kind;
 }
 
+// m: errors of surfaces from images make points move so far.
+constexpr double small_move = 1e-3;
+
 // Fills notches of the free edge, moves an atrial surface to the middle of the tissue, separates
 // triangles that cross. Notches whose filling stays crossed are kept open.
 CrossingReport mend(const BuildSettings &settings, SurfaceKind kind, MidSheet &mid,
@@ -62,6 +66,17 @@ CrossingReport mend(const BuildSettings &settings, SurfaceKind kind, MidSheet &m
 
 }  // namespace
 
+Finding crossings_finding(const CrossingReport &report) {
+  const double move = report.largest_move;
+  Finding found{"crossings", FindingSource::measured, 0.9, "", {move}, "m"};
+  found.confidence *= small_move / std::max(small_move, move);
+  found.sentence = format("%zu pairs of triangles crossed and were separated by ", report.before);
+  found.sentence += move > 0 ? format("moves of at most %.3g mm", 1e3 * move)
+                             : std::string("edge flips; no point moved");
+  if (move > small_move) found.sentence += ": smooth the surface where its leaflets touch";
+  return found;
+}
+
 MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &settings,
                         Findings &findings) {
   MidSheet mid;
@@ -80,20 +95,7 @@ MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &sett
            "%zu of %zu pairs of crossing triangles could not be separated by small moves: smooth "
            "the surface where its leaflets touch",
            crossings.after, crossings.before);
-  if (crossings.before > 0) {
-    findings.push_back({"crossings",
-                        FindingSource::measured,
-                        0.9,
-                        crossings.largest_move > 0
-                            ? format("%zu pairs of triangles crossed and were separated by moves "
-                                     "of at most %.3g mm",
-                                     crossings.before, 1e3 * crossings.largest_move)
-                            : format("%zu pairs of triangles crossed and were separated by edge "
-                                     "flips; no point moved",
-                                     crossings.before),
-                        {crossings.largest_move},
-                        "m"});
-  }
+  if (crossings.before > 0) findings.push_back(crossings_finding(crossings));
   return mid;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "patient/patient_surface.h"
+#include "patient/surface/mend_crossings.h"
 
 namespace mvs::core {
 
@@ -15,5 +16,8 @@ struct MidSheet {
 // triangles that cross. Throws a sentence for faults that no rule mends.
 MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &settings,
                         Findings &findings);
+
+// Separated crossings: the farther points moved, the less sure is the surface there.
+Finding crossings_finding(const CrossingReport &report);
 
 }  // namespace mvs::core

@@ -160,7 +160,7 @@ class SurfaceImport(unittest.TestCase):
         found = {f["name"]: f for f in self.imported("open.stl", "still.h5")["findings"]}
         self.assertNotIn("closed_annulus", found)
         tips = found["papillary_tips"]["values"]
-        tips = [tips[k:k + 3] for k in range(0, len(tips), 3)]
+        tips = [tips[k:k + 3] for k in range(0, len(tips), 3)][::-1]  # findings keep this order
         around = found["annulus"]["values"]
         wider = [[1.1 * x for x in around[k:k + 3]] for k in range(0, len(around), 3)]
         write_markups(self.dir / "tips.mrk.json", tips, "LPS")
@@ -172,6 +172,8 @@ class SurfaceImport(unittest.TestCase):
         rows = {f["name"]: f for f in moved["findings"]}
         self.assertEqual(rows["closed_annulus"]["source"], "given")
         self.assertIn("move by 2.0 to 2.0 mm under load", rows["closed_tips"]["sentence"])
+        again = self.imported("open.stl", "moved_again.h5", "--with", self.dir / "moved.import.json")
+        self.assertEqual(again["hash"], moved["hash"])
         self.ok("close", self.dir / "moved.h5", "-o", self.dir / "moved_closed.h5", "--residual", "1e-2")
         before, after = (json.loads(self.ok("info", self.dir / name, "--json").stdout)["annulus_cc_mm"]
                          for name in ("moved.h5", "moved_closed.h5"))
@@ -275,6 +277,10 @@ class SurfaceImport(unittest.TestCase):
         (self.dir / "other.json").write_text("{}")
         self.fails(1, "mvs import", "import", self.dir / "open.stl", "-o", out,
                    "--with", self.dir / "other.json")
+        (self.dir / "other.json").write_text(json.dumps({"format": "libmvs import", "version": 1, "findings": [
+            {"name": "papilary_tips", "source": "given", "values": [0.01, 0.0, -0.02]}]}))
+        self.fails(1, '"papilary_tips" is no input of a build; inputs are annulus, commissures', "import",
+                   self.dir / "open.stl", "-o", out, "--with", self.dir / "other.json")
         self.fails(2, "--kind", "import", self.dir / "open.stl", "-o", out, "--kind", "outer")
         self.assertEqual(out.read_bytes(), b"kept")
         self.assertFalse((self.dir / "kept.import.json").exists())

@@ -99,13 +99,15 @@ TEST_CASE("a_given_curve_decides_in_any_order_of_its_points") {
   CHECK(findings[0].source == FindingSource::given);
   // on the curve, past which points slide as along a rim
   CHECK(farthest_from_moved(annulus, motion) < 0.35 * mm);
+  CHECK(points_in(findings[0]) == given);
+  std::vector<Vec3> loaded;
+  for (const Vec3 &x : annulus) loaded.push_back(motion(x));
   for (const Vec3 &g : given) {
     double nearest = HUGE_VAL;
-    for (const Vec3 &q : points_in(findings[0])) nearest = std::min(nearest, (q - g).norm());
+    for (const Vec3 &q : loaded) nearest = std::min(nearest, (q - g).norm());
     CHECK(nearest < 2 * mm);  // nodes of the annulus are 3 mm apart
   }
   // 10 to 15 % longer everywhere: points do not crowd at the corners of the curve
-  const std::vector<Vec3> loaded = points_in(findings[0]);
   for (size_t k = 0; k < annulus.size(); ++k) {
     const size_t next = (k + 1) % annulus.size();
     const double ratio = (loaded[next] - loaded[k]).norm() / (annulus[next] - annulus[k]).norm();
@@ -117,6 +119,27 @@ TEST_CASE("a_given_curve_decides_in_any_order_of_its_points") {
   given.resize(4);
   CHECK_THROWS_WITH_AS(find_annulus_motion(annulus, given, {}, findings),
                        doctest::Contains("give six or more"), Error);
+}
+
+TEST_CASE("heads_keep_their_distance_from_an_annulus_that_moves_as_a_whole") {
+  const ParametricSheet p = parametric_sheet(430);
+  Rigid motion;
+  motion.turn << 0.995, 0, 0.0998749, 0, 1, 0, -0.0998749, 0, 0.995;  // 5.7 degrees
+  motion.shift = Vec3(1, -1, 4) * mm;
+  PatientSurface surface;
+  surface.points = p.sheet.x;
+  surface.triangles = p.sheet.triangles;
+  BuildSettings settings;
+  settings.edge = 2.4 * mm;
+  settings.finds_leak = false;
+  for (const Vec3 &x : annulus_of(p)) surface.closed_annulus.push_back(motion(x));
+  const Valve valve = build_valve(surface, settings, {}).model->valve;
+  REQUIRE(valve.heads.size() == 2);
+  for (const Head &head : valve.heads) {
+    // corners of the curve are cut off by up to 0.1 mm; the heads are as far below the annulus as
+    // it is wide
+    CHECK((valve.loaded.get()[head.node] - motion(valve.rest.get()[head.node])).norm() < 0.2 * mm);
+  }
 }
 
 TEST_CASE("a_built_valve_has_its_annulus_and_heads_under_load") {

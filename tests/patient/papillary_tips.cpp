@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "base/error.h"
+#include "patient/findings.h"
 #include "tests/patient/patient_valve.h"
 
 using namespace mvs::core;
@@ -58,6 +59,26 @@ TEST_CASE("given_tips_are_grouped_by_their_side") {
   CHECK(findings.back().source == FindingSource::given);
   CHECK(findings.back().value.size() == 9);
   CHECK(findings.back().confidence == 1);
+}
+
+TEST_CASE("tips_follow_the_annulus_unless_they_are_given_under_load") {
+  const PatientGeometry g = parametric_geometry(430);
+  const Vec3 medial = Vec3(10, -2, -23) * mm, lateral = Vec3(-10, -2, -23) * mm;
+  Rigid annulus;
+  annulus.turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  annulus.shift = Vec3(0, 0, 3) * mm;
+  Findings findings;
+  const PapillaryTips tips = find_papillary_tips({medial, lateral}, g, findings, {}, annulus);
+  CHECK(tips.loaded_posteromedial[0] == annulus(medial));
+  CHECK(tips.loaded_anterolateral[0] == annulus(lateral));
+  CHECK(find_finding(findings, "head_motion")->source == FindingSource::assumed);
+  // in the order of the given ones, as their loaded places are
+  CHECK(points_in(*find_finding(findings, "papillary_tips"))[0] == medial);
+  const PapillaryTips none = find_papillary_tips({}, g, findings, {}, annulus);
+  CHECK(none.loaded_anterolateral[0] == annulus(none.anterolateral[0]));
+  const PapillaryTips given =
+      find_papillary_tips({medial, lateral}, g, findings, {medial, lateral}, annulus);
+  CHECK(given.loaded_posteromedial[0] == medial);
 }
 
 TEST_CASE("tips_under_the_anterior_leaflet_lower_the_confidence") {

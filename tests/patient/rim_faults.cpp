@@ -8,6 +8,7 @@
 
 #include "geometry/intersect.h"
 #include "patient/doubtful.h"
+#include "patient/mid_sheet.h"
 #include "patient/patient_valve.h"
 #include "patient/surface/mend_free_edge.h"
 #include "tests/patient/sheets.h"
@@ -146,6 +147,15 @@ TEST_CASE("a_mesh_with_a_flat_triangle_or_a_tiny_side_is_a_doubtful_finding") {
   const Finding flat = mesh_finding(900, 1.8e-3, report);
   CHECK(is_doubtful(flat));
   CHECK(flat.sentence.find("triangle is flat near (10.0, 0.0, 0.0) mm") != std::string::npos);
+}
+
+TEST_CASE("crossings_that_moved_points_far_are_a_doubtful_finding") {
+  const auto finding = [](double move) { return crossings_finding({12, 0, move}); };
+  CHECK_FALSE(is_doubtful(finding(0)));
+  CHECK(finding(0).sentence.find("no point moved") != std::string::npos);
+  CHECK_FALSE(is_doubtful(finding(1e-3)));
+  CHECK(finding(2e-3).sentence.find("smooth the surface") != std::string::npos);
+  CHECK(is_doubtful(finding(3e-3)));  // 0.9 / 3 is below a third
 }
 
 TEST_CASE("given_landmarks_are_doubtful_sooner_than_guessed_ones") {

@@ -97,7 +97,7 @@ void add_landmark_options(CLI::App &command, ImportOptions &options) {
   landmark("--closed-annulus", options.closed_annulus,
            "points or a curve along the annulus under load [near rims of --closed]");
   landmark("--closed-tips", options.closed_tips,
-           "the tips of --tips in the same order, under load [the same]");
+           "the tips of --tips in the same order, under load [they follow the annulus as a whole]");
 }
 
 void add_range_options(CLI::App &command, ImportOptions &options) {

@@ -68,20 +68,35 @@ Json parsed(const std::string &path) {
   }
 }
 
+// The findings that are an input of a build, and where their values go.
+struct Input {
+  const char *name;
+  std::vector<double> KnownValues::*values;
+};
+constexpr Input inputs[] = {{"annulus", &KnownValues::annulus},
+                            {"commissures", &KnownValues::commissures},
+                            {"anterior", &KnownValues::anterior},
+                            {"papillary_tips", &KnownValues::papillary_tips},
+                            {"closed_annulus", &KnownValues::closed_annulus},
+                            {"closed_tips", &KnownValues::closed_tips},
+                            {"thickness", &KnownValues::thickness},
+                            {"edge_error", &KnownValues::edge_error},
+                            {"edge_lost", &KnownValues::edge_lost},
+                            {"thickness_error", &KnownValues::thickness_error},
+                            {"tissue", &KnownValues::tissue}};
+
 // Where the values of a finding with this name go; null: they are no input of a build.
 std::vector<double> *target_of(KnownValues &known, const std::string &name) {
-  if (name == "annulus") return &known.annulus;
-  if (name == "commissures") return &known.commissures;
-  if (name == "anterior") return &known.anterior;
-  if (name == "papillary_tips") return &known.papillary_tips;
-  if (name == "closed_annulus") return &known.closed_annulus;
-  if (name == "closed_tips") return &known.closed_tips;
-  if (name == "thickness") return &known.thickness;
-  if (name == "edge_error") return &known.edge_error;
-  if (name == "edge_lost") return &known.edge_lost;
-  if (name == "thickness_error") return &known.thickness_error;
-  if (name == "tissue") return &known.tissue;
+  for (const Input &input : inputs) {
+    if (name == input.name) return &(known.*input.values);
+  }
   return nullptr;
+}
+
+std::string names_of_inputs() {
+  std::string names;
+  for (const Input &input : inputs) names += (names.empty() ? "" : ", ") + std::string(input.name);
+  return names;
 }
 
 }  // namespace
@@ -139,6 +154,12 @@ KnownValues read_findings(const std::string &path) {
     const std::string name = row["name"].get<std::string>();
     std::vector<double> *target = target_of(known, name);
     const std::string source = row.value("source", "");
+    // findings that a build wrote have a digest, so that this row is written by hand
+    if (!target && !row.contains("unedited")) {
+      refuse_findings(
+          path, name,
+          "the finding \"" + name + "\" is no input of a build; inputs are " + names_of_inputs());
+    }
     if (!target || source == "measured") continue;
     *target = numbers_of(path, name, row);
     const auto points = {&known.annulus,        &known.commissures,    &known.anterior,

@@ -29,23 +29,16 @@ constexpr double most_forward = 0.2;
 // m: a tip is at least this much below the lowest leaflet, as chordae have a length.
 constexpr double below_leaflets = 1e-3;
 
-void put_tips(const PapillaryTips &tips, Finding &finding) {
-  std::vector<Vec3> all = tips.anterolateral;
-  all.insert(all.end(), tips.posteromedial.begin(), tips.posteromedial.end());
-  set_points(all, finding);
-}
-
-PapillaryTips assumed_tips(const PatientGeometry &g, const AnnulusFrame &frame) {
+// Two, the anterolateral one first.
+std::vector<Vec3> assumed_tips(const PatientGeometry &g, const AnnulusFrame &frame) {
   double depth = assumed_depth * frame.width;
   for (const uint32_t i : g.rims.free_edge) {
     depth = std::max(depth, below_leaflets - frame.local(g.sheet.x[i])[2]);
   }
   const double half = 0.5 * assumed_separation * frame.width;
   const double y = -assumed_posterior * frame.diameter;
-  return {{frame.global({frame.middle - half, y, -depth})},
-          {frame.global({frame.middle + half, y, -depth})},
-          {},
-          {}};
+  return {frame.global({frame.middle - half, y, -depth}),
+          frame.global({frame.middle + half, y, -depth})};
 }
 
 void check_tip(const Vec3 &tip, size_t number, const AnnulusFrame &frame) {
@@ -80,37 +73,51 @@ void check_loaded(const std::vector<Vec3> &given, const std::vector<Vec3> &loade
   }
 }
 
-void report_motion(const std::vector<Vec3> &given, const std::vector<Vec3> &loaded,
-                   Findings &findings) {
+bool is_medial(const Vec3 &tip, const AnnulusFrame &frame) {
+  return frame.local(tip)[0] > frame.middle;
+}
+
+std::string words_of(const std::vector<Vec3> &tips, const std::vector<Vec3> &loaded) {
   double least = HUGE_VAL, most = 0;
-  for (size_t k = 0; k < given.size(); ++k) {
-    const double by = (loaded[k] - given[k]).norm();
+  for (size_t k = 0; k < tips.size(); ++k) {
+    const double by = (loaded[k] - tips[k]).norm();
     least = std::min(least, by);
     most = std::max(most, by);
   }
-  findings.push_back(
-      {"closed_tips",
-       FindingSource::given,
-       1,
-       format("the tips of the papillary muscles move by %.1f to %.1f mm under load, "
-              "as given",
-              least * 1e3, most * 1e3),
-       {},
-       ""});
-  set_points(loaded, findings.back());
+  return format("the tips of the papillary muscles move by %.1f to %.1f mm under load, ",
+                least * 1e3, most * 1e3);
+}
+
+// Tips that follow the annulus.
+std::vector<Vec3> followed(const std::vector<Vec3> &tips, const Rigid &annulus,
+                           Findings &findings) {
+  std::vector<Vec3> loaded;
+  loaded.reserve(tips.size());
+  for (const Vec3 &p : tips) loaded.push_back(annulus(p));
+  // without values: read back as given ones they would not follow edited tips
+  findings.push_back({"head_motion",
+                      FindingSource::assumed,
+                      0.4,
+                      words_of(tips, loaded) +
+                          "with the annulus as a whole, from which they keep their distance in "
+                          "normal beats; give the loaded tips if they are known",
+                      {},
+                      ""});
+  return loaded;
 }
 
 }  // namespace
 
 PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientGeometry &g,
-                                  Findings &findings, const std::vector<Vec3> &loaded) {
+                                  Findings &findings, const std::vector<Vec3> &loaded,
+                                  const std::optional<Rigid> &annulus) {
   const AnnulusFrame frame = annulus_frame(g, AnnulusCurve(g, g.sheet.x));
   MVS_MUST(given.size() <= most_tips, MVS_E_ARGUMENT, "papillary_tips",
            "%zu papillary tips are given, at most %zu are accepted", given.size(), most_tips);
   check_loaded(given, loaded);
   if (given.empty()) {
-    PapillaryTips tips = assumed_tips(g, frame);
-    const double depth = -frame.local(tips.anterolateral[0])[2];
+    const std::vector<Vec3> two = assumed_tips(g, frame);
+    const double depth = -frame.local(two[0])[2];
     findings.push_back(
         {"papillary_tips",
          FindingSource::assumed,
@@ -121,7 +128,12 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
                 depth * 1e3),
          {},
          ""});
-    put_tips(tips, findings.back());
+    set_points(two, findings.back());
+    PapillaryTips tips{{two[0]}, {two[1]}, {}, {}};
+    if (!annulus) return tips;
+    const std::vector<Vec3> moved = followed(two, *annulus, findings);
+    tips.loaded_anterolateral = {moved[0]};
+    tips.loaded_posteromedial = {moved[1]};
     return tips;
   }
   PapillaryTips tips;
@@ -129,10 +141,7 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
   for (size_t k = 0; k < given.size(); ++k) {
     check_tip(given[k], k + 1, frame);
     forward += frame.local(given[k])[1] / static_cast<double>(given.size());
-    const bool medial = frame.local(given[k])[0] > frame.middle;
-    (medial ? tips.posteromedial : tips.anterolateral).push_back(given[k]);
-    if (loaded.empty()) continue;
-    (medial ? tips.loaded_posteromedial : tips.loaded_anterolateral).push_back(loaded[k]);
+    (is_medial(given[k], frame) ? tips.posteromedial : tips.anterolateral).push_back(given[k]);
   }
   MVS_MUST(
       !tips.anterolateral.empty() && !tips.posteromedial.empty(), MVS_E_OP, "papillary_tips",
@@ -152,8 +161,19 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
                       : ""),
        {},
        ""});
-  put_tips(tips, findings.back());
-  if (!loaded.empty()) report_motion(given, loaded, findings);
+  set_points(given, findings.back());
+  std::vector<Vec3> moved = loaded;
+  if (!loaded.empty()) {
+    findings.push_back(
+        {"closed_tips", FindingSource::given, 1, words_of(given, loaded) + "as given", {}, ""});
+    set_points(loaded, findings.back());
+  } else if (annulus) {
+    moved = followed(given, *annulus, findings);
+  }
+  for (size_t k = 0; k < moved.size(); ++k) {
+    (is_medial(given[k], frame) ? tips.loaded_posteromedial : tips.loaded_anterolateral)
+        .push_back(moved[k]);
+  }
   return tips;
 }
 

@@ -218,6 +218,19 @@ def test_the_law_in_a_file_of_findings_is_read(tmp_path):
             read_known(path)
 
 
+@pytest.mark.parametrize("row, words", [
+    ({"values": [1.0]}, "a finding without a name"),
+    ({"name": "papilary_tips", "source": "given", "values": [1.0, 2.0, 3.0]}, "no input of a build; inputs are annulus"),
+    ({"name": "closed_tips", "source": "given", "values": [1.0, 2.0]}, "points need x, y, z each"),
+    ({"name": "thickness", "source": "given", "values": ["thick"]}, "needs finite numbers"),
+    ({"name": "thickness"}, "needs finite numbers")])
+def test_faulty_rows_of_a_file_of_findings_are_named(tmp_path, row, words):
+    path = tmp_path / "a.import.json"
+    path.write_text(json.dumps({"format": "libmvs import", "version": 1, "findings": [row]}))
+    with pytest.raises(mvs.FormatError, match=words):
+        read_known(path)
+
+
 def test_loaded_landmarks_are_the_boundary_under_load(tmp_path, monkeypatch):
     """Landmarks of the loaded image, and those of a file of findings, reach the build in the frame of the open image."""
     sitk.WriteImage(image_of(funnel()[0]), str(tmp_path / "open.nrrd"))

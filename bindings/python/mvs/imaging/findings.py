@@ -16,6 +16,7 @@ CLOSED = ("closed_annulus", "closed_tips")
 POINTS = ("annulus", "commissures", "anterior", "papillary_tips", *CLOSED)
 LENGTHS = ("thickness", "edge_error", "edge_lost", "thickness_error")
 LAW = "tissue"
+INPUTS = (*POINTS, *LENGTHS, LAW)
 """Findings that are an input of a build; lengths are one number each, m, the law is that of `mvs.LeafletLaw`."""
 
 
@@ -65,7 +66,13 @@ def read_rows(path: Union[str, "os.PathLike[str]"]) -> list[dict[str, Any]]:
         raise mvs.FormatError(f"{os.fspath(path)}: is no file of findings ({error})", "with") from error
     if rows is None or read.get("version") != 1:
         raise mvs.FormatError(f"{os.fspath(path)}: is no file of findings of this version", "with")
-    return [row for row in rows if row["name"] in (*POINTS, *LENGTHS, LAW) and row["source"] != "measured"]
+    for row in rows if isinstance(rows, list) else (None,):
+        if not isinstance(row, dict) or not isinstance(row.get("name"), str):
+            raise mvs.FormatError(f"{os.fspath(path)}: has a finding without a name", "with")
+        if row["name"] not in INPUTS and "unedited" not in row:  # written by hand: those of a build have a digest
+            raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" is no input of a build; inputs are "
+                                  f"{', '.join(INPUTS)}", row["name"])
+    return [row for row in rows if row["name"] in INPUTS and row.get("source") != "measured"]
 
 
 def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:
@@ -77,10 +84,14 @@ def known_values(path: Union[str, "os.PathLike[str]"], rows: Iterable[dict[str, 
     """The values of rows of a file, by name; FormatError if they are no numbers."""
     known: dict[str, Any] = {}
     for row in rows:
-        values = np.asarray(row["values"], float)
-        if not len(values) or not np.isfinite(values).all():
-            raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" needs numbers",
-                                  row["name"])
+        try:
+            values = np.asarray(row.get("values"), float)
+        except (TypeError, ValueError):
+            values = np.empty(0)
+        count = 3 if row["name"] in POINTS else 1
+        if values.ndim != 1 or not len(values) or len(values) % count or not np.isfinite(values).all():
+            raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" needs finite numbers: points need "
+                                  "x, y, z each, the others one", row["name"])
         known[row["name"]] = (float(values[0]) if row["name"] in LENGTHS else _law(path, values[0])
                               if row["name"] == LAW else values.reshape(-1, 3).copy())
     return known
@@ -90,7 +101,7 @@ def keep_doubts(rows: Iterable[dict[str, Any]], findings: Iterable[mvs.Finding])
     """Findings of a build with the values of rows of a file. Unedited guesses and assumptions keep their source,
     confidence and doubt, though the build takes them for given."""
     unsure = {row["name"]: row for row in rows
-              if row["source"] in ("guessed", "assumed") and row.get("unedited") == _digest(row["values"])}
+              if row.get("source") in ("guessed", "assumed") and row.get("unedited") == _digest(row["values"])}
 
     def kept(one: mvs.Finding) -> mvs.Finding:
         row = unsure.get(one.name)
