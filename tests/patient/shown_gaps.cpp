@@ -112,7 +112,7 @@ TEST_CASE("narrow_gaps_are_errors_of_a_surface_and_small_ones_show_nothing") {
 }
 
 TEST_CASE("gaps_that_the_fitted_valve_closes_are_doubtful") {
-  const ShownGaps shown{{}, {{30 * mm2, 3 * mm, "A2 to P2"}}, 30 * mm2, 16 * mm2, 44 * mm2};
+  const ShownGaps shown{{}, {{30 * mm2, 3 * mm, 0, "A2 to P2"}}, 30 * mm2, 16 * mm2, 44 * mm2};
   Findings closed, same, none, open;
   report_shown_gaps(shown, 14 * mm2, closed);
   REQUIRE(closed[0].name == "shown_gaps");
@@ -140,6 +140,42 @@ TEST_CASE("the_interval_contains_the_gaps_of_the_surface_with_their_error") {
   CHECK((around.least == 10 * mm2 && around.most == 50 * mm2));
   reach_to({}, around);
   CHECK(around.least == 10 * mm2);
+}
+
+TEST_CASE("a_gap_does_not_count_where_the_missing_tissue_would_close_it") {
+  const PatientGeometry &g = parametric_geometry(430);
+  const ParametricSheet p = parametric_sheet(430);
+  const ClosedPatient closed = close_patient(p.model->valve);
+  const auto measured = [&](const ClosedSurface &given) {
+    return shown_gaps(given, *p.model, closed.state.x, g);
+  };
+  // the posterior leaflet, 13 to 15 mm high, lacks all but 9 mm, without which it overlapped the
+  // anterior one; or it has all and stands 5 mm away
+  const Valve &valve = p.model->valve;
+  ClosedSurface eaten{closed.state.x, {}}, apart{closed.state.x, g.sheet.triangles};
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    const Tri &c = valve.triangles[t];
+    const bool is_posterior = valve.triangle_leaflet[t] == 1;
+    const auto is_high = [&](uint32_t i) { return g.coordinates.height[i] <= 9 * mm; };
+    if (!is_posterior || std::all_of(c.begin(), c.end(), is_high)) eaten.triangles.push_back(c);
+    for (const uint32_t i : c) {
+      const double share = std::min(1.0, g.coordinates.height[i] / (5 * mm));
+      if (is_posterior) apart.points[i].y() = closed.state.x[i].y() - share * 5 * mm;
+    }
+  }
+  const ShownGaps whole = measured(apart);
+  REQUIRE(!whole.gaps.empty());
+  CHECK(whole.gaps[0].missing < whole.gaps[0].width);
+  CHECK(whole.area > 0);
+  const ShownGaps lacks = measured(eaten);
+  REQUIRE(!lacks.gaps.empty());
+  CHECK(lacks.gaps[0].missing > lacks.gaps[0].width + 1.5 * mm);
+  CHECK(lacks.area == 0);
+  CHECK(lacks.most == 0);
+  Findings findings;
+  report_shown_gaps(lacks, 0, findings);
+  CHECK(findings[0].sentence.find("of tissue are missing beside it") != std::string::npos);
+  CHECK(!is_doubtful(findings[0]));
 }
 
 TEST_CASE("the_interval_of_a_sealed_valve_reaches_to_the_gap_of_its_surface") {

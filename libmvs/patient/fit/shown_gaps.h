@@ -7,8 +7,9 @@
 // free edge, fills them, as leaflets do not part there.
 //
 // Errors of the surface open gaps as well: errors of segmentation networks (0.45 mm in the mean,
-// 3.6 mm 95 % Hausdorff) make narrow ones of little area, and holes in one leaflet, which do not
-// count (tests/validation/shown_gaps.py).
+// 3.6 mm 95 % Hausdorff) make narrow ones of little area, holes in one leaflet, and gaps beside
+// which leaflets end far from where their free edges are (leaflet_reach.h). They do not count
+// (tests/validation/shown_gaps.py).
 #pragma once
 
 #include <string>
@@ -20,15 +21,16 @@
 namespace mvs::core {
 
 struct ShownGap {
-  double area = 0;    // m2
-  double width = 0;   // m, of the widest ball in it
-  std::string place;  // scallops beside it: "A2 to P2"
+  double area = 0;     // m2
+  double width = 0;    // m, of the widest ball in it
+  double missing = 0;  // m, of tissue that the surface lacks beside it
+  std::string place;   // scallops beside it: "A2 to P2"
 };
 
 struct ShownGaps {
   std::string missing;         // a leaflet that the surface lacks: nothing is measured
   std::vector<ShownGap> gaps;  // the largest first; none is narrower than errors of edges are
-  double area = 0;             // m2, of all
+  double area = 0;             // m2, of all beside which little tissue is missing
   // m2, the same with each gap narrower and wider by the error of its edges; 0: not more than
   // errors of the surface show
   double least = 0, most = 0;
