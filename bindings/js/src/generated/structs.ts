@@ -1305,7 +1305,10 @@ export interface SurfaceDesc {
    * annulus onto rims of the closed surface; without one, or without rims there, it stays]
    */
   closed_annulus?: ArrayInput;
-  /** k x 3, each of papillary_tips in their order, under load [they stay] */
+  /**
+   * k x 3, each of papillary_tips in their order, under load [all follow the rigid part of the
+   * annulus' motion]
+   */
   closed_tips?: ArrayInput;
 }
 
