@@ -16,11 +16,13 @@ import { onKey, showPanel, tabs } from './keys';
 import { PlanPanel } from './plan';
 import { RepairPanel } from './repair';
 import { Scale } from './scale';
+import { watchPresses } from './series';
 import { Tip } from './tip';
 import { TopBar, ViewBar } from './toolbar';
 import { TourPanel } from './tour';
 import { ValvePanel } from './valve';
 import { Verdict } from './verdict';
+import { watchWheel } from './wheel';
 
 let viewport: Viewport | null = null;
 export const view = (): Viewport | null => viewport;
@@ -195,22 +197,6 @@ function onDrop(event: DragEvent): void {
   });
 }
 
-const control = (target: EventTarget | null): EventTarget | null =>
-  (target as Element | null)?.closest?.('label') ??
-  (target as Element | null)?.closest?.('button, a, summary, input, select') ??
-  target;
-/** What the first press of a double click was on. */
-let pressed: EventTarget | null = null;
-
-/** The second press of a double click is for what the first one was on, not for what has come into its place since. */
-function onPress(event: MouseEvent): void {
-  if (event.detail <= 1) pressed = control(event.target);
-  else if (control(event.target) !== pressed) {
-    event.preventDefault();
-    event.stopPropagation();
-  }
-}
-
 export function App() {
   useEffect(() => {
     const onKeyDown = (event: KeyboardEvent) => onKey(event, go);
@@ -218,15 +204,13 @@ export function App() {
     window.addEventListener('dragover', onDrag);
     window.addEventListener('dragleave', onDragEnd);
     window.addEventListener('drop', onDrop);
-    window.addEventListener('mousedown', onPress, true);
-    window.addEventListener('click', onPress, true);
+    const ends = [watchPresses(), watchWheel()];
     return () => {
       window.removeEventListener('keydown', onKeyDown);
       window.removeEventListener('dragover', onDrag);
       window.removeEventListener('dragleave', onDragEnd);
       window.removeEventListener('drop', onDrop);
-      window.removeEventListener('mousedown', onPress, true);
-      window.removeEventListener('click', onPress, true);
+      ends.forEach((end) => end());
     };
   }, []);
   if (state.broken.value) {

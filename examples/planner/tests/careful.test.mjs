@@ -1,0 +1,80 @@
+// What an impatient or careless hand must not do: apply an operation that nobody asked for, or change a length unseen.
+import assert from 'node:assert/strict';
+import { beforeEach, describe, it } from 'node:test';
+import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
+import { answered, begin, startAfresh, undo } from './fixtures/person.mjs';
+
+describe('planner under a careless hand', () => {
+  let page;
+  sharePlanner((opened) => ({ page } = opened));
+  beforeEach(() => startAfresh(page));
+
+  const done = async () => (await figures(page)).history.filter((entry) => !entry.undone).length;
+  /** Presses Apply `times` times at one place, each as a single click, as slow clicks are. */
+  const pressApply = async (times, gap) => {
+    const box = await page.getByRole('button', { name: 'Apply', exact: true }).boundingBox();
+    await page.mouse.move(box.x + 90, box.y + 20);
+    for (let k = 0; k < times; ++k) {
+      if (k) await page.waitForTimeout(gap);
+      await page.mouse.down();
+      await page.mouse.up();
+    }
+    await answered(page, 300);
+  };
+
+  for (const gap of [150, 300, 500])
+    it(`applies_one_operation_by_three_clicks_${gap}_ms_apart`, async () => {
+      const before = await done();
+      await begin(page, 'annulus_scale');
+      await pressApply(3, gap);
+      assert.equal(await page.getByTestId('form').count(), 0, 'a card under the pointer took a click');
+      assert.equal(await done(), before + 1);
+      // one undo takes it back: no form is in its way
+      await undo(page);
+      assert.equal(await done(), before);
+    });
+
+  it('takes_a_press_at_the_same_place_once_the_pointer_has_moved_or_rested', async () => {
+    const card = async () => {
+      const box = await page.locator('[data-operation=chord_remove]').boundingBox();
+      return { x: box.x + 40, y: box.y + box.height / 2 };
+    };
+    await begin(page, 'annulus_scale');
+    await pressApply(1, 0);
+    const place = await card();
+    await page.mouse.move(place.x - 20, place.y);
+    await page.mouse.move(place.x, place.y);
+    await page.mouse.down();
+    await page.mouse.up();
+    assert.equal(await page.evaluate(() => window.planner.state.draft.value?.kind), 'chord_remove');
+    await page.keyboard.press('Escape');
+    await page.waitForTimeout(1100);
+    await page.mouse.down();
+    await page.mouse.up();
+    assert.equal(await page.evaluate(() => window.planner.state.draft.value?.kind), 'chord_remove');
+    await page.keyboard.press('Escape');
+    await undo(page);
+  });
+
+  it('scrolls_the_form_by_the_wheel_over_a_number_and_changes_no_length', async () => {
+    await page.setViewportSize({ width: 1000, height: 520 });
+    const { id, rest } = (await figures(page)).chords[0];
+    await page.evaluate(
+      ([chord, length]) => window.planner.edit('chord_length', { chord, length }),
+      [id, rest],
+    );
+    await closed(page);
+    const box = page.locator('#f-length');
+    await box.focus();
+    const before = await box.inputValue();
+    const { x, y, width, height } = await box.boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    // the focus may have scrolled the form to its end already: the wheel goes up
+    await page.mouse.wheel(0, -30);
+    await answered(page, 900);
+    assert.equal(await box.inputValue(), before);
+    assert.equal(await page.evaluate(() => window.planner.state.draft.value.fields.length), rest);
+    assert.ok((await box.boundingBox()).y > y, 'the form does not scroll');
+    await page.setViewportSize({ width: 1280, height: 720 });
+  });
+});
