@@ -33,24 +33,33 @@ export function smallAnnulus(): number | null {
   return cc !== undefined && cc < leastAdult ? cc : null;
 }
 
-/** The width of a normal annulus for this valve, mm: that before the illness where it is known. Else that before the first operation,
- *  less the dilation of the most dilated valve of the study, 15 % (Tenenholtz et al. 2011). */
-function normalWidth(): number | null {
-  const healthy = state.tour.value?.founding?.healthy.measures.annulusCc;
-  const first = state.first.value?.figures.measures.annulusCc;
-  return healthy ?? (first === undefined ? null : first / 1.15);
+/** Width and depth of an annulus, mm: from commissure to commissure and from front to back. */
+export type Extent = 'annulusCc' | 'annulusAp';
+
+/** mm: the least of healthy adults; measured are 35 to 39 and 24 to 29. */
+const leastNormal: Record<Extent, number> = { annulusCc: 35, annulusAp: 24 };
+
+/** A normal annulus for this valve, mm: that before the illness where it is known. Else that before the first operation less the
+ *  dilation of the most dilated valve of the study, 15 % (Tenenholtz et al. 2011), but of an adult not less than a normal one. */
+function normalExtent(extent: Extent): number | null {
+  const healthy = state.tour.value?.founding?.healthy.measures[extent];
+  const first = state.first.value?.figures.measures[extent];
+  if (healthy !== undefined || first === undefined) return healthy ?? null;
+  const undilated = first / 1.15;
+  return smallAnnulus() === null ? Math.max(undilated, Math.min(first, leastNormal[extent])) : undilated;
 }
 
-/** Per cent of the normal width below which the plan has made the annulus much too small. Restrictive rings are by custom two sizes
- *  below the measured one, 4 mm of about 35: they leave 88 %. */
-const leastWidth = 80;
+/** Per cent of a normal annulus below which the plan has made it much too small. Of the width: restrictive rings are by custom two sizes
+ *  below the measured one, 4 mm of about 35, and leave 88 %. Of the depth: a ring at that limit, 28 mm wide and by custom three quarters
+ *  as deep, leaves 75 % of the 28 mm of the study; no custom of rings accounts for less than 70 %. */
+const leastShare: Record<Extent, number> = { annulusCc: 80, annulusAp: 70 };
 
-/** The width of the annulus before the plan, mm, where the plan has made it much too small; else null. */
-export function undersizedFrom(cc: number): number | null {
-  const first = state.first.value?.figures.measures.annulusCc;
-  const normal = normalWidth();
-  if (first === undefined || normal === null || cc >= first) return null;
-  return Math.round((100 * cc) / normal) < leastWidth ? first : null;
+/** The extent of the annulus before the plan, mm, where the plan has made it much too small; else null. */
+export function undersizedFrom(extent: Extent, now: number): number | null {
+  const first = state.first.value?.figures.measures[extent];
+  const normal = normalExtent(extent);
+  if (first === undefined || normal === null || now >= first) return null;
+  return Math.round((100 * now) / normal) < leastShare[extent] ? first : null;
 }
 
 /** Per cent of the width before the plan below which a smaller annulus is no repair: its leaflets lie in folds, inside and outside of it. */
@@ -75,6 +84,16 @@ export function leastOpening(): number | null {
 export function leastCoaptation(): number | null {
   const healthy = state.tour.value?.founding?.healthy;
   return healthy ? 0.9 * healthy.measures.coaptationMean : null;
+}
+
+/** mm: coaptation at A2–P2 below which a sealed valve has no reserve. The trials of edge-to-edge repair (EVEREST) took
+ *  2 mm as the least with which leaflets can be said to meet; repairs aim at 8 mm. */
+const leastCentral = 2;
+
+/** The least height over which A2 and P2 have to meet, mm: of a valve that met over less before its illness, 90 % of that. */
+export function leastCentralCoaptation(): number {
+  const healthy = state.tour.value?.founding?.healthy.measures.coaptationHeight;
+  return healthy === undefined ? leastCentral : Math.min(leastCentral, 0.9 * healthy);
 }
 
 /** A tenth above the limit: limits are known as little as that. */

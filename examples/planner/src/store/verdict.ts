@@ -2,12 +2,13 @@
 // valve that is sealed may open too little, or hang on chordae beyond their limit.
 import { beyondLimit, mostBillowing, percentOfLimit, shareOfLimit } from '../notable';
 import type { Figures } from '../protocol';
-import { grade, headlineOf, isSevere, stenosis, verdictTexts, where } from '../text/texts';
+import { apart, grade, headlineOf, isSevere, stenosis, verdictTexts, where } from '../text/texts';
 import { missedGoals } from './goals';
 import { ofLeakRange } from './leak_range';
 import {
   faultyLoad,
   foldedShare,
+  leastCentralCoaptation,
   leastOpening,
   narrowing,
   openingOf,
@@ -50,10 +51,21 @@ function opensTooLittle({ hash }: Figures): boolean {
   return !!cost && smallAnnulus() === null && isSevere(cost.openArea);
 }
 
-/** How wide the annulus is, if the plan has made it much too small. */
+/** How wide and how deep the annulus is, where the plan has made it much too small. */
 function ofAnnulus({ measures }: Figures): string[] {
-  const from = undersizedFrom(measures.annulusCc);
-  return from === null ? [] : [verdictTexts.undersized(measures.annulusCc, from)];
+  const small = (['annulusCc', 'annulusAp'] as const).flatMap((extent) => {
+    const from = undersizedFrom(extent, measures[extent]);
+    return from === null ? [] : [{ extent, now: measures[extent], from }];
+  });
+  return small.length ? [verdictTexts.undersized(small)] : [];
+}
+
+/** How little the middles of the leaflets of a sealed valve meet: a leak is said first. */
+function ofCentre({ measures: { orifice, coaptationHeight } }: Figures): string[] {
+  const least = leastCentralCoaptation();
+  return orifice === 0 && coaptationHeight < least
+    ? [verdictTexts.centreMeets(apart(coaptationHeight, least))]
+    : [];
 }
 
 /** mm above the surface of the annulus. In the long-axis view of echocardiography 2 mm count as prolapse, above a line that lies
@@ -96,6 +108,7 @@ export function verdictOf(figures: Figures): Verdict {
       ...ofLeakRange(figures),
       ...ofOpening(figures),
       ...(share === null ? ofAnnulus(figures) : []),
+      ...ofCentre(figures),
       ...ofBillow(figures),
       ...missedGoals(figures),
       ...ofChordae(figures),

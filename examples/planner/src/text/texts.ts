@@ -595,7 +595,8 @@ export const verdictTexts = {
     `chordae are guessed: a leak of ${number(low)} to ${number(high)} mm² is possible`,
   leakBefore: (low: number, high: number) =>
     `The leak before the repair is known as ${number(low)} to ${number(high)} mm² only: chordae were guessed, and the result is no better known`,
-  butHelp: 'A sealed valve may still open too little, miss another goal, or hang on chordae that may tear.',
+  butHelp:
+    'A sealed valve may still open too little, have an annulus that is much too small, hardly meet in the middle, miss another goal, or hang on chordae that may tear.',
   /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
   openingIs: (area: number, word: string, adult: boolean, goal: number | null) =>
     `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}${goal === null ? '' : `, goal ${number(goal / 100)}`}`,
@@ -608,8 +609,15 @@ export const verdictTexts = {
   folded: (percent: number) =>
     `the annulus is ${percent} % of its width before; leaflets lie in folds: do not trust the figures`,
   billows: (scallop: string, height: number) => `${scallop} billows ${number(height)} mm above the annulus`,
-  undersized: (cc: number, from: number) =>
-    `annulus ${number(cc, 0)} mm, was ${number(from, 0)}: much undersized`,
+  undersized: (small: { extent: 'annulusCc' | 'annulusAp'; now: number; from: number }[]) => {
+    const of = { annulusCc: 'wide', annulusAp: 'front to back' };
+    const words = small.map(
+      ({ extent, now, from }) => `${number(now, 0)} mm ${of[extent]} (was ${number(from, 0)})`,
+    );
+    return `the annulus is ${listOf(words)}: much undersized`;
+  },
+  centreMeets: ([height, least]: [string, string]) =>
+    `A2 and P2 meet over ${height} mm only, less than ${least}`,
   edgeAbove: (scallop: string, height: number) => `edge of ${scallop} ${number(height)} mm above the annulus`,
   coaptationBelow: ([length, goal]: [string, string]) => `coaptation ${length} mm is below the goal ${goal}`,
   smallAnnulus: (cc: number) =>
@@ -1235,7 +1243,7 @@ export const figureHelp: {
           names: ['Grade'],
           unit: 'in words',
           meaning:
-            'Sealed, mild, moderate, moderate–severe, severe. “Sealed, but” names what is wrong beside: an unmet goal, a narrow opening, chordae that may tear.',
+            'Sealed, mild, moderate, moderate–severe, severe. “Sealed, but” names what is wrong beside: a narrow opening, a much undersized annulus, leaflets that hardly meet in the middle, an unmet goal, chordae that may tear.',
           measured:
             'By the leak: below 20, 30, 40 mm², and more, as an effective orifice in echocardiography.',
         },
