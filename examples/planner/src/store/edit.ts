@@ -4,6 +4,7 @@ import { batch } from '@preact/signals';
 import { titlesOf } from '../notable';
 import { say, t } from '../text/texts';
 import type { FieldValue, Shown } from '../protocol';
+import { rangeFault } from './bounds';
 import { cancel, complete as addFigures, fail, isCancelled, request, sentenceOf, show } from './requests';
 import { sayPreview } from './result';
 import * as state from './state';
@@ -97,6 +98,11 @@ function leavePreview(): void {
 function refresh(): void {
   const draft = state.draft.value;
   if (!draft || !complete(draft.kind, draft.fields)) return leavePreview();
+  const fault = rangeFault(draft);
+  if (fault) {
+    leavePreview();
+    return refuse(draft, fault);
+  }
   state.pending.value = true;
   if (!under || under.shaped) return void calculate(draft);
   timer ||= window.setTimeout(next, patience);
@@ -203,6 +209,8 @@ export function discard(): void {
   batch(() => {
     state.draft.value = null;
     state.picking.value = null;
+    // it was about the form
+    state.status.value = '';
   });
   void request('discard', null).catch(fail);
 }

@@ -69,6 +69,10 @@ export const pending = signal(false);
 export const choice = signal<Choice | null>(null);
 /** Points of the outline that is being drawn on a leaflet, mm. */
 export const outline = signal<number[][]>([]);
+/** Where these points are: the name of a leaflet, and for each point that of a scallop. They stay beside a cut that is in the form. */
+export const outlineOn = signal<{ leaflet: string; scallops: string[] }>({ leaflet: '', scallops: [] });
+/** Why the last click set no point of the outline. */
+export const outlineRefusal = signal('');
 /** The field of the draft that the next click in the picture fills. */
 export const picking = signal<string | null>(null);
 

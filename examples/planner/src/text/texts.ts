@@ -246,7 +246,7 @@ const turned = (angle: number): string =>
 const clipSaid = ({ width, place, angle }: ClipWords): string =>
   `${+number(width)} mm wide, ${place}, ${turned(angle)}`;
 
-/** Sentences of the library with its units turned into those of the page. */
+/** Sentences of the library with its units turned into those of the page, which has no metres to mistake. */
 export function say(sentence: string): string {
   return sentence
     .replace(/\bneochord(ae|s)?\b/g, (_, many?: string) => (many ? 'artificial chordae' : 'artificial chord'))
@@ -254,6 +254,7 @@ export function say(sentence: string): string {
       /(-?\d+(?:\.\d+)?(?:e-?\d+)?) m\b(?![m²/])/g,
       (_, v: string) => `${+(1e3 * +v).toPrecision(4)} mm`,
     )
+    .replace(/: looks like mm given as m\b/, '')
     .replace(/; if it is the atrial side, say so: kind atrial/, importTexts.kindGuessed)
     .replace(/(?:divide|multiply) by \d+ or give --unit (\w+)/, (_, unit: string) =>
       importTexts.chooseUnit(unit),
@@ -928,6 +929,12 @@ export const formTexts = {
     const [all, from, to] = [value, low, high].map((one) => +one.toPrecision(4));
     return `${all} ${unit} is beyond the slider, which goes from ${from} to ${to} ${unit}.`;
   },
+  /** Refusal of a number that no operation takes. */
+  outside: (label: string, value: number, low: number, high: number, unit: string) => {
+    const [is, from, to] = [value, low, high].map((one) => String(+one.toPrecision(4)).replace('-', '−'));
+    const of = unit && ` ${unit}`;
+    return `${label}: ${is}${of} is out of range; it has to be ${from} to ${to}${of}.`;
+  },
   oversized: (more: number) =>
     `Oversized: ${number(more)} mm wider than the annulus. It spreads the leaflets instead of bringing them nearer.`,
   bandLength: (mm: number | null) =>
@@ -1019,6 +1026,19 @@ export const openingTexts = {
   help: 'Smallest opening of the valve at 5 mmHg after this operation; a ring or clip can narrow it.',
 };
 
+/** Where a drawn cut is: its leaflet, and the scallop of each of its points. */
+interface CutPlace {
+  leaflet: string;
+  scallops: string[];
+}
+
+/** "posterior leaflet" for the name that the library gives it. */
+const leafletWords = (name: string): string =>
+  `${({ A: 'anterior', P: 'posterior' } as Record<string, string>)[name] ?? name} leaflet`;
+
+const cutWords = ({ leaflet, scallops }: CutPlace): string =>
+  `in the ${leafletWords(leaflet)}, ${listOf([...new Set(scallops)].sort())}`;
+
 export const pointTexts = {
   keys: 'Keyboard: arrows move a cross (Shift: finely), Space sets a point, Backspace removes it, Enter uses the cut. Control and arrows turn the valve.',
   under: (what: string, count: number | null) =>
@@ -1027,13 +1047,20 @@ export const pointTexts = {
       .join(' '),
   draw: 'Draw the cut in the picture',
   drawAgain: 'Draw it again',
-  outlined: 'Cut as drawn.',
+  outlined: (on: CutPlace) => (on.leaflet ? `The cut as drawn is ${cutWords(on)}.` : 'Cut as drawn.'),
+  otherLeaflet: (scallop: string, leaflet: string) =>
+    `That click was on ${scallop}: no point was set. The cut is in the ${leafletWords(leaflet)}, where it began; to cut the other one, remove its points first.`,
   use: 'Use this cut',
   back: 'Remove last point',
-  count: (count: number) =>
-    count < 2
-      ? 'Click two or more points on the leaflet, around the piece to take out.'
-      : `${count} points; the ends lead to the free edge.`,
+  count: (count: number, on: CutPlace) =>
+    [
+      count ? `The cut is ${cutWords(on)}.` : '',
+      count < 2
+        ? 'Click two or more points on the leaflet, around the piece to take out.'
+        : `${count} points; the ends lead to the free edge.`,
+    ]
+      .filter(Boolean)
+      .join(' '),
   curve: 'Or a measured ring, from a file',
   curveHint: 'One point of the ring in each line: x, y, z in mm or m (text, CSV, OBJ).',
   curveRead: (count: number) => `${count} points read; the ring is laid on the annulus.`,

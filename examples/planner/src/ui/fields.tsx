@@ -61,9 +61,13 @@ function PartField(props: FieldProps) {
   );
 }
 
+/** Where a place on a scallop begins, as a share of the way from annulus to free edge: near the edge, where chordae are tied. A patch,
+ *  whose middle it is, begins in the middle: its 8 mm reach over the edge from elsewhere. */
+const firstHeight = (kind: string): number => (kind === 'patch' ? 0.5 : 0.9);
+
 /** A place on a leaflet: by a click, or by scallop and two shares for the keyboard. */
 function SiteField(props: FieldProps) {
-  const { field } = props;
+  const { field, kind } = props;
   const topology = state.main.value && state.topologyOf(state.main.value.picture);
   const value = state.draft.value?.fields[field.name] as Site | undefined;
   const scallopOf = () => {
@@ -72,7 +76,8 @@ function SiteField(props: FieldProps) {
       ? topology.scallops[topology.triangleScallop[value.triangle]].id
       : value.scallop;
   };
-  const place = value && !('triangle' in value) ? value : { scallop: scallopOf(), along: 0.5, height: 0.9 };
+  const first = { scallop: scallopOf(), along: 0.5, height: firstHeight(kind) };
+  const place = value && !('triangle' in value) ? value : first;
   const set = (change: Partial<{ scallop: string; along: number; height: number }>) => {
     const next = { ...place, ...change };
     setField(field.name, next.scallop ? next : undefined);

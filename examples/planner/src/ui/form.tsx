@@ -1,5 +1,6 @@
 // The form of an operation, generated from the library's table: numbers as sliders with a box, parts as lists
 // that a click in the picture fills too, fields that few need behind "More".
+import { useEffect, useRef } from 'preact/hooks';
 import { Check, Crosshair, X } from 'lucide-preact';
 import { apply, complete, discard, replacements } from '../store/edit';
 import * as state from '../store/state';
@@ -83,12 +84,8 @@ export function OperationForm() {
           ))}
         </Section>
       )}
-      {state.draftMessage.value && (
-        <p class="message" role="alert">
-          {state.draftMessage.value}
-        </p>
-      )}
       <div class="form-foot" ref={foot}>
+        <Refusal />
         {state.tour.value && <GoalLine number={state.tour.value.number} />}
         <Opening kind={draft.kind} />
         <p class="hint trying">
@@ -108,6 +105,20 @@ export function OperationForm() {
         <Button onClick={discard}>{appTexts.discard}</Button>
       </div>
     </form>
+  );
+}
+
+/** Why the form is refused, beside the buttons: in sight wherever the fields are scrolled to. */
+function Refusal() {
+  const line = useRef<HTMLParagraphElement>(null);
+  const text = state.draftMessage.value;
+  // in small windows the foot scrolls with the form
+  useEffect(() => line.current?.scrollIntoView({ block: 'nearest' }), [text]);
+  if (!text) return null;
+  return (
+    <p class="message" role="alert" ref={line}>
+      {text}
+    </p>
   );
 }
 

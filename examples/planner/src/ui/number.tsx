@@ -1,6 +1,7 @@
 // A number of an operation, with a slider where it has a usual range.
 import { useSignal, type Signal } from '@preact/signals';
 import { titlesOf } from '../notable';
+import { isOutside, shownUnit } from '../store/bounds';
 import { setField } from '../store/edit';
 import * as state from '../store/state';
 import { ringCurves } from '../view/heart';
@@ -25,9 +26,6 @@ const sliders: Record<string, Record<string, [number, number, number]>> = {
 const isPosition = (kind: string, name: string): boolean =>
   name === 'position' && (kind === 'clip' || kind === 'resect');
 
-/** Names that hold shares, shown in per cent. */
-const shares = new Set(['factor', 'ap', 'cc', 'ap_ratio', 'area_factor']);
-
 export interface FieldProps {
   kind: string;
   field: FieldInfo;
@@ -36,12 +34,6 @@ export interface FieldProps {
 
 export function labelOf({ field, label }: FieldProps): string {
   return label ?? (field.label || field.name);
-}
-
-/** The unit in which a field is shown, and its factor on the value: shares are shown in percent. */
-function shownUnit(field: FieldInfo): { unit: string; scale: number } {
-  const isShare = (shares.has(field.name) || field.name === 'position') && field.unit === '';
-  return isShare ? { unit: '%', scale: 100 } : { unit: field.unit, scale: 1 };
 }
 
 /** The tooltip of a field, with the value that an empty one stands for where that has a unit. */
@@ -168,7 +160,9 @@ export function NumberField(props: FieldProps) {
   /** Takes what was typed into the box. */
   const type = (typed: string) =>
     set(position && sense.value < 0 ? `${-parseFloat(typed.replace(',', '.'))}` : typed);
-  const beyond = value !== undefined && !!range && (value < low! || value > high!);
+  // a number that is refused says so beside Apply
+  const refused = isOutside(field, value);
+  const beyond = value !== undefined && !!range && !refused && (value < low! || value > high!);
   return (
     <div class="field" title={tipOf(props)}>
       <label for={`f-${field.name}`}>{labelOf(props)}</label>
@@ -238,7 +232,7 @@ export function NumberField(props: FieldProps) {
       {kind === 'band' && field.name === 'factor' && <small>{formTexts.bandLength(previewedBand())}</small>}
       {position && <small>{formTexts.position(value ?? 0)}</small>}
       {position && kind === 'clip' && <small>{formTexts.placed(previewedPlace())}</small>}
-      {rest !== null && value !== undefined && <small>{formTexts.change(rest, value)}</small>}
+      {rest !== null && value !== undefined && !refused && <small>{formTexts.change(rest, value)}</small>}
       {kind === 'chord_add' && field.name === 'length' && isSlack() && (
         <small class="warn">{formTexts.slack}</small>
       )}

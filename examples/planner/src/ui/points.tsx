@@ -39,7 +39,7 @@ function Outline() {
         <Button icon={<PenLine size={16} />} onClick={beginOutline}>
           {given ? pointTexts.drawAgain : pointTexts.draw}
         </Button>
-        {given && <small>{pointTexts.outlined}</small>}
+        {given && <small data-testid="outlined">{pointTexts.outlined(state.outlineOn.value)}</small>}
       </div>
     );
   const count = state.outline.value.length;
@@ -53,7 +53,12 @@ function Outline() {
           {pointTexts.back}
         </Button>
       </div>
-      <small>{pointTexts.count(count)}</small>
+      <small>{pointTexts.count(count, state.outlineOn.value)}</small>
+      {state.outlineRefusal.value && (
+        <small class="warn" role="alert">
+          {state.outlineRefusal.value}
+        </small>
+      )}
       <small>{pointTexts.keys}</small>
     </div>
   );

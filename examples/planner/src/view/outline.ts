@@ -1,8 +1,10 @@
 // The outline of a resection that is drawn by clicks on a leaflet. It has to begin and end on the free edge, which
 // closed leaflets hide: its ends are led to the nearest node of the free edge of that leaflet.
+import { batch } from '@preact/signals';
 import * as state from '../store/state';
 import { edit, pickField } from '../store/edit';
 import type { Topology } from '../protocol';
+import { pointTexts } from '../text/texts';
 import type { Hit } from './pick';
 
 /** The leaflet of the outline: that of its first point. */
@@ -11,6 +13,8 @@ let leaflet = -1;
 export function beginOutline(): void {
   leaflet = -1;
   state.outline.value = [];
+  state.outlineOn.value = { leaflet: '', scallops: [] };
+  state.outlineRefusal.value = '';
   edit('resect', {});
   pickField('outline');
   // the keys of the cross belong to the picture
@@ -18,17 +22,33 @@ export function beginOutline(): void {
 }
 
 export function removeOutlinePoint(): void {
+  const { leaflet: name, scallops } = state.outlineOn.value;
   state.outline.value = state.outline.value.slice(0, -1);
+  const left = scallops.slice(0, -1);
+  state.outlineOn.value = { leaflet: left.length ? name : '', scallops: left };
+  state.outlineRefusal.value = '';
 }
 
-/** The next point; clicks on the other leaflet are ignored. */
+/** The next point. A cut is in one leaflet: a click on another one sets none, and the form says so. */
 export function addOutlinePoint(hit: Hit): void {
   const picture = state.main.value?.picture;
   const topology = picture && state.topologyOf(picture);
   if (!hit.surface || !topology) return;
-  const of = topology.triangleLeaflet[hit.surface.triangle];
+  const { triangle, at } = hit.surface;
+  const of = topology.triangleLeaflet[triangle];
+  const scallop = topology.scallops[topology.triangleScallop[triangle]].name;
+  const { value: on } = state.outlineOn;
   if (!state.outline.value.length) leaflet = of;
-  if (of === leaflet) state.outline.value = [...state.outline.value, [...hit.surface.at]];
+  else if (of !== leaflet) {
+    state.outlineRefusal.value = pointTexts.otherLeaflet(scallop, on.leaflet);
+    state.status.value = state.outlineRefusal.value;
+    return;
+  }
+  batch(() => {
+    state.outlineRefusal.value = '';
+    state.outline.value = [...state.outline.value, [...at]];
+    state.outlineOn.value = { leaflet: topology.leaflets[of].name, scallops: [...on.scallops, scallop] };
+  });
 }
 
 /** Weight of the whole distance beside that along the edge. */
@@ -77,5 +97,6 @@ export function wholeOutline(): number[][] {
 export function useOutline(): void {
   const outline = wholeOutline();
   state.picking.value = null;
+  state.outlineRefusal.value = '';
   edit('resect', { outline });
 }
