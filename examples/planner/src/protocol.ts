@@ -136,6 +136,8 @@ export interface SessionContents {
   leakRange?: Range | null;
   /** ml/s through the open valve, where it is known. */
   flow?: number | null;
+  /** The valve of the tour that it is a repair of. */
+  tour?: number | null;
 }
 
 export interface SessionOpened {
@@ -147,5 +149,6 @@ export interface SessionOpened {
   title: string;
   leakRange: Range | null;
   flow: number | null;
+  tour: number | null;
   sameResult: boolean;
 }

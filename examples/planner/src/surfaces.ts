@@ -26,10 +26,10 @@ export interface Surface {
   normals: Float32Array;
   format: string;
   unit: FileUnit;
-  /** Where the unit is from: the file states it, the user has chosen it, or it was guessed from the width. */
-  unitFrom: 'file' | 'choice' | 'width';
-  /** Distance of two points far from each other, mm. */
-  width: number;
+  /** Where the unit is from: the file states it, the user has chosen it, or it was guessed from the size. */
+  unitFrom: 'file' | 'choice' | 'size';
+  /** Extents along the axes of the file, mm. */
+  size: number[];
   shape: SurfaceShape;
 }
 

@@ -4,3 +4,8 @@ import type { FileUnit } from './protocol';
 /** mm of each unit, in the order in which they are offered and guessed. */
 export const millimetres: Record<FileUnit, number> = { mm: 1, cm: 10, m: 1000, inch: 25.4 };
 export const fileUnits = Object.keys(millimetres) as FileUnit[];
+
+/** ml/s through an open valve, in the mean while the ventricle fills: from far below that of an infant to twice that of an adult under
+ *  great strain. */
+export const flowRange = [10, 1000] as const;
+export const isFlow = (flow: number): boolean => flow >= flowRange[0] && flow <= flowRange[1];

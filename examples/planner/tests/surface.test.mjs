@@ -49,7 +49,11 @@ const scaled = (obj, factor) =>
   );
 
 const unit = (page) => page.getByLabel('Unit of the file');
-const width = async (page) => +/is ([\d.]+)\smm wide/.exec(await page.locator('.panel').innerText())[1];
+/** The largest extent that the panel says, mm. */
+async function width(page) {
+  const said = /measures ([\d.]+) × ([\d.]+) × ([\d.]+)/.exec(await page.locator('.panel').innerText());
+  return Math.max(...said.slice(1).map(Number));
+}
 const points = (page) => page.evaluate(() => window.planner.state.imported.value.points);
 
 /** Clicks both commissures, to the left and to the right of the middle of the picture. */
@@ -109,7 +113,7 @@ describe('surface', () => {
       ]) {
         await open(page, temporaryFile(`in_${name}.obj`, scaled(obj, factor)));
         assert.equal(await unit(page).inputValue(), name);
-        assert.match(await page.locator('.panel').innerText(), /guessed from the width/);
+        assert.match(await page.locator('.panel').innerText(), /guessed from the size/);
         wide ??= await width(page);
         assert.ok(Math.abs((await width(page)) - wide) <= 0.1, `${await width(page)} and ${wide} mm`);
       }
@@ -119,7 +123,7 @@ describe('surface', () => {
       await unit(page).selectOption('cm');
       await answered(page, 100);
       assert.ok(Math.abs((await width(page)) - (wide * 10) / 25.4) < 0.1);
-      assert.doesNotMatch(await page.locator('.panel').innerText(), /guessed from the width/);
+      assert.doesNotMatch(await page.locator('.panel').innerText(), /guessed from the size/);
       const after = await points(page);
       after.commissures.forEach((row, k) =>
         row.forEach((v, c) => assert.ok(Math.abs(v - (before.commissures[k][c] * 10) / 25.4) < 1e-6)),

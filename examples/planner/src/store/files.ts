@@ -7,7 +7,7 @@ import { millimetres } from '../units';
 import type { FileUnit, Shown } from '../protocol';
 import { mayReplace } from './ask';
 import { discard } from './edit';
-import { learnFounding } from './founding';
+import { knownFounding, learnFounding } from './founding';
 import { keepLeakRange, rangeIn } from './leak_range';
 import { forget, leave, remember, repairOf, type Left } from './left';
 import { run, show, whole } from './requests';
@@ -52,17 +52,27 @@ export async function comeBack(left: Left): Promise<void> {
   if (!(await openSession(left.bytes, present))) return;
   batch(() => {
     forget(left);
-    state.tour.value = left.tour;
     state.changed.value = left.changed;
     state.onlyHere.value = true;
   });
-  if (left.tour) await learnFounding(left.tour.number);
 }
 
 /** Leaves a surface, and its panel, for a valve. */
 function leaveSurface(): void {
   state.imported.value = null;
   if (state.panel.value === 'import') state.panel.value = 'valve';
+}
+
+/** Puts the name of the file that could not be opened before the reason in the notice, and whether the file is at fault. */
+function blame(name: string): void {
+  const { value } = state.notice;
+  if (value?.kind !== 'error') return;
+  // some reasons begin with it and a line
+  const why = value.text
+    .replace(name, '')
+    .replace(/^:(\d+)?:? */, (_, line?: string) => (line ? `line ${line}: ` : ''));
+  const words = value.code === 'MVS_E_FORMAT' ? t.damagedFile : t.refusedFile;
+  state.notice.value = { ...value, text: words(name, why) };
 }
 
 /** Shows a valve with which a plan begins; `onlyHere`: it is in no file. */
@@ -156,6 +166,7 @@ async function leaveForFile(file: File): Promise<void> {
   const head = new TextDecoder().decode(bytes.subarray(0, 4000));
   if (/\.obj$/i.test(file.name) && /^#mvs|^# ?mvs|mvs:/m.test(head)) {
     const shown = await run(t.closing, 'open_file', { name: file.name, bytes });
+    if (!shown) return blame(file.name);
     state.tour.value = null;
     return begun(shown, file.name.replace(/\.obj$/i, ''), left);
   }
@@ -171,7 +182,10 @@ export async function beginImport(
   clicked: Partial<Pick<state.Imported, 'kind' | 'points'>> = {},
 ): Promise<boolean> {
   const surface = await run(t.reading, 'read_surface', { name, bytes, unit });
-  if (!surface) return false;
+  if (!surface) {
+    blame(name);
+    return false;
+  }
   discard();
   batch(() => {
     state.imported.value = {
@@ -236,7 +250,7 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
   batch(() => {
     keepLeakRange(opened.first.figures.hash, opened.leakRange);
     show(opened.shown, true);
-    state.tour.value = null;
+    state.tour.value = opened.tour === null ? null : { number: opened.tour, founding: knownFounding() };
     state.first.value = opened.first;
     state.receiveCheckpoints(opened.checkpoints);
     state.title.value = opened.title;
@@ -249,5 +263,7 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
       : { kind: 'error', text: t.sessionDiffers };
   });
   offerReturn(left);
+  // its goals are those of the tour again
+  if (opened.tour !== null) void learnFounding(opened.tour);
   return true;
 }

@@ -28,10 +28,12 @@ function announce(text: string): void {
   state.status.value = text;
 }
 
-function fileName(): string {
+/** The title as the name of a file: systems refuse some signs, as a colon. */
+export function fileName(): string {
   return (
     (state.title.value || 'valve')
       .replace(/[^\p{L}\p{N} _.-]+/gu, ' ')
+      .replace(/\s+/g, ' ')
       .trim()
       .slice(0, 60) || 'valve'
   );

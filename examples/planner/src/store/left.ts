@@ -6,7 +6,7 @@ import { reachesAll } from './goals';
 import { request } from './requests';
 import { sessionContents } from './session';
 import * as state from './state';
-import { verdictOf } from './verdict';
+import { headline } from './verdict';
 
 export interface Left {
   title: string;
@@ -20,7 +20,7 @@ export interface Left {
   /** Operations of its plan, and plans that are kept under a name. */
   steps: number;
   kept: number;
-  /** The grade of its leak. */
+  /** Its verdict, with its reservations. */
   verdict: string;
   /** When it was left, ms since 1970. */
   at: number;
@@ -50,7 +50,7 @@ export async function leave(): Promise<Left | null> {
     changed: state.changed.value,
     steps: done.length,
     kept: checkpoints.value.length,
-    verdict: verdictOf(figures).word,
+    verdict: headline(figures),
     at: Date.now(),
     content: JSON.stringify([title, figures.hash, done, plans, notes.value, tour.value?.number]),
   };

@@ -65,7 +65,9 @@ export const sentenceOf = (error: unknown): string =>
 export const isCancelled = (error: unknown): boolean => error instanceof CallError && error.cancelled;
 
 export function fail(error: unknown): void {
-  if (!isCancelled(error)) state.notice.value = { kind: 'error', text: sentenceOf(error) };
+  if (isCancelled(error)) return;
+  const code = error instanceof CallError ? error.failure.code : undefined;
+  state.notice.value = { kind: 'error', text: sentenceOf(error), code };
 }
 
 /**

@@ -37,12 +37,26 @@ export function sayResult(now: Figures, what = done): void {
   else speak(now);
 }
 
+/** The preview that was said last, and its verdict then. */
+let told: { figures: Figures; verdict: string } | null = null;
+
 export function sayPreview(now: Figures): void {
+  told = { figures: now, verdict: headline(now) };
   state.status.value = lineOf(t.previewed, state.main.value?.figures ?? null, now);
+}
+
+/** Says a preview again once its opening is measured, which its verdict did not know. */
+function watchPreview(): void {
+  effect(() => {
+    const figures = state.preview.value?.figures;
+    if (!figures || told?.figures !== figures || state.outdated.value) return;
+    if (headline(figures) !== told.verdict) untracked(() => sayPreview(figures));
+  });
 }
 
 /** Says a result that was held once its opening is known, and any result again where an opening that was asked for changes its verdict. */
 export function watchResult(): void {
+  watchPreview();
   let said: Figures | null = null;
   let sentence = '';
   effect(() => {

@@ -8,4 +8,5 @@ export const sessionContents = (): Calls['save_session']['argument'] => ({
   notes: state.notes.value,
   leakRange: leakRange(),
   flow: state.flow.value,
+  tour: state.tour.value?.number ?? null,
 });

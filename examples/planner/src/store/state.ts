@@ -94,6 +94,8 @@ export const busy = signal<{ text: string; share: number; cancel?: () => void } 
 export const notice = signal<{
   text: string;
   kind: 'info' | 'error';
+  /** The result code of the library behind an error. */
+  code?: string;
   action?: { text: string; run: () => void };
 } | null>(null);
 /** The sentence of the polite status line. */

@@ -1,6 +1,7 @@
 // Every text that the page shows, in a surgeon's words. To translate the page, translate this file.
 import { farBeyond, leakPlaces, suture } from '../notable';
 import type { Figures } from '../protocol';
+import { flowRange } from '../units';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
 
@@ -289,6 +290,8 @@ export const t = {
   unknownFile: (name: string) =>
     `${name} is not a file this page can open: it takes a session (.mvsplan), a valve (.obj), or a surface (.stl, .ply, .obj, .off, .vtk, .vtp).`,
   refusedFile: (name: string, why: string) => `${name} was not opened: ${why}.`,
+  damagedFile: (name: string, why: string) =>
+    `${name} is damaged, cut short or no ${name.replace(/.*\./, '').toUpperCase()} file: ${why}.`,
   fileLeft: (name: string) => `${name} keeps the plan before; changes of this one are not saved to it.`,
   severalFiles: (name: string) => `One file at a time: ${name} was taken.`,
   importBegun: (triangles: number) =>
@@ -520,14 +523,15 @@ export const importTexts = {
     mid: 'Middle of the leaflets',
     skin: 'Both sides, closed',
   },
-  unitOption: (unit: string, mm: number) => `${unit}: ${number(mm, mm < 10 ? 1 : 0)} mm wide`,
+  unitOption: (unit: string, mm: number) => `${unit}: ${number(mm, mm < 10 ? 1 : 0)} mm at most`,
   unitFrom: {
     file: 'The file states its unit.',
-    width:
-      'The file does not state its unit: it was guessed from the width. Choose another one if it is wrong.',
+    size: 'The file does not state its unit: it was guessed from the size. Choose another one if it is wrong.',
     choice: '',
   },
-  size: (mm: number) => `The surface is ${mm.toFixed(1)} mm wide. An open valve is 30 to 60 mm wide.`,
+  /** Extents along the axes of the file. */
+  size: (extents: number[]) =>
+    `The surface measures ${extents.map((mm) => number(mm)).join(' × ')} mm along the axes of the file. The largest extent of an adult’s open valve is 30 to 60 mm.`,
   points: {
     commissures: 'Both commissures',
     anterior: 'A point of the anterior leaflet',
@@ -587,6 +591,8 @@ export const verdictTexts = {
     `leaflets meet over ${length} mm${middle === null ? ' (mean)' : `, A2–P2 ${number(middle)}`}`,
   meetLittle: 'Surgeons aim at 8 mm at A2–P2. ',
   ofClosed: 'when closed',
+  held: (what: 'pull' | 'push') => `at rest, before the ${what}`,
+  notWhileHeld: 'Leak and coaptation of moved tissue are not measured.',
   /** Chordae a little beyond their limit, which is no fault up to a load of `allowed` per cent, `goal` where that is the tour's. */
   chordsOver: (count: number, allowed: number, goal: boolean) =>
     `${count} ${count === 1 ? 'chord' : 'chordae'} over limit; ${goal ? `goal allows ${allowed} %` : `up to ${allowed} % is no fault`}`,
@@ -832,11 +838,15 @@ export const valveTexts = {
   openAreaHelp: 'Smallest opening at 5 mmHg. In adults 1.5 cm² or less is a severe stenosis (ACC/AHA 2014).',
   annulusPull: 'Pull on the annulus',
   lengths: 'Length of A2 and P2 that is free',
+  lengthsUnknown: 'none: A2 and P2 do not touch in the middle',
   lengthsOf: (anterior: number, posterior: number) => `${number(anterior)} and ${number(posterior)} mm`,
   measureOpen: 'Measure the open area',
   flow: 'Flow through the open valve',
   flowUnit: 'ml/s',
-  flowHint: 'Mean flow while the ventricle fills, about 200 ml/s at rest. Without it there is no gradient.',
+  flowHint: (low: number, high: number) =>
+    `Mean flow while the ventricle fills, about 200 ml/s at rest; ${low} to ${high} ml/s. Without it there is no gradient.`,
+  flowOutside: (given: number, low: number, high: number) =>
+    `${String(given).replace('-', '−')} ml/s is out of range; it has to be ${low} to ${high} ml/s. No gradient is shown.`,
   gradient: 'Mean pressure gradient',
   gradientHelp:
     'Pressure lost by the flow through the open area; more than 5 mmHg is too much after a repair',
@@ -1605,7 +1615,7 @@ export const tips: Record<string, string> = {
   [valveTexts.certainty]:
     'Closes the valve from eight different folds, and shows how much the figures change',
   [valveTexts.opens]: 'Open area in diastole, and the gradient of a flow',
-  [valveTexts.flow]: valveTexts.flowHint,
+  [valveTexts.flow]: valveTexts.flowHint(...flowRange),
   [valveTexts.measureOpen]: 'Opens a copy of the valve as in diastole and measures its smallest opening',
   [valveTexts.howCertain]:
     'Closes the valve from several folds of the leaflets, and writes the range beside each figure',

@@ -35,12 +35,15 @@ export function ImportPanel() {
         >
           {fileUnits.map((unit) => (
             <option value={unit}>
-              {importTexts.unitOption(unit, (surface.width * millimetres[unit]) / millimetres[surface.unit])}
+              {importTexts.unitOption(
+                unit,
+                (Math.max(...surface.size) * millimetres[unit]) / millimetres[surface.unit],
+              )}
             </option>
           ))}
         </select>
         <small>
-          {importTexts.size(surface.width)} {importTexts.unitFrom[surface.unitFrom]}
+          {importTexts.size(surface.size)} {importTexts.unitFrom[surface.unitFrom]}
         </small>
       </div>
       <div class="field">

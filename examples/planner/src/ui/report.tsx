@@ -2,7 +2,7 @@
 import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
-import { download } from '../store/keep';
+import { download, fileName } from '../store/keep';
 import * as state from '../store/state';
 import { headline, relieved } from '../store/verdict';
 import { reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
@@ -89,8 +89,12 @@ const tableRow = (label: string, was: string, now: string): string =>
   `<tr><th>${escape(label)}</th><td>${escape(was)}</td><td>${escape(now)}</td></tr>`;
 
 /** How long both leaflets are where they do not touch. */
-const lengthsText = (cost: Cost | null): string =>
-  cost ? valveTexts.lengthsOf(cost.anteriorLength, cost.posteriorLength) : '';
+function lengthsText(cost: Cost | null): string {
+  if (!cost) return '';
+  const { anteriorLength: anterior, posteriorLength: posterior } = cost;
+  const known = Number.isFinite(anterior) || Number.isFinite(posterior);
+  return known ? valveTexts.lengthsOf(anterior, posterior) : valveTexts.lengthsUnknown;
+}
 
 /** Open areas, gradients and the lengths of the leaflets, if they were measured. */
 function openingRows(then: Figures, now: Figures): string {
@@ -184,7 +188,7 @@ export function ReportDialog() {
   }, []);
   const saved = useSignal('');
   const save = () => {
-    const name = reportTexts.fileName(state.title.value);
+    const name = reportTexts.fileName(fileName());
     download(
       `<!doctype html><html lang="en"><meta charset="utf-8"><title>${reportTexts.fileTitle}</title><style>${style}</style><body>${html.value}</body></html>`,
       name,

@@ -21,6 +21,9 @@ const hasArtificial = (): boolean =>
   !!state.figures.value?.chords.some((chord) => chord.artificial && chord.kind !== suture);
 const hasOver = (): boolean => (state.figures.value?.measures.chordsOver ?? 0) > 0;
 
+/** The leak of a valve at rest is drawn, whatever the colours; of one in motion it is not known. */
+const showsLeak = (): boolean => !state.motion.value && (state.figures.value?.measures.orifice ?? 0) > 0;
+
 function Key({ of, text }: { of: string; text: string }) {
   return (
     <span>
@@ -74,9 +77,7 @@ function TissueKeys({ surface }: { surface: boolean }) {
     <>
       <Key of="atrial" text={barTexts.atrial} />
       <Key of="ventricular" text={barTexts.ventricular} />
-      {!surface && (state.figures.value?.measures.orifice ?? 0) > 0 && (
-        <Key of="orifice" text={barTexts.leak} />
-      )}
+      {!surface && showsLeak() && <Key of="orifice" text={barTexts.leak} />}
       {!surface && hasOver() && <Key of="over" text={barTexts.over} />}
       {!surface && state.chordsOn.value && hasSlack() && <Key of="slack" text={barTexts.slack} />}
       {!surface && state.chordsOn.value && hasArtificial() && (
@@ -104,6 +105,7 @@ function MapScale({ name }: { name: Exclude<MapName, 'tissue'> }) {
       {isChordMap(name) && hasOver() && <Key of="over" text={barTexts.over} />}
       {isChordMap(name) && hasSlack() && <Key of="slack" text={barTexts.slack} />}
       {isChordMap(name) && hasArtificial() && <Key of="artificial" text={barTexts.artificial} />}
+      {showsLeak() && <Key of="orifice" text={barTexts.leak} />}
       {words.none && <Key of="none" text={words.none} />}
     </>
   );

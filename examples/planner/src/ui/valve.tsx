@@ -5,9 +5,10 @@ import { gradientOf, isTooMuch } from '../store/gradient';
 import { openingOf } from '../store/limits';
 import { mostBillowing } from '../notable';
 import * as state from '../store/state';
-import { appTexts, tips, valveTexts } from '../text/texts';
+import { appTexts, valveTexts } from '../text/texts';
 import type { Figures, Measures } from '../protocol';
 import { Devices } from './devices';
+import { Flow } from './flow';
 import { Button, Figure, FigureHelpButton, Section, times } from './parts';
 import { SectionPlot } from './section';
 import { Chordae, Scallops } from './tables';
@@ -227,29 +228,7 @@ function OpenArea({ figures }: { figures: Figures }) {
   const wide = !!cost && cost.openArea > widest;
   return (
     <Section title={valveTexts.opens}>
-      <div class="field">
-        <label for="flow">{valveTexts.flow}</label>
-        <div class="number">
-          <input
-            id="flow"
-            title={tips[valveTexts.flow]}
-            type="number"
-            inputMode="decimal"
-            min="0"
-            max="1000"
-            step="any"
-            value={state.flow.value ?? ''}
-            onChange={(event) => {
-              const given = parseFloat(event.currentTarget.value);
-              state.flow.value = given > 0 ? given : null;
-              state.changed.value = true;
-              if (state.flow.value && !cost) void measureCost();
-            }}
-          />
-          <span class="unit">{valveTexts.flowUnit}</span>
-        </div>
-        <small>{valveTexts.flowHint}</small>
-      </div>
+      <Flow known={!!cost} />
       {cost ? (
         <div class="figures">
           <Figure

@@ -23,7 +23,9 @@ export function Verdict() {
   const { level, word, but, unmeasured, folded, severe } = verdictOf(figures);
   const small = smallAnnulus();
   const tag = tagOf();
-  const grading = level === null ? 'none' : severe ? 4 : but.length && !level ? 'but' : level;
+  const held = isHeld();
+  // of the valve in the hand there is no grade
+  const grading = level === null || held ? 'none' : severe ? 4 : but.length && !level ? 'but' : level;
   return (
     <div
       class={`verdict level-${grading}${state.outdated.value ? ' outdated' : ''}`}
@@ -46,6 +48,7 @@ export function Verdict() {
         </strong>
       ))}
       <Leak figures={figures} graded={level !== null} />
+      {held && <div class="verdict-note">{verdictTexts.notWhileHeld}</div>}
       {level === null && !shape && <div class="verdict-where">{verdictTexts.notFinal}</div>}
       {unmeasured && <div class="verdict-note">{verdictTexts.openingUnknown}</div>}
       <Beyond figures={figures} />
@@ -55,8 +58,12 @@ export function Verdict() {
   );
 }
 
+/** Whether the picture shows tissue that a hand holds or has just let go, and the figures are those of the valve at rest. */
+const isHeld = (): boolean => state.handing.value || !!state.motion.value?.picture.hand;
+
 /** Which valve the figures belong to, where it is not the one of the plan as the picture shows it. */
 function tagOf(): string {
+  if (isHeld()) return verdictTexts.held(state.tool.value === 'push' ? 'push' : 'pull');
   if (state.motion.value && state.openness.value < 1) return verdictTexts.ofClosed;
   if (state.inPast.value)
     return (state.compared.value && !state.preview.value && state.compareWith.value) || verdictTexts.past;

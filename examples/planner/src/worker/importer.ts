@@ -4,23 +4,23 @@ import type { BuildRequest, FileUnit, Finding, Surface } from '../protocol';
 import { refusals } from '../text/texts';
 import { fileUnits, millimetres } from '../units';
 import { vertexNormals } from '../view/mesh';
-import { shapeOf, widthOf } from './surface_shape';
+import { shapeOf, sizeOf } from './surface_shape';
 import { mm, scaled } from './units';
 
 const sources: Record<string, number> = { given: 1, measured: 2, guessed: 3, assumed: 4 };
 
-/** mm: widths of most open valves of adults, then of all surfaces of valves, from an infant's annulus to a ventricle around a
- *  dilated one. */
-const widths = [
+/** mm: largest extents of most open valves of adults, then of all surfaces of valves, from an infant's annulus to a ventricle around
+ *  a dilated one. */
+const sizes = [
   [30, 60],
   [10, 200],
 ];
 
-/** The unit in which a width that was read as mm is that of a valve, the first that fits; mm where none does. */
-function guessedUnit(width: number): FileUnit {
+/** The unit in which an extent that was read as mm is that of a valve, the first that fits; mm where none does. */
+function guessedUnit(size: number): FileUnit {
   const fits = ([low, high]: number[]) =>
-    fileUnits.find((unit) => width * millimetres[unit] >= low && width * millimetres[unit] <= high);
-  return fits(widths[0]) ?? fits(widths[1]) ?? 'mm';
+    fileUnits.find((unit) => size * millimetres[unit] >= low && size * millimetres[unit] <= high);
+  return fits(sizes[0]) ?? fits(sizes[1]) ?? 'mm';
 }
 
 type Found = ReturnType<Mvs['readSurface']> & Pick<Surface, 'unitFrom'> & { inUnit: FileUnit };
@@ -31,7 +31,7 @@ export class Importer {
 
   constructor(private readonly mvs: Mvs) {}
 
-  /** Reads a file; without a unit in that which it states, else in the one that its width suggests. */
+  /** Reads a file; without a unit in that which it states, else in the one that its size suggests. */
   read(name: string, bytes: Uint8Array, asked: FileUnit | null): Surface {
     const { inUnit, unitFrom, ...found } = asked
       ? this.inChosen(name, bytes, asked)
@@ -47,7 +47,7 @@ export class Importer {
       format: found.format,
       unit: inUnit,
       unitFrom,
-      width: widthOf(points),
+      size: sizeOf(points),
       shape: shapeOf(points, this.triangles),
     };
   }
@@ -72,8 +72,8 @@ export class Importer {
 
   private inGuessed(name: string, bytes: Uint8Array): Found {
     const found = this.inChosen(name, bytes, 'mm');
-    const inUnit = guessedUnit(widthOf(found.points) * mm);
-    return { ...(inUnit === 'mm' ? found : this.inChosen(name, bytes, inUnit)), unitFrom: 'width' };
+    const inUnit = guessedUnit(Math.max(...sizeOf(found.points)) * mm);
+    return { ...(inUnit === 'mm' ? found : this.inChosen(name, bytes, inUnit)), unitFrom: 'size' };
   }
 
   /** The OBJ file of a valve that is built from the surface read last. */

@@ -5,6 +5,7 @@ import { MvsError } from 'libmvs';
 import { strFromU8, strToU8, unzipSync, zipSync } from 'fflate';
 import type { Range, SessionContents, SessionOpened } from '../protocol';
 import { refusals } from '../text/texts';
+import { isFlow } from '../units';
 import type { Planner } from './planner';
 
 const format = 'mvs-planner-session';
@@ -24,7 +25,12 @@ interface Description {
   before?: number;
   leak_range_mm2?: Range;
   flow_ml_s?: number;
+  /** The valve of the tour, from 1. */
+  tour?: number;
 }
+
+/** Valves of the tour. */
+const tourValves = new Set([1, 2, 3, 4]);
 
 /** Two numbers of a file, in their order; null for anything else. */
 function rangeOf(value: unknown): Range | null {
@@ -35,7 +41,7 @@ function rangeOf(value: unknown): Range | null {
 
 export function saveSession(
   planner: Planner,
-  { title, notes, leakRange, flow }: SessionContents,
+  { title, notes, leakRange, flow, tour }: SessionContents,
 ): Uint8Array {
   const files: Record<string, Uint8Array> = { 'valve.obj': planner.start };
   const checkpoints = [...planner.checkpoints].map(([name, snapshot], k) => {
@@ -56,6 +62,7 @@ export function saveSession(
     before: planner.before || undefined,
     leak_range_mm2: leakRange ?? undefined,
     flow_ml_s: flow || undefined,
+    tour: tour || undefined,
   };
   files['session.json'] = strToU8(JSON.stringify(description, null, 2));
   return zipSync(files, { level: 6 });
@@ -130,7 +137,8 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
     notes: String(description.notes ?? ''),
     title: String(description.title ?? ''),
     leakRange: rangeOf(description.leak_range_mm2),
-    flow: Number(description.flow_ml_s) > 0 ? Number(description.flow_ml_s) : null,
+    flow: isFlow(Number(description.flow_ml_s)) ? Number(description.flow_ml_s) : null,
+    tour: tourValves.has(Number(description.tour)) ? Number(description.tour) : null,
     sameResult: shown.figures.hash === description.hash,
   };
 }

@@ -1,5 +1,5 @@
 // The shape of a patient's surface before anything on it is clicked: its annulus, the axis into the atrium and the narrow
-// direction across it, guessed; its width. Computed in the worker: for 100,000 triangles it takes longer than a page may be
+// direction across it, guessed; its size. Computed in the worker: for 100,000 triangles it takes longer than a page may be
 // without an answer.
 import type { SurfaceShape } from '../protocol';
 import { cross, dot, minus, scale, unit, type Vector } from '../vector';
@@ -91,19 +91,17 @@ function narrowest(points: Float32Array, triangles: Uint32Array, middle: Vector,
   return [c * p[0] + s * q[0], c * p[1] + s * q[1], c * p[2] + s * q[2]];
 }
 
-/** The distance of two points far from each other, in whatever way the surface lies. */
-export function widthOf(points: ArrayLike<number>): number {
-  const farthest = ([x, y, z]: Vector): [number, number] => {
-    let [range, at] = [0, 0];
-    for (let i = 0; i < points.length; i += 3) {
-      const far = Math.hypot(points[i] - x, points[i + 1] - y, points[i + 2] - z);
-      if (far > range) [range, at] = [far, i / 3];
-    }
-    return [range, at];
-  };
-  if (!points.length) return 0;
-  const [, end] = farthest(pointOf(points, 0));
-  return farthest(pointOf(points, end))[0];
+/** Extents along the axes of the file: what any other program says of it too. */
+export function sizeOf(points: ArrayLike<number>): number[] {
+  const [low, high] = [
+    [0, 0, 0].fill(points.length ? Infinity : 0),
+    [0, 0, 0].fill(points.length ? -Infinity : 0),
+  ];
+  for (let i = 0; i < points.length; ++i) {
+    low[i % 3] = Math.min(low[i % 3], points[i]);
+    high[i % 3] = Math.max(high[i % 3], points[i]);
+  }
+  return high.map((v, c) => v - low[c]);
 }
 
 export function shapeOf(points: Float32Array, triangles: Uint32Array): SurfaceShape {
