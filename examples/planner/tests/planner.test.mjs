@@ -236,7 +236,7 @@ describe('planner', () => {
     await fillIn(page, 'factor', '9000');
     await page
       .getByRole('alert')
-      .getByText(/factor/)
+      .getByText(/Overall size: 9000 % is out of range/)
       .waitFor();
     await becomes(() => page.getByRole('button', { name: 'Apply', exact: true }).isDisabled(), true);
     await page.getByRole('button', { name: 'Discard' }).click();

@@ -53,8 +53,8 @@ describe('planner verdict on a small annulus and on the middle', () => {
     const said = await attempt('ring', { size: 30 });
     const { measures } = await figures(page);
     assert.ok(measures.orifice === 0 && measures.coaptationHeight < 1, JSON.stringify(measures));
-    // the valve of the tour met over 1.5 mm before its illness: 90 % of it are asked for
-    assert.match(said, /^Sealed, but .*A2 and P2 meet over 0\.\d mm only, less than 1\.4/);
+    // the valve of the tour met over 1.5 mm before its illness: two thirds of it are asked for
+    assert.match(said, /^Sealed, but .*A2 and P2 meet over 0\.\d mm only, less than 1\.0/);
     await apply(page);
     await page.evaluate(() => (window.planner.state.tour.value = null));
     await answered(page, 600);

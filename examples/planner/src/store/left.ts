@@ -50,7 +50,7 @@ export async function leave(): Promise<Left | null> {
     changed: state.changed.value,
     steps: done.length,
     kept: checkpoints.value.length,
-    verdict: headline(figures),
+    verdict: headline(figures, true),
     at: Date.now(),
     content: JSON.stringify([title, figures.hash, done, plans, notes.value, tour.value?.number]),
   };

@@ -90,10 +90,11 @@ export function leastCoaptation(): number | null {
  *  2 mm as the least with which leaflets can be said to meet; repairs aim at 8 mm. */
 const leastCentral = 2;
 
-/** The least height over which A2 and P2 have to meet, mm: of a valve that met over less before its illness, 90 % of that. */
+/** The least height over which A2 and P2 have to meet, mm: of a valve that met over less than 3 mm before its illness, as those of the
+ *  study over 1.5, two thirds of that. */
 export function leastCentralCoaptation(): number {
   const healthy = state.tour.value?.founding?.healthy.measures.coaptationHeight;
-  return healthy === undefined ? leastCentral : Math.min(leastCentral, 0.9 * healthy);
+  return healthy === undefined ? leastCentral : Math.min(leastCentral, (2 / 3) * healthy);
 }
 
 /** A tenth above the limit: limits are known as little as that. */

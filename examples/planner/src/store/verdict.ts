@@ -117,10 +117,10 @@ export function verdictOf(figures: Figures): Verdict {
   };
 }
 
-/** The verdict in one sentence, with the place of a leak. */
-export function headline(figures: Figures): string {
+/** The verdict in one sentence, with the place of a leak. `lasting`: it is kept, and does not say what is still to be measured. */
+export function headline(figures: Figures, lasting = false): string {
   const { level, word, but, unmeasured, folded } = verdictOf(figures);
-  const unknown = unmeasured ? [verdictTexts.openingUnknown] : [];
+  const unknown = unmeasured && !lasting ? [verdictTexts.openingUnknown] : [];
   if (folded) return `${word}: ${[...but, ...unknown].join('; ')}`;
   return headlineOf(word, level ? where(figures) : '', [...unknown, ...but]);
 }
