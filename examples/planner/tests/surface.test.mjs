@@ -136,7 +136,7 @@ describe('surface', () => {
       await open(page, ply);
       assert.equal(await unit(page).inputValue(), 'cm');
       assert.ok(await unit(page).isDisabled());
-      assert.equal(await width(page), 50);
+      assert.equal(await width(page), 40);
       assert.match(await page.locator('.panel').innerText(), /The file states its unit/);
     });
   });
