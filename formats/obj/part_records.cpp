@@ -2,6 +2,7 @@
 // line above.
 #include "formats/obj/reader.h"
 #include "model/chord_law.h"
+#include "model/plausible.h"
 
 namespace mvs::core {
 namespace {
@@ -84,6 +85,10 @@ void ObjReader::rest(Line &line) {
   Valve &valve = out_.valve;
   const Vec3 rest =
       vector_of_vertex(ObjAttribute::rest, "the rest position of this vertex", valve.rest, line);
+  if (!is_near_rest(out_.state.x.back(), rest)) {
+    line.fail("the position of this vertex, its `v` line, is over %g m from its rest position",
+              most_from_rest);
+  }
   if (!given_.has(ObjAttribute::open)) valve.open.back() = rest;
   if (!given_.has(ObjAttribute::loaded)) valve.loaded.back() = rest;
 }
@@ -115,7 +120,9 @@ void ObjReader::origin(Line &line) {
 }
 
 void ObjReader::velocity(Line &line) {
-  vector_of_vertex(ObjAttribute::velocity, "the velocity of this vertex", out_.state.v, line);
+  const Vec3 velocity =
+      vector_of_vertex(ObjAttribute::velocity, "the velocity of this vertex", out_.state.v, line);
+  if (!is_speed(velocity)) line.fail("the speed of this vertex is over %g m/s", most_speed);
 }
 
 void ObjReader::annulus(Line &line) {

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "history/event_limits.h"
 #include "history/tool_trajectory.h"
+#include "model/plausible.h"
 
 namespace mvs::core {
 
@@ -13,6 +14,16 @@ void check_state(const ModelState &current) {
   MVS_MUST(state.x.size() == n && state.v.size() == n, MVS_E_FORMAT, "state",
            "a state of the file has %zu positions and %zu velocities for %zu nodes", state.x.size(),
            state.v.size(), n);
+  const std::vector<Vec3> &x = state.x, &v = state.v, &rest = current.model->valve.rest;
+  for (size_t k = 0; k < n; ++k) {
+    MVS_MUST(is_near_rest(x[k], rest[k]), MVS_E_FORMAT, "state",
+             "in a state of the file node %zu is not at a number, or over %g m from its rest "
+             "position",
+             k, most_from_rest);
+    MVS_MUST(is_speed(v[k]), MVS_E_FORMAT, "state",
+             "in a state of the file the speed of node %zu is no number, or over %g m/s", k,
+             most_speed);
+  }
   const double fraction = state.load.boundary_fraction;
   MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
            "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);

@@ -8,6 +8,7 @@
 #include "base/array_view.h"
 #include "model/checks/check.h"
 #include "model/chord_law.h"
+#include "model/plausible.h"
 
 namespace mvs::core {
 namespace {
@@ -156,9 +157,9 @@ State described_state(const Model &model, const std::vector<Vec3> &now) {
   MVS_MUST(now.size() == state.x.size(), MVS_E_ARGUMENT, "nodes_now",
            "nodes_now has %zu rows, the valve has %zu nodes", now.size(), state.x.size());
   for (size_t n = 0; n < now.size(); ++n) {
-    // nodes move by centimetres; the comparison is false for NaN
-    MVS_MUST((now[n] - state.x[n]).norm() < 1, MVS_E_ARGUMENT, format("node %zu", n),
-             "node %zu of nodes_now is not a number, or over 1 m from its rest position", n);
+    MVS_MUST(is_near_rest(now[n], state.x[n]), MVS_E_ARGUMENT, format("node %zu", n),
+             "node %zu of nodes_now is not a number, or over %g m from its rest position", n,
+             most_from_rest);
   }
   state.x = now;
   return state;
