@@ -123,7 +123,10 @@ PlanStep read_step(const Json &json) {
            "a step has to be an object with a \"do\"");
   PlanStep step;
   step.event = read_event(json);
-  if (step.event) return step;
+  if (step.event) {
+    if (json.has("place")) step.place = json["place"];
+    return step;
+  }
   step.op = json;
   if (!json.has("group")) return step;
   MVS_MUST(json["group"].is_text(), MVS_E_FORMAT, "plan", "group has to be a name");
@@ -159,7 +162,7 @@ Json valve_json(const ModelState &start) {
   return Json::object({{"name", start.model->valve.name}, {"hash", hash_text(start)}});
 }
 
-Json event_json(const RecordedEvent &event) {
+Json event_json(const RecordedEvent &event, const Model *model) {
   Json json;
   if (event.kind == RecordedEvent::load) {
     json.set("do", "load");
@@ -168,7 +171,7 @@ Json event_json(const RecordedEvent &event) {
     return json;
   }
   const bool is_trajectory = event.kind == RecordedEvent::tool_trajectory;
-  if (!event.tools.empty() && !is_trajectory) return tool_json(event);
+  if (!event.tools.empty() && !is_trajectory) return tool_json(event, model);
   if (is_trajectory) {
     json = trajectory_json(event);
   } else {
@@ -194,8 +197,8 @@ Json entry_json(const HistoryEntry &entry) {
   return json;
 }
 
-void add_events(Json &steps, const RecordedEvents &events) {
-  for (const RecordedEvent *event : events.items()) steps.add(event_json(*event));
+void add_events(Json &steps, const RecordedEvents &events, const Model *model) {
+  for (const RecordedEvent *event : events.items()) steps.add(event_json(*event, model));
 }
 
 Json plan_steps(const Snapshot &snapshot, const Measure &measure) {
@@ -203,7 +206,7 @@ Json plan_steps(const Snapshot &snapshot, const Measure &measure) {
   const auto entries = snapshot.history.past.items();
   for (size_t k = 0; k < entries.size(); ++k) {
     const HistoryEntry &entry = **entries[k];
-    add_events(steps, entry.events);
+    add_events(steps, entry.events, entry.before.model.get());
     Json json = entry_json(entry);
     if (measure) {
       json.set("before", measure(entry.before));
@@ -213,7 +216,7 @@ Json plan_steps(const Snapshot &snapshot, const Measure &measure) {
     }
     steps.add(std::move(json));
   }
-  add_events(steps, snapshot.history.events);
+  add_events(steps, snapshot.history.events, snapshot.current.model.get());
   return steps;
 }
 

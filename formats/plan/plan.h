@@ -19,6 +19,7 @@ inline constexpr unsigned plan_version = 1;
 struct PlanStep {
   std::optional<RecordedEvent> event;
   Json op;                // null for an event
+  Json place;             // of a grasp, for another valve (formats/plan/grasp.h); null without one
   std::string group;      // "" without a group
   uint64_t group_id = 0;  // distinguishes groups of the same name
 };
@@ -55,8 +56,9 @@ std::vector<PlanStep> read_steps(const Json &record);
 // The name and hash of the valve that a plan or journal starts from.
 Json valve_json(const ModelState &start);
 
-Json event_json(const RecordedEvent &event);
-void add_events(Json &steps, const RecordedEvents &events);
+// With the model that it changes, a grasp has its place, for other valves.
+Json event_json(const RecordedEvent &event, const Model *model = nullptr);
+void add_events(Json &steps, const RecordedEvents &events, const Model *model = nullptr);
 
 // An applied operation with its title, time and group.
 Json entry_json(const HistoryEntry &entry);

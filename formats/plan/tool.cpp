@@ -6,6 +6,7 @@
 
 #include "base/bit_cast.h"
 #include "base/error.h"
+#include "formats/plan/grasp.h"
 #include "formats/text/base64.h"
 #include "history/tool_trajectory.h"
 
@@ -149,15 +150,17 @@ void read_hand(const Json &json, Tool &tool) {
 
 void read_added(const Json &json, Tool &tool) {
   check_keys(json, {"tool", "kind", "position_m", "axis", "radius_m", "length_m", "stiffness_N/m",
-                    "max_force_N", "node", "rodrigues", "bodies"});
+                    "max_force_N", "node", "place", "rodrigues", "bodies"});
   tool.kind = kind_at(json);
   read_hand(json, tool);
   tool.stiffness = positive_at(json, "stiffness_N/m");
   tool.max_force = positive_at(json, "max_force_N");
   if (tool.kind == ToolKind::grasp) {
     tool.node = static_cast<uint32_t>(std::min<uint64_t>(whole_at(json, "node"), none - 1));
+    if (json.has("place")) check_place(json["place"]);
     return;
   }
+  MVS_MUST(!json.has("place"), MVS_E_FORMAT, "plan", "only a grasp has a place");
   if (tool.kind == ToolKind::convex) {
     tool.shape = read_shape(json);
     tool.length = tool.shape->arm();
@@ -179,7 +182,7 @@ void check_keys(const Json &json, std::initializer_list<std::string_view> known)
   }
 }
 
-Json tool_json(const RecordedEvent &event) {
+Json tool_json(const RecordedEvent &event, const Model *model) {
   const Tool &tool = event.tools[0];
   Json json;
   json.set("do", event.kind == RecordedEvent::tool_add    ? "tool_add"
@@ -192,7 +195,11 @@ Json tool_json(const RecordedEvent &event) {
   if (tool.kind == ToolKind::rod) json.set("axis", vector_json(tool.axis));
   if (tool.kind == ToolKind::convex) json.set("rodrigues", vector_json(tool.axis));
   if (event.kind == RecordedEvent::tool_move) return json;
-  if (tool.kind == ToolKind::grasp) json.set("node", tool.node);
+  if (tool.kind == ToolKind::grasp) {
+    json.set("node", tool.node);
+    Json place = model ? place_json(*model, tool.node) : Json();
+    if (!place.is_null()) json.set("place", std::move(place));
+  }
   if (tool.kind == ToolKind::ball || tool.kind == ToolKind::rod) {
     json.set("radius_m", tool.radius);
   }

@@ -9,7 +9,8 @@
 
 namespace mvs::core {
 
-Json tool_json(const RecordedEvent &event);
+// With the model that it changes, a grasp has its place on the valve.
+Json tool_json(const RecordedEvent &event, const Model *model);
 
 // The tools and points of a trajectory; the caller adds the options of its time steps.
 Json trajectory_json(const RecordedEvent &event);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/struct_fields.h"
+#include "formats/plan/grasp.h"
 #include "history/tool_trajectory.h"
 #include "session/commit.h"
 #include "session/recorded_event.h"
@@ -90,8 +91,13 @@ void Replay::operate(const PlanStep &step) {
 }
 
 // Maps recorded tool ids: a tool that the plan adds gets the next free id of the simulator, and
-// later events of that tool use it, so that tools present before the plan are not touched.
-void Replay::execute(RecordedEvent event) {
+// later events of that tool use it, so that tools present before the plan are not touched. A grasp
+// without a place, of an older file, keeps its node on any valve.
+void Replay::execute(RecordedEvent event, const Json &place) {
+  if (!exact_ && !place.is_null()) {
+    event.tools[0].node = node_at_place(*now.current.model, place);
+  }
+  if (!run_event_) return;
   const Id added = event.kind == RecordedEvent::tool_add ? event.tools.get()[0].id : 0;
   const Id next = first_tool_id + now.current.state.tools_made;
   if (added != 0) tools_[added] = next;
@@ -105,11 +111,10 @@ void Replay::execute(RecordedEvent event) {
 void Replay::run(const std::vector<PlanStep> &steps) {
   for (size_t k = 0; k < steps.size(); ++k) {
     const PlanStep &step = steps[k];
-    if (step.event && !run_event_) continue;
     const std::string word = step.event ? "" : step.op["do"].text() + ": ";
     try {
       if (step.event) {
-        execute(*step.event);
+        execute(*step.event, step.place);
       } else {
         operate(step);
       }

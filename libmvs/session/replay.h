@@ -13,7 +13,8 @@ using RunEvent = std::function<Snapshot(const Snapshot &, const RecordedEvent &)
 
 class Replay {
  public:
-  // With `exact`, a site is the recorded node or triangle, otherwise its anatomical place.
+  // With `exact`, a site is the recorded node or triangle and a grasp holds the recorded node,
+  // otherwise those at its anatomical place.
   Replay(Snapshot start, bool exact, RunEvent run_event)
       : now(std::move(start)), exact_(exact), run_event_(std::move(run_event)) {}
   // Starts at another snapshot with the settings of another replay.
@@ -27,7 +28,7 @@ class Replay {
 
  private:
   void operate(const PlanStep &step);
-  void execute(RecordedEvent event);
+  void execute(RecordedEvent event, const Json &place);
 
   bool exact_;
   RunEvent run_event_;

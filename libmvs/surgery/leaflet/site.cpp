@@ -129,6 +129,21 @@ uint32_t node_at(Surgery &s, const mvs_site &site) {
   return make_node(s, locate(s, site));
 }
 
+uint32_t vertex_at(const Model &model, const mvs_site &site) {
+  const Surgery s{model, model.valve, {}, "site"};
+  const SheetPoint point = locate(s, site);
+  const Tri &tri = model.valve.triangles[point.triangle];
+  uint32_t best = none;
+  double most = -1;
+  for (uint32_t k = 0; k < 3; ++k) {
+    const double weight = point.weight[k] - (is_annulus(s, tri[k]) ? 1 : 0);
+    if (best != none && weight <= most) continue;
+    best = tri[k];
+    most = weight;
+  }
+  return best;
+}
+
 mvs_site anatomical(const Model &model, const mvs_site &site) {
   if (site.how == MVS_SITE_ANATOMICAL || site.how == MVS_SITE_NONE) return site;
   const Surgery s{model, model.valve, {}, "site"};

@@ -24,6 +24,10 @@ SheetPoint locate(const Surgery &s, const mvs_site &site);
 // annulus is nearer than a quarter of the triangle.
 uint32_t node_at(Surgery &s, const mvs_site &site);
 
+// Returns the vertex nearest to a site, by its weights in the triangle there; one off the annulus
+// if the triangle has one. Makes no node.
+uint32_t vertex_at(const Model &model, const mvs_site &site);
+
 // Returns a site in anatomical coordinates, which are valid on other valves too.
 mvs_site anatomical(const Model &model, const mvs_site &site);
 
