@@ -1,9 +1,12 @@
 /* Instruments in the valve: grasp and pull tissue, push it aside, read the reaction force.
  *
  * A tool belongs to the state, not to the valve: it is part of snapshots, their hash and HDF5
- * files; undo and restore bring it back; plans replay its motion. A spring couples the hand to the
- * tool and saturates at `max_force`: the tissue acts on the hand with the force of this spring, at
- * most `max_force` at any distance of the hand.
+ * files; plans replay its motion. Undo, restore and checkpoints return to the tools of that state,
+ * with their hands where they were then: undo of an operation brings back a tool that was removed
+ * after it, which pulls again until it is removed again, and takes away one that was added after
+ * it. Tools that a device made are tidied by mvs_device_sync. A spring couples the hand to the tool
+ * and saturates at `max_force`: the tissue acts on the hand with the force of this spring, at most
+ * `max_force` at any distance of the hand.
  *
  * A tool that pushes never passes through a leaflet, and no leaflet through it: where tissue blocks
  * it, the tool (its proxy) stays behind the hand. Chordae do not touch a ball or rod. Tools act in
@@ -18,7 +21,7 @@
  * that turns by more than 90 degrees between two steps may leave it turned the other way.
  *
  * libmvs computes its distances from tissue itself; the tests compare them with those of libccd
- * (libmvs/geometry/README.md). Forces act by a distance without kinks, 0.8 to 1.34 times the least
+ * in the source tree. Forces act by a distance without kinks, 0.8 to 1.34 times the least
  * one; the least one limits motions and refuses tools in tissue. The stitches of a clip touch it as
  * chordae of the suture's thickness; a ring has no thickness, and a tool meets the annulus that
  * lies on it. */
@@ -103,10 +106,11 @@ typedef struct mvs_tool_desc {
 /* Largest number of tools of a valve. */
 #define MVS_MAX_TOOLS 64
 
-/* Adds a tool to the state; *tool is its id, unique for this valve. The spring of a grasp starts
- * with the present distance of hand and node. MVS_E_ARGUMENT if a value is out of its range or no
- * node is within reach; MVS_E_STATE if a tool that pushes would overlap tissue, or there are
- * MVS_MAX_TOOLS. */
+/* Adds a tool to the state; *tool is its id, unique for this valve. The spring of a grasp has no
+ * rest length: a node 5 mm from the hand is pulled with 1 N (200 N/m) from the first step on. Add
+ * it with `position` at the node, and move the hand from there, to begin without force.
+ * MVS_E_ARGUMENT if a value is out of its range or no node is within reach; MVS_E_STATE if a tool
+ * that pushes would overlap tissue, or there are MVS_MAX_TOOLS. */
 MVS_API mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool);
 
 /* Moves the hand of a tool. The next mvs_settle or mvs_step starts with the last position of each

@@ -1,6 +1,7 @@
 // Haptic devices: opens and starts them, exchanges data with a simulator.
 #include "haptics/device.h"
 
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -21,7 +22,10 @@ struct mvs_device {
   mutable Device device;
   Hand hand;
   bool latched = false;  // at the last sync
-  std::mutex viewing;    // protects the view of the device in the scene
+  // the simulator of the last sync, and whether it still exists
+  mvs_sim *sim = nullptr;
+  std::weak_ptr<const int> alive;
+  std::mutex viewing;  // protects the view of the device in the scene
 };
 
 namespace {
@@ -94,13 +98,15 @@ mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
 // of the workspace could lie on the other side of a leaflet. The part that the hand points at is
 // searched only for a report.
 void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
+  d.sim = &sim;
+  d.alive = sim.alive;
   const ServoStatus now = d.device.status();
   ServoLinks &links = d.device.links();
   d.hand.begin(now, {d.device.limits().stiffness, d.device.limits().angular_stiffness});
   ButtonEvent event;
   while (links.buttons.pop(event)) d.hand.take_button(event, sim);
   if (now.phase == DevicePhase::stopped) {
-    d.hand.let_go(sim);
+    d.hand.leave(sim);
   } else if (now.has_pose) {
     d.hand.follow(sim);
   }
@@ -128,6 +134,10 @@ mvs_result mvs_device_open(const mvs_device_desc *desc, mvs_device **device) {
 }
 
 void mvs_device_close(mvs_device *device) {
+  // a refusal, as by a simulator at work, is not reported: the device is closed all the same
+  if (device && !device->alive.expired()) {
+    call_at_boundary(device->sim, [&](mvs_sim &s) { device->hand.leave(s); });
+  }
   delete device;
 }
 

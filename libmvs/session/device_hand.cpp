@@ -162,20 +162,74 @@ bool Hand::add(mvs_sim &sim, mvs_tool_desc desc) {
     if (error.code != MVS_E_STATE && error.code != MVS_E_ARGUMENT) throw;
     return false;
   }
+  const Tool &added = *tool(sim);
+  if (!made(added)) made_.push_back(added);
   builder_.begin_contact();
   return true;
+}
+
+// Ids return after an undo, so that the sizes are compared too; an operation may renumber a held
+// node.
+bool Hand::made(const Tool &tool) const {
+  return std::any_of(made_.begin(), made_.end(), [&](const Tool &own) {
+    return own.is_same_as(tool) && own.stiffness == tool.stiffness &&
+           own.max_force == tool.max_force;
+  });
+}
+
+// Whether the hand would add this tool now: with the button down, in this mode and of these sizes.
+// Through another view the stiffness of its spring may be too large for the device.
+bool Hand::wants(const Tool &tool) const {
+  const mvs_tool_desc now = describe(tool.kind);
+  if (tool.stiffness != now.stiffness || tool.max_force != now.max_force) return false;
+  switch (tool.kind) {
+    case ToolKind::grasp:
+      return down_ && (mode() == HandMode::grasp || mode() == HandMode::drag);
+    case ToolKind::ball:
+      return mode() == HandMode::ball && tool.radius == hand_.radius;
+    case ToolKind::rod:
+      return mode() == HandMode::rod && tool.radius == hand_.radius && tool.length == hand_.length;
+    default:
+      return mode() == HandMode::convex && tool.shape == shape_;
+  }
+}
+
+// A tool that returned with a state of the history has no hand: it would pull for ever.
+void Hand::take_back(mvs_sim &sim) {
+  std::vector<Id> gone;
+  for (const Tool &t : sim.current().state.tools.get()) {
+    if (t.id == tool_ || !made(t)) continue;
+    if (tool_ != 0 || !wants(t)) {
+      gone.push_back(t.id);
+      continue;
+    }
+    tool_ = t.id;
+    if (t.kind == ToolKind::grasp) events_ |= MVS_EVENT_GRASPED;
+    builder_.begin_contact();
+  }
+  for (const Id id : gone) remove_tool_now(sim, id);
+}
+
+void Hand::leave(mvs_sim &sim) {
+  let_go(sim);
+  std::vector<Id> gone;
+  for (const Tool &t : sim.current().state.tools.get()) {
+    if (made(t)) gone.push_back(t.id);
+  }
+  for (const Id id : gone) remove_tool_now(sim, id);
 }
 
 void Hand::follow(mvs_sim &sim) {
   if (changed_) let_go(sim);
   if (changed_) builder_.begin_contact();
   changed_ = false;
-  const Tool *held = tool(sim);
-  if (tool_ != 0 && !held) {
+  if (tool_ != 0 && !tool(sim)) {
     tool_ = 0;
     events_ |= MVS_EVENT_LOST_TOOL;
     builder_.begin_contact();
   }
+  take_back(sim);
+  const Tool *const held = tool(sim);
   const bool pushes =
       mode() == HandMode::ball || mode() == HandMode::rod || mode() == HandMode::convex;
   if (pushes && tool_ == 0) {

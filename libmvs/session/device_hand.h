@@ -4,6 +4,8 @@
 
 #include <mvs/tool.h>
 
+#include <vector>
+
 #include "haptics/servo_types.h"
 #include "haptics/tissue_model_builder.h"
 #include "session/device_view.h"
@@ -38,8 +40,8 @@ class Hand {
   void take_button(const ButtonEvent &event, mvs_sim &sim);
   // Updates the tool after the hand: adds it, moves it, or removes it after a change of the mode.
   void follow(mvs_sim &sim);
-  // Removes the tool of the hand.
-  void let_go(mvs_sim &sim);
+  // Removes the tool of the hand and those that an undo has brought back.
+  void leave(mvs_sim &sim);
   // Returns the local tissue model for the servo, in the frame of the device.
   TissueModel tissue(mvs_sim &sim);
   mvs_device_report report(const mvs_sim &sim, const TissueModel &tissue, bool latched) const;
@@ -52,6 +54,10 @@ class Hand {
   void release(mvs_sim &sim);
   void choose_chord(const mvs_sim &sim);
   bool add(mvs_sim &sim, mvs_tool_desc desc);
+  void let_go(mvs_sim &sim);
+  bool made(const Tool &tool) const;
+  bool wants(const Tool &tool) const;
+  void take_back(mvs_sim &sim);
   mvs_tool_desc describe(ToolKind kind) const;
   Vec3 axis() const;
   double stiffest_spring(ToolKind kind) const;
@@ -66,6 +72,7 @@ class Hand {
   Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
   StiffnessLimits most_;
   Id tool_ = 0, chord_ = 0;
+  std::vector<Tool> made_;  // every tool that this hand has added, as it was added
   bool down_ = false, changed_ = true;
   uint32_t events_ = 0;
   Vec3 drag_to_ = Vec3::Zero();

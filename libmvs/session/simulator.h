@@ -52,6 +52,8 @@ struct mvs_sim {
   // null: no settle in slices is under way; a change of the present snapshot ends it
   std::unique_ptr<mvs::core::SettleSlices> slices;
   std::atomic<bool> at_work{false};
+  // Expires with the simulator: a device that is closed later finds no tools to remove.
+  const std::shared_ptr<const int> alive = std::make_shared<const int>(0);
 
  private:
   void must_have_valve() const;
