@@ -9,12 +9,25 @@
  *   mvs_device_open(&desc, &device);  mvs_device_start(device);  mvs_device_arm(device);
  *   for (;;) { mvs_device_sync(device, sim, &report);  mvs_step(sim, NULL); }
  *
+ * Two clocks run as well: mvs_step advances the valve by its `dt`, the hand moves in wall time. A
+ * sync takes the newest position of the hand, whatever the time of the valve is: hands have no time
+ * of their own. Where a step takes longer than dt, the valve moves in slow motion, and its inertia
+ * and damping resist a hand that is faster by that factor: forces then depend on the load of the
+ * computer. Where steps are faster than dt, wait after each for wall time, or the valve moves too
+ * fast. The lag is the wall time since a sync minus the advance of MVS_ARRAY_STATE_TIME; model_age
+ * shows how long a step takes. Against a lag, in this order: a longer dt, `budget` in
+ * mvs_step_options, more workers, a coarser valve. Forces fade only if a step takes more than
+ * `stale_s`.
+ *
  * The library, not the driver, makes forces safe: a force that is not finite becomes zero; forces
  * are clamped to the limits of user, device and motor temperature, and limited in their rate of
  * change; they start with a ramp after a gate, fade when the simulation stalls, and push back at
  * the edge of the workspace. A dangerous condition latches forces off with a cause until
- * mvs_device_arm. A passivity observer measures energy that the sampled loop generates, and damping
- * removes it. These measures do not make a device a medical one.
+ * mvs_device_arm. A device whose read, write or loop fails is lost: libmvs writes zero and calls
+ * the driver's stop() at once. One that does not answer for 0.1 s is switched off by its panic(),
+ * and can be armed after mvs_device_stop and mvs_device_start. A new grasp or felt chord acts with
+ * a ramp of 50 ms. A passivity observer measures energy that the sampled loop generates, and
+ * damping removes it. These measures do not make a device a medical one.
  *
  * Positions are in the scene (the valve's frame) unless marked "of the device": there x points to
  * the user's right, y up, z towards the user, and 0 is the centre of the workspace. A device is
@@ -77,7 +90,8 @@ typedef struct mvs_device_desc {
  * other failures. */
 MVS_API mvs_result mvs_device_open(const mvs_device_desc *desc, mvs_device **device);
 
-/* Stops and frees a device. `device` is nullable. */
+/* Stops and frees a device, and removes its tools from the simulator of the last mvs_device_sync
+ * unless that is destroyed or at work in another thread. `device` is nullable. */
 MVS_API void mvs_device_close(mvs_device *device);
 
 /* Properties of a device as its driver reports them, in the frame of the device; numbers that the
@@ -106,7 +120,7 @@ MVS_API mvs_result mvs_device_get_info(const mvs_device *device, mvs_device_info
 /* Limits set by the user; none exceeds the limits of the device. */
 typedef struct mvs_device_limits {
   uint32_t struct_size;
-  uint32_t reserved;
+  uint32_t reserved;       /* 0 */
   double force;            /* N [peak force of the device] */
   double continuous_force; /* N, allowed average of the force [that of the device] */
   double thermal_s;        /* s, averaging time of that limit; 0.1 to 1000 [10] */
@@ -137,7 +151,7 @@ MVS_API mvs_result mvs_device_get_limits(const mvs_device *device, mvs_device_li
  * and on a device that renders torque so that translation and rotation together do not. */
 typedef struct mvs_device_view {
   uint32_t struct_size;
-  uint32_t reserved;
+  uint32_t reserved;  /* 0 */
   double origin[3];   /* m */
   double rotation[4]; /* quaternion w x y z, any length [1 0 0 0] */
   double scale;       /* 0.01 to 100 [1] */
@@ -234,7 +248,10 @@ typedef struct mvs_device_report {
 } mvs_device_report;
 
 /* Exchanges hand and tissue data before each mvs_step; no tool is added before the first sample.
- * `report` is nullable. A hand whose tool an undo or a new valve removed continues without it. */
+ * `report` is nullable. A hand whose tool an undo or a new valve removed continues without it.
+ * Tools that the hand made belong to it: one that an undo, a restored snapshot or a file brings
+ * back is taken by the hand again if it has no tool and still holds the button or pushes, and is
+ * removed otherwise. */
 MVS_API mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_report *report);
 
 /* Phases of the force output. */
@@ -294,8 +311,9 @@ typedef struct mvs_device_state {
   uint64_t ticks;            /* of the servo */
   uint64_t late;             /* ticks later than two periods */
   uint64_t bad_samples;      /* samples with a defect since mvs_device_start */
-  mvs_sample_fault_flags sample_faults; /* MVS_SAMPLE_FAULT_*, of these samples; a defect latches
-                                           forces off only once they are armed */
+  mvs_sample_fault_flags sample_faults; /* MVS_SAMPLE_FAULT_*, of these samples; each latches
+                                           forces off once they are armed, and refuses to arm
+                                           while it lasts */
   uint32_t reserved;
   double torque[3]; /* N m, of the device, about `hand`: the commanded torque */
 } mvs_device_state;

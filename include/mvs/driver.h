@@ -201,9 +201,13 @@ typedef struct mvs_driver_api {
    * MVS_DRIVER_STOP or stop() is called, then switches motors off and returns. */
   mvs_driver_result (*run)(mvs_driver_device *device, mvs_driver_servo servo, void *user);
 
-  /* Switches motors off; run() returns soon. From any thread, repeatedly. */
+  /* Switches motors off; run() returns soon. From any thread, repeatedly. After a failed read,
+   * write or run libmvs calls write with zero (of a polled device), then stop, on the thread of
+   * that call: both have to do what the device still allows, and a failure of theirs is not
+   * reported. */
   mvs_driver_result (*stop)(mvs_driver_device *device);
-  /* Sets zero force from a handler of a fatal signal: async-signal-safe. Nullable. */
+  /* Sets zero force from a handler of a fatal signal, or from any thread while another call of this
+   * device does not come back: async-signal-safe. Motors stay off until start(). Nullable. */
   void (*panic)(mvs_driver_device *device);
   void (*close)(mvs_driver_device *device);
   /* Returns the sentence of the last failed function of this device; for a null device that of

@@ -24,7 +24,9 @@ const char *sentence_of(Cause cause) {
     case Cause::velocity:
       return "it moves too fast: hold it still";
     case Cause::watchdog:
-      return "it does not answer in time: look at its cable and at what else this computer does";
+      return "it does not answer in time, or its clock stands still: look at its cable and at what "
+             "else "
+             "this computer does";
     case Cause::deadman:
       return "its grip is not held: take it into the hand";
     case Cause::not_finite:
@@ -32,7 +34,8 @@ const char *sentence_of(Cause cause) {
     case Cause::thermal:
       return "its motors are too warm, or it is broken: let it cool";
     case Cause::calibration:
-      return "it is not calibrated: run mvs haptics doctor for instructions";
+      return "it is not calibrated, or reports a place out of reach: run mvs haptics doctor for "
+             "instructions";
     default:
       return "it is disconnected: close it, plug it in, open it again";
   }
@@ -115,7 +118,7 @@ void Device::start() {
   plugin.call("start", core_->handle,
               [core](const mvs_driver_api &api) { return api.start(core->handle); });
   core_->servo->start();
-  core_->stopping = false;
+  core_->stopping = core_->panicked = false;
   *core_->lost = 0;
   core_->now_ns = 0;
   core_->due = 0;
@@ -153,6 +156,7 @@ void Device::stop() {
 // Returns false if the servo thread does not end.
 bool Device::end_servo() noexcept {
   core_->stopping = true;
+  if (core_->clock == DeviceClock::manual && !core_->is_lost()) core_->write_zero();
   core_->plugin->run(std::exchange(core_->stop_call, {}));
   unregister_device(core_->handle);
   std::unique_lock<std::mutex> lock(core_->mutex);
@@ -172,6 +176,9 @@ void Device::arm() {
              "%s is lost (%s): close it, and open it again", core_->plugin->name().c_str(),
              core_->lost);
   }
+  MVS_MUST(!core_->panicked, MVS_E_DEVICE, core_->plugin->name(),
+           "%s did not answer for %g s and was switched off: stop it, and start it again",
+           core_->plugin->name().c_str(), tick_timeout);
   MVS_MUST(now.device_cause == Cause::nothing, MVS_E_DEVICE, core_->plugin->name(),
            "%s cannot be armed: %s", core_->plugin->name().c_str(), sentence_of(now.device_cause));
   core_->links->requests.arm();
@@ -208,6 +215,9 @@ ServoStatus Device::status() {
       1e-9 * static_cast<double>(static_cast<int64_t>(clock_ns()) - core_->last_tick_ns.load());
   if (quiet > tick_timeout && now.device_cause == Cause::nothing) {
     core_->links->requests.cut(Cause::watchdog);
+    // its thread does not come back to write a zero; drivers stay off after panic() until a start
+    const auto panic = core_->plugin->api().panic;
+    if (panic && !core_->panicked.exchange(true)) panic(core_->handle);
     now.phase = DevicePhase::latched;
     now.cause = now.device_cause = Cause::watchdog;
   }

@@ -16,6 +16,8 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
   // Returns whether the servo thread exists; true also while it hangs.
   bool is_running();
   bool is_lost() const { return *lost; }
+  // Writes zero force to a polled device, on the thread that uses it.
+  int32_t write_zero();
   void prepare_close();
   void close() noexcept;
 
@@ -28,7 +30,7 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
   uint64_t now_ns = 0;  // virtual clock
   double due = 0;       // s of virtual time less than a tick, carried over
 
-  std::atomic<bool> stopping{false};
+  std::atomic<bool> stopping{false}, panicked{false};
   std::atomic<uint32_t> realtime{0};
   std::atomic<int64_t> last_tick_ns{0};  // of the servo thread, monotonic clock
   std::mutex mutex;                      // protects `running` and `lost`
@@ -41,6 +43,7 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
 
  private:
   static int32_t serve_sample(void *core, const mvs_driver_state *state, mvs_driver_force *force);
+  bool is_polled() const;
   int32_t poll_until_stopped();
   void tick(const mvs_driver_state &state, mvs_driver_force &force);
   int32_t exchange(uint64_t now_ns);

@@ -46,6 +46,11 @@ void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limi
   if (!(flags_ & MVS_DRIVER_FLAG_CALIBRATED)) latch_cause(Cause::calibration);
   if (traits_->has_deadman && !(flags_ & MVS_DRIVER_FLAG_HELD)) latch_cause(Cause::deadman);
   if (silent_ > sample_timeout) latch_cause(Cause::watchdog);
+  if (faults_ & MVS_SAMPLE_FAULT_FAR) {
+    // the last place stays: the step to a place where no hand can be is no motion
+    dt_ = 0;
+    return latch_cause(Cause::calibration);
+  }
   if (dt_ > 0 || !has_pose_) take_pose(sample, limits);
 }
 
@@ -68,7 +73,7 @@ bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
   return good;
 }
 
-// Latches Cause::watchdog if the device's clock goes back.
+// Latches Cause::watchdog if the device's clock goes back or stands still.
 void SampleValidator::take_time(const mvs_driver_state &sample) {
   dt_ = passed_ = 0;
   if (has_pose_ && sample.time_ns < time_ns_) {
@@ -78,14 +83,19 @@ void SampleValidator::take_time(const mvs_driver_state &sample) {
   }
   passed_ = has_pose_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
   time_ns_ = sample.time_ns;
+  if (passed_ > 0) still_ = 0;
   // if the clock stands still, ticks measure the silence
   silent_ += passed_ > 0 ? passed_ : 1 / traits_->info.rate;
   if (has_pose_ && sample.sequence == sequence_) {
     if (silent_ > sample_timeout) faults_ |= MVS_SAMPLE_FAULT_SEQUENCE;
     return;
   }
-  still_ = passed_ > 0 ? 0 : still_ + 1 / traits_->info.rate;
-  if (still_ > sample_timeout) faults_ |= MVS_SAMPLE_FAULT_CLOCK;
+  if (passed_ == 0) still_ += silent_;
+  if (still_ > sample_timeout) {
+    // without a time nothing moves or ages: forces would stay as they are
+    faults_ |= MVS_SAMPLE_FAULT_CLOCK;
+    latch_cause(Cause::watchdog);
+  }
   sequence_ = sample.sequence;
   dt_ = passed_ > 0 ? silent_ : 0;
   if (silent_ > sample_timeout) latch_cause(Cause::watchdog);
@@ -110,6 +120,10 @@ void SampleValidator::take_pose(const mvs_driver_state &sample, const mvs_device
   const double speed = step.norm() / std::max(dt_, 0.5 / traits_->info.rate);
   fast_ = speed > limits.speed ? fast_ + 1 : 0;
   if (speed > jump * limits.speed || fast_ >= fast_samples) latch_cause(Cause::velocity);
+  if (speed > jump * limits.speed) {
+    pose_.velocity = pose_.spin = Vec3::Zero();  // no motion: the estimate begins anew
+    return;
+  }
   take_velocity(sample, step);
   if (traits_->renders_torque) take_spin(turned, limits);
 }

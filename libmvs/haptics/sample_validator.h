@@ -1,5 +1,6 @@
 // Validation of device samples: returns a cause to latch for a lost or silent device, a value that
-// is not finite, a jump, excessive speed, missing calibration, or a released dead-man's switch.
+// is not finite, a place out of reach, a clock that stands still, a jump, excessive speed, missing
+// calibration, or a released dead-man's switch.
 #pragma once
 
 #include "haptics/servo_types.h"

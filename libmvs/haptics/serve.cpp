@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <utility>
 
 #include "base/utf8.h"
@@ -50,7 +51,7 @@ uint64_t clock_ns() {
 
 void Device::Core::serve() {
   const mvs_driver_api &api = plugin->api();
-  const bool own_clock = api.run != nullptr;
+  const bool own_clock = !is_polled();
   realtime = own_clock || become_realtime() ? 1 : 0;
   const int32_t code = own_clock ? api.run(handle, &serve_sample, this) : poll_until_stopped();
   if (code < 0 || !stopping) lose(code, "the driver left its loop without being asked to");
@@ -59,12 +60,32 @@ void Device::Core::serve() {
   ended.notify_all();
 }
 
-// Stores the driver's own error message if it failed, otherwise `otherwise`.
+// Stores the driver's own error message if it failed, otherwise `otherwise`. The motors of a device
+// that is not read any more would keep their last force: they are switched off here, on the thread
+// of the call that failed.
 void Device::Core::lose(int32_t code, const char *otherwise) {
-  const char *const why = code < 0 ? plugin->api().error(handle) : nullptr;
+  const mvs_driver_api &api = plugin->api();
+  const char *const why = code < 0 ? api.error(handle) : nullptr;
+  char sentence[sizeof lost];  // the driver's text is valid until its next call
+  copy_text(sentence, why && *why ? why : otherwise);
+  write_zero();
+  api.stop(handle);
   servo->lose(cause_of(code));
   const std::lock_guard<std::mutex> lock(mutex);
-  copy_text(lost, why ? why : otherwise);
+  std::copy(std::begin(sentence), std::end(sentence), lost);
+}
+
+// A device with a loop of its own has no other call that writes while the loop runs.
+int32_t Device::Core::write_zero() {
+  const mvs_driver_api &api = plugin->api();
+  if (!is_polled()) return MVS_DRIVER_OK;
+  mvs_driver_force zero = {};
+  zero.struct_size = sizeof zero;
+  return api.write(handle, &zero);
+}
+
+bool Device::Core::is_polled() const {
+  return clock == DeviceClock::manual || !plugin->api().run;
 }
 
 bool Device::Core::is_running() {
@@ -107,9 +128,7 @@ int32_t Device::Core::poll_until_stopped() {
     next = std::max(next + period, clock_ns());
     sleep_until(next);
   }
-  mvs_driver_force zero = {};
-  zero.struct_size = sizeof zero;
-  return plugin->api().write(handle, &zero);
+  return write_zero();
 }
 
 // Reads one sample, computes and writes one force.

@@ -9,6 +9,7 @@ namespace mvs::core {
 namespace {
 
 constexpr double rate_filter = 0.1;  // s, time constant of the reported rate
+constexpr double onset_s = 0.05;     // s, of the ramp of a new grasp
 constexpr double late_periods = 2;   // between two samples; a longer interval counts as late
 
 bool is_finite(const TissueModel &t) {
@@ -37,6 +38,7 @@ void Servo::start() {
   gate_.start();
   energy_.forget();
   field_ = sent_ = before_ = {};
+  onset_ = 1;
   tissue_ = {};
   links_->tissue.refresh();  // discards a model posted before the start
   status_ = {};
@@ -51,26 +53,33 @@ void Servo::tick(const mvs_driver_state &sample, mvs_driver_force &force) {
   validator_.take(sample, limits_);
   const double dt = validator_.dt();
   const Placement hand = validator_.pose().placement();
-  if (dt > 0) {
-    // work of the sent forces against the field at both ends of the step
+  if (dt > 0) spend_heat(dt);
+  if (dt > 0 && validator_.cause() == Cause::nothing) {
+    // a rejected sample is no motion, and does no work; work of the sent forces against the field
+    // at both ends of the step
     uint32_t unused = 0;
     Twist step = {hand.position - last_.position, Vec3::Zero()};
     if (traits_->renders_torque) step.angular = small_rotation(last_.orientation, hand.orientation);
-    energy_.take_step(step, {sent_, before_}, field_, rendered(wanted(), unused));
-    heat_.spend(sent_.force, dt, force_limits(limits_), limits_.thermal_s);
-    torque_heat_.spend(sent_.torque, dt, torque_limits(limits_), limits_.thermal_s);
+    energy_.take_step(step, {sent_, before_}, field_, rendered(wanted(onset_), unused));
   }
   last_ = hand;
   age(dt);
   take_updates();
   const bool may_feel = status_.model_age <= limits_.stale_s && !validator_.is_parked();
-  const Wrench field = wanted();
-  share_ =
-      gate_.share({validator_.cause(), may_feel, gated_size(field), validator_.passed()}, limits_);
+  onset_ = std::min(1.0, onset_ + dt / onset_s);
+  const bool was_armed = gate_.is_armed();
+  share_ = gate_.share({validator_.cause(), may_feel, gated_size(wanted(1)), validator_.passed()},
+                       limits_);
+  if (!was_armed && gate_.is_armed()) energy_.forget();
   before_ = sent_;
-  sent_ = limited(field);
+  sent_ = limited(wanted(onset_));
   write_force(force);
   publish(sample);
+}
+
+void Servo::spend_heat(double dt) {
+  heat_.spend(sent_.force, dt, force_limits(limits_), limits_.thermal_s);
+  torque_heat_.spend(sent_.torque, dt, torque_limits(limits_), limits_.thermal_s);
 }
 
 void Servo::lose(Cause cause) {
@@ -86,6 +95,8 @@ void Servo::lose(Cause cause) {
 }
 
 // A new model of the same contact keeps the energy account; a model of another contact resets it.
+// A grasp or a felt chord acts at any distance: its force begins with a ramp, where it would jump
+// under a still hand. A tool that pushes begins clear of tissue.
 void Servo::take_updates() {
   if (links_->limits.refresh()) limits_ = links_->limits.get();
   if (!links_->tissue.refresh()) return;
@@ -98,17 +109,21 @@ void Servo::take_updates() {
   if (!traits_->renders_torque) next.turns = 0;
   const bool same_contact = next.contact == tissue_.contact && next.kind != TissueModel::free;
   if (same_contact && tissue_.kind != TissueModel::free) {
-    energy_.take_model(tissue_, next, validator_.pose().placement(), share_);
+    energy_.take_model(tissue_, next, validator_.pose().placement(), share_ * onset_);
   } else {
     energy_.forget();
+    onset_ = next.kind == TissueModel::held || next.kind == TissueModel::pulled ? 0 : 1;
   }
   tissue_ = next;
   status_.model_age = 0;
 }
 
-Wrench Servo::wanted() const {
+// Returns a share of the force of the tissue, and the force of the wall.
+Wrench Servo::wanted(double share) const {
   const Placement hand = validator_.pose().placement();
   Wrench wrench = wrench_at(tissue_, hand);
+  wrench.force *= share;
+  wrench.torque *= share;
   wrench.force += workspace_wall(*traits_, hand.position);
   return wrench;
 }
@@ -143,7 +158,10 @@ Wrench Servo::limited(const Wrench &given) {
   Wrench next = field_;
   if (dt > 0) {
     const Damping most = {traits_->info.max_damping, traits_->info.max_angular_damping};
-    const Wrench damping = energy_.damp({pose.velocity, pose.spin}, dt, most);
+    Wrench damping = energy_.damp({pose.velocity, pose.spin}, dt, most);
+    // it dissipates what forces of this share generate, and begins with their ramp
+    damping.force *= share_;
+    damping.torque *= share_;
     if (!damping.force.isZero(0) || !damping.torque.isZero(0)) bits_ |= MVS_LIMITED_ENERGY;
     next.force = clamped(next.force + damping.force, limits_.force, MVS_LIMITED_FORCE, bits_);
     next.torque = clamped(next.torque + damping.torque, limits_.torque, MVS_LIMITED_TORQUE, bits_);

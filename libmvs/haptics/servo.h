@@ -40,7 +40,8 @@ class Servo {
 
  private:
   void take_updates();
-  Wrench wanted() const;
+  void spend_heat(double dt);
+  Wrench wanted(double share) const;
   Wrench rendered(const Wrench &given, uint32_t &bits) const;
   Wrench limited(const Wrench &given);
   double gated_size(const Wrench &field) const;
@@ -63,6 +64,7 @@ class Servo {
   Wrench before_;   // sent before that
   Placement last_;  // of the hand at the last tick
   double share_ = 0;
+  double onset_ = 1;   // share of the force of a new grasp, on its ramp
   uint32_t bits_ = 0;  // MVS_LIMITED_*
   ServoStatus status_;
   double servo_s_ = 0;

@@ -126,6 +126,7 @@ DeviceTraits read_traits(const mvs_driver_info &given, const char *driver) {
 }
 
 mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_device_info &info) {
+  must_be_zero(given.reserved, "limits.reserved");
   mvs_device_limits out = given;
   const auto at_most = [&](double wanted, double device, const char *what) {
     return std::min(or_default(wanted, device, 1e-6, max_stiffness, what), device);

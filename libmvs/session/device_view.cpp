@@ -10,6 +10,7 @@
 namespace mvs::core {
 
 DeviceView DeviceView::read(const mvs_device_view &given) {
+  must_be_zero(given.reserved, "view.reserved");
   DeviceView view;
   view.origin_ = Vec3::Map(given.origin);
   MVS_MUST((view.origin_.array().abs() <= max_coordinate).all(), MVS_E_ARGUMENT, "view.origin",
@@ -17,8 +18,9 @@ DeviceView DeviceView::read(const mvs_device_view &given) {
            given.origin[1], given.origin[2], max_coordinate);
   const double *const q = given.rotation;
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  // the stable norm of a NaN beside numbers may be finite
   const double length = rotation.coeffs().stableNorm();
-  MVS_MUST(std::isfinite(length), MVS_E_ARGUMENT, "view.rotation",
+  MVS_MUST(rotation.coeffs().allFinite() && std::isfinite(length), MVS_E_ARGUMENT, "view.rotation",
            "view.rotation is (%g, %g, %g, %g): it has to be a quaternion w x y z", q[0], q[1], q[2],
            q[3]);
   if (length > 0) view.rotation_.coeffs() = rotation.coeffs() / length;

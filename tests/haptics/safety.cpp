@@ -149,6 +149,20 @@ TEST_CASE("forces wait at the gate, then rise along the ramp") {
   CHECK_EQ(loop.run(0.05).phase, DevicePhase::on);
 }
 
+TEST_CASE("a new grasp pulls a still hand along a ramp") {
+  Loop loop(at_rest);
+  loop.arm();
+  loop.post(spring(200));  // 0.4 N at 2 mm
+  double before = 0;
+  for (int k = 0; k < 40; ++k) {
+    const double force = loop.run(1e-3).force.norm();
+    CHECK_GT(force, before);
+    CHECK_LT(force - before, 1.5 * 0.4 / 50);  // of a ramp of 50 ms
+    before = force;
+  }
+  CHECK_GT(loop.run(0.02).force.norm(), 0.35);
+}
+
 TEST_CASE("a force is limited to the user's maximum and to the slew rate") {
   Loop loop(at_rest);
   loop.arm();

@@ -21,6 +21,15 @@ static void what_makes_no_sense_is_refused(void) {
   CHECK(mvs_device_set_limits(device, &limits) == MVS_E_ARGUMENT);
   CHECK(mvs_device_set_view(device, &view) == MVS_E_ARGUMENT);
   CHECK(mvs_device_set_hand(device, &hand) == MVS_E_ARGUMENT);
+  mvs_device_limits reserved = {.struct_size = sizeof reserved, .reserved = 1};
+  MUST_FAIL(mvs_device_set_limits(device, &reserved), MVS_E_ARGUMENT, "limits.reserved");
+  for (int k = 0; k < 5; ++k) {
+    mvs_device_view unknown = {.struct_size = sizeof unknown, .rotation = {1, 1, 1, 1}};
+    if (k < 4) unknown.rotation[k] = NAN;
+    if (k == 4) unknown.reserved = 1;
+    MUST_FAIL(mvs_device_set_view(device, &unknown), MVS_E_ARGUMENT,
+              k < 4 ? "view.rotation" : "view.reserved");
+  }
   CHECK(mvs_device_start(device) == MVS_E_STATE);
   CHECK(mvs_device_advance(device, NAN) == MVS_E_ARGUMENT);
   MUST(mvs_device_stop(device));

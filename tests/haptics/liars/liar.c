@@ -11,6 +11,16 @@ struct mvs_driver_device {
 };
 static struct mvs_driver_device the_one;
 
+/* What libmvs asked of the driver, for tests. */
+struct asked {
+  mvs_driver_force last; /* written */
+  int stops, panics;
+};
+MVS_DRIVER_EXPORT struct asked mvs_liar_asked;
+
+/* The sample from which on a device fails, some of it after forces are on. */
+#define AT 1000u
+
 static int32_t open_device(const mvs_driver_host *host, const char *name,
                            mvs_driver_device **device) {
   (void)host;
@@ -22,6 +32,8 @@ static int32_t open_device(const mvs_driver_host *host, const char *name,
   return MVS_DRIVER_E_PERMISSION;
 #endif
   *device = &the_one;
+  the_one.sequence = 0;
+  memset(&mvs_liar_asked, 0, sizeof mvs_liar_asked);
 #ifdef LIE_NO_HANDLE
   *device = NULL;
 #endif
@@ -69,6 +81,9 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
 #ifdef LIE_LOOP_HANGS
   if (device->sequence > 10) pause();
 #endif
+#ifdef LIE_READ_FAILS
+  if (device->sequence >= AT) return MVS_DRIVER_E_FAULT;
+#endif
   state->flags = MVS_DRIVER_FLAG_CALIBRATED;
   state->time_ns = now_ns;
   state->sequence = ++device->sequence;
@@ -95,6 +110,18 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
 #ifdef LIE_NO_TIME
   state->time_ns = 7;
 #endif
+#ifdef LIE_TIME_STOPS /* the position goes on */
+  static uint64_t stopped_ns;
+  if (device->sequence <= AT) stopped_ns = now_ns;
+  state->time_ns = stopped_ns;
+  state->position[2] = 1e-6 * (double)(device->sequence % 1000);
+#endif
+#ifdef LIE_FAR
+  state->position[0] = 2;
+#endif
+#ifdef LIE_FAR_ONCE
+  if (device->sequence == AT) state->position[0] = 5;
+#endif
 #ifdef LIE_CLOCK_BACK
   state->time_ns = UINT64_MAX - now_ns;
 #endif
@@ -105,12 +132,27 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
 }
 
 static int32_t write_force(mvs_driver_device *device, const mvs_driver_force *force) {
+  mvs_liar_asked.last = *force;
+#ifdef LIE_WRITE_FAILS
+  if (device->sequence >= AT) return MVS_DRIVER_E_FAULT;
+#endif
   (void)device;
-  (void)force;
   return MVS_DRIVER_OK;
 }
 
 static int32_t run(mvs_driver_device *device, mvs_driver_servo servo, void *user) {
+#ifdef LIE_LOOP_FAILS
+  mvs_driver_force force = {0};
+  mvs_driver_state state = {0};
+  state.struct_size = sizeof state;
+  force.struct_size = sizeof force;
+  for (uint64_t k = 0; k < AT / 4; ++k) {
+    if (read_state(device, 1000000 * k, &state) < 0) break;
+    if (servo(user, &state, &force) == MVS_DRIVER_STOP) return MVS_DRIVER_OK;
+    usleep(1000);
+  }
+  return MVS_DRIVER_E_LOST;
+#endif
   (void)device;
   (void)servo;
   (void)user;
@@ -119,8 +161,16 @@ static int32_t run(mvs_driver_device *device, mvs_driver_servo servo, void *user
 
 static int32_t stop(mvs_driver_device *device) {
   (void)device;
+  ++mvs_liar_asked.stops;
   return MVS_DRIVER_OK;
 }
+
+#ifdef LIE_LOOP_HANGS
+static void panic(mvs_driver_device *device) {
+  (void)device;
+  ++mvs_liar_asked.panics;
+}
+#endif
 
 #ifdef LIE_PANICS /* no defect: reports on file 9 that panic was called */
 static void panic(mvs_driver_device *device) {
@@ -164,7 +214,7 @@ int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api)
   ours.stop = stop;
   ours.close = close_device;
   ours.error = error;
-#ifdef LIE_PANICS
+#if defined LIE_PANICS || defined LIE_LOOP_HANGS
   ours.panic = panic;
 #endif
 #ifdef LIE_OLD
@@ -182,7 +232,7 @@ int32_t mvs_driver_negotiate(const mvs_driver_host *host, mvs_driver_api *api)
 #ifdef LIE_NO_WRITE
   ours.write = NULL;
 #endif
-#ifdef LIE_LEAVES
+#if defined LIE_LEAVES || defined LIE_LOOP_FAILS
   ours.run = run;
 #else
   (void)run;
