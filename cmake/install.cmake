@@ -13,8 +13,20 @@ install(FILES ${PROJECT_SOURCE_DIR}/include/mvs-api.json
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
   COMPONENT mvs_runtime)
 # documents and examples for C programmers and authors of drivers
-install(FILES README.md CHANGELOG.md formats/FORMAT.md libmvs/surgery/OPERATIONS.md
-  libmvs/measure/DEFINITIONS.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT mvs_development)
+# The installed README keeps its links to installed files; of those to the source tree the text stays.
+file(READ ${PROJECT_SOURCE_DIR}/README.md readme)
+string(REGEX REPLACE "!\\[[^]]*\\]\\([^)]*\\)\n+" "" readme "${readme}")
+string(REGEX REPLACE
+  "\\]\\((formats|libmvs/surgery|libmvs/measure|libmvs/anatomy)/(FORMAT|OPERATIONS|DEFINITIONS|PARAMETRIC)\\.md"
+  "](\\2.md" readme "${readme}")
+string(REGEX REPLACE
+  "\\[([^]]*)\\]\\((libmvs|include|bindings|tests|formats|examples/planner|examples/pictures|CONTRIBUTING)[^)]*\\)"
+  "\\1" readme "${readme}")
+file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/installed/README.md CONTENT "${readme}")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/README.md)
+install(FILES ${PROJECT_BINARY_DIR}/installed/README.md CHANGELOG.md formats/FORMAT.md libmvs/surgery/OPERATIONS.md
+  libmvs/measure/DEFINITIONS.md libmvs/anatomy/PARAMETRIC.md
+  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT mvs_development)
 install(FILES examples/hello.c examples/close.c examples/repair.c
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT mvs_development)
 install(DIRECTORY examples/plans DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples

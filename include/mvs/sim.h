@@ -232,10 +232,10 @@ typedef struct mvs_step_options {
 } mvs_step_options;
 
 /* Advances by one time step: a bounded amount of work without progress callbacks. After a few steps
- * of a valve it makes no allocation and no system call as long as no snapshot of the valve is held.
- * An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing a tool
- * prepares the next step of a valve that is being stepped within its own call. MVS_E_DIVERGED if
- * numbers left their range: use a smaller dt. `options` is nullable. */
+ * it makes no allocation and no system call while no snapshot of the valve is held and no hand has
+ * moved. An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing a
+ * tool prepares the next step of a valve that is being stepped within its own call. MVS_E_DIVERGED
+ * if numbers left their range: use a smaller dt. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
 /* Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.

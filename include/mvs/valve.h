@@ -232,7 +232,7 @@ enum mvs_branching_e {
 typedef uint32_t mvs_branching;
 
 /* A parametric mitral valve. Defaults are those of an adult human; sources in
- * libmvs/anatomy/PARAMETRIC.md. The fibrous trigones lie at +-38 degrees from the A point. */
+ * PARAMETRIC.md (installed). The fibrous trigones lie at +-38 degrees from the A point. */
 typedef struct mvs_parametric_desc {
   uint32_t struct_size;
   uint32_t vertices;           /* approximate number of leaflet vertices [425]; 200 to 100000 */

@@ -15,12 +15,23 @@ endif()
 # the library under its SONAME, which carries major.minor
 foreach(pattern bin/mvs lib*/libmvs.so.${SOVERSION} lib*/cmake/mvs/mvsConfig.cmake
         lib*/pkgconfig/mvs.pc share/doc/libmvs/LICENSE share/doc/libmvs/README.md share/doc/libmvs/FORMAT.md
-        share/doc/libmvs/OPERATIONS.md share/doc/libmvs/DEFINITIONS.md
+        share/doc/libmvs/OPERATIONS.md share/doc/libmvs/DEFINITIONS.md share/doc/libmvs/PARAMETRIC.md
         share/doc/libmvs/examples/hello.c share/doc/libmvs/examples/plans/valve1.json
         share/doc/libmvs/haptic_drivers/template.c)
   file(GLOB found ${PREFIX}/${pattern})
   if(NOT found)
     message(FATAL_ERROR "not installed: ${pattern}")
+  endif()
+endforeach()
+
+# Each link of the installed README leads to an installed file.
+set(docs ${PREFIX}/share/doc/libmvs)
+file(READ ${docs}/README.md readme)
+string(REGEX MATCHALL "\\(([A-Za-z_.]+/)*[A-Za-z_]+\\.(md|c|h|png)\\)" links "${readme}")
+foreach(link ${links})
+  string(REGEX REPLACE "[()]" "" link "${link}")
+  if(NOT EXISTS ${docs}/${link})
+    message(FATAL_ERROR "README.md links to ${link}, which is not installed")
   endif()
 endforeach()
 

@@ -1145,9 +1145,9 @@ export class Functions extends Calls {
 
   /**
    * Advances by one time step: a bounded amount of work without progress callbacks. After a few
-   * steps of a valve it makes no allocation and no system call as long as no snapshot of the valve
-   * is held. An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing
-   * a tool prepares the next step of a valve that is being stepped within its own call.
+   * steps it makes no allocation and no system call while no snapshot of the valve is held and no
+   * hand has moved. An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or
+   * removing a tool prepares the next step of a valve that is being stepped within its own call.
    * MVS_E_DIVERGED if numbers left their range: use a smaller dt. `options` is nullable.
    */
   mvs_step(sim: SimHandle, options?: StepOptions | null): void {
@@ -1454,10 +1454,11 @@ export class Functions extends Calls {
   }
 
   /**
-   * Adds a tool to the state; *tool is its id, unique for this valve. The spring of a grasp starts
-   * with the present distance of hand and node. MVS_E_ARGUMENT if a value is out of its range or no
-   * node is within reach; MVS_E_STATE if a tool that pushes would overlap tissue, or there are
-   * MVS_MAX_TOOLS.
+   * Adds a tool to the state; *tool is its id, unique for this valve. The spring of a grasp has no
+   * rest length: a node 5 mm from the hand is pulled with 1 N (200 N/m) from the first step on. Add
+   * it with `position` at the node, and move the hand from there, to begin without force.
+   * MVS_E_ARGUMENT if a value is out of its range or no node is within reach; MVS_E_STATE if a tool
+   * that pushes would overlap tissue, or there are MVS_MAX_TOOLS.
    */
   mvs_add_tool(sim: SimHandle, desc: ToolDesc): bigint {
     return this.invoke(signatures.mvs_add_tool!, [sim, desc]) as never;

@@ -231,8 +231,8 @@ export interface ValveDesc {
 }
 
 /**
- * A parametric mitral valve. Defaults are those of an adult human; sources in
- * libmvs/anatomy/PARAMETRIC.md. The fibrous trigones lie at +-38 degrees from the A point.
+ * A parametric mitral valve. Defaults are those of an adult human; sources in PARAMETRIC.md
+ * (installed). The fibrous trigones lie at +-38 degrees from the A point.
  */
 export interface ParametricDesc {
   /** approximate number of leaflet vertices [425]; 200 to 100000 */
