@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace mvs::core {
 namespace {
@@ -76,17 +77,17 @@ bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
 // Latches Cause::watchdog if the device's clock goes back or stands still.
 void SampleValidator::take_time(const mvs_driver_state &sample) {
   dt_ = passed_ = 0;
-  if (has_pose_ && sample.time_ns < time_ns_) {
+  if (has_time_ && sample.time_ns < time_ns_) {
     time_ns_ = sample.time_ns;
     faults_ |= MVS_SAMPLE_FAULT_CLOCK;
     return latch_cause(Cause::watchdog);
   }
-  passed_ = has_pose_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
+  passed_ = has_time_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
   time_ns_ = sample.time_ns;
   if (passed_ > 0) still_ = 0;
   // if the clock stands still, ticks measure the silence
   silent_ += passed_ > 0 ? passed_ : 1 / traits_->info.rate;
-  if (has_pose_ && sample.sequence == sequence_) {
+  if (std::exchange(has_time_, true) && sample.sequence == sequence_) {
     if (silent_ > sample_timeout) faults_ |= MVS_SAMPLE_FAULT_SEQUENCE;
     return;
   }

@@ -41,7 +41,7 @@ class SampleValidator {
 
   const DeviceTraits *traits_;
   HandPose pose_;
-  bool has_pose_ = false;
+  bool has_pose_ = false, has_time_ = false;  // of a finite sample
   uint64_t time_ns_ = 0, sequence_ = 0;
   double dt_ = 0, passed_ = 0, silent_ = 0;  // s
   double still_ = 0;                         // s, since the time of new samples advanced

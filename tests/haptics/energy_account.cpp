@@ -16,7 +16,8 @@ TEST_CASE("a_jump_books_no_energy_and_arming_begins_with_an_empty_account") {
   const double before = loop.run(0.9).energy;
   const ServoStatus during = loop.run(0.4);
   CHECK_EQ(during.cause, Cause::velocity);
-  CHECK_LE(during.energy, before);
+  // the step of the jump would book some hundredths of a joule
+  CHECK_LE(during.energy, before + 1e-6);
   loop.run(0.5);
   loop.post({});
   loop.device().arm();

@@ -160,7 +160,7 @@ TEST_CASE("a new grasp pulls a still hand along a ramp") {
     CHECK_LT(force - before, 1.5 * 0.4 / 50);  // of a ramp of 50 ms
     before = force;
   }
-  CHECK_GT(loop.run(0.02).force.norm(), 0.35);
+  CHECK_GT(loop.run(0.02).force.norm(), 0.3);  // it has moved the hand
 }
 
 TEST_CASE("a force is limited to the user's maximum and to the slew rate") {
