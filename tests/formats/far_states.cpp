@@ -2,15 +2,11 @@
 // format with the line or the node: the search for contacts would take a grid of that size.
 #include <doctest/doctest.h>
 
-#include <limits>
-
 #include "tests/formats/samples.h"
 
 using namespace mvs::core;
 
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Returns the line of the refusal, 0 if the file is read.
 int32_t refused_line(const State &state, const char *word) {
@@ -48,7 +44,7 @@ TEST_CASE("a_session_with_a_far_or_fast_node_is_refused_with_its_number") {
     read_session(write_session({{model, state}, {}}, {}));
   };
   read(pair.state);
-  for (const double far : {1.5, 1e60, infinite}) {
+  for (const double far : {1.5, 1e60}) {
     State state = pair.state;
     state.x.edit()[3].y() += far;
     CHECK_THROWS_WITH_AS(read(state), doctest::Contains("node 3"), Error);

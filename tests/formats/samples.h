@@ -116,6 +116,19 @@ class RandomBits {
     const double x = number(), y = number(), z = number();
     return {x, y, z};
   }
+  // Within 0.5 m, as readers demand of a node and its rest position: large exponents become small.
+  Vec3 near() {
+    Vec3 place;
+    for (int k = 0; k < 3; ++k) {
+      const double value = number();
+      const uint64_t word = std::bit_cast<uint64_t>(value);
+      const uint64_t exponent = uint64_t{0x3c0 + below(60)} << 52;
+      place[k] = std::abs(value) < 0.25
+                     ? value
+                     : std::bit_cast<double>((word & ~(uint64_t{0x7ff} << 52)) | exponent);
+    }
+    return place;
+  }
   std::string name(uint32_t number) {
     std::string text = std::to_string(number) + ":";
     for (uint32_t k = below(12); k > 0; --k) text += static_cast<char>(bits() & 255);
@@ -148,9 +161,9 @@ inline void draw_curves(RandomBits &random, Valve &valve) {
 inline void draw_nodes(RandomBits &random, uint32_t n, Pair &pair) {
   Valve &valve = pair.model.valve;
   for (uint32_t k = 0; k < n; ++k) {
-    pair.state.x.push_back(random.place());
-    pair.state.v.push_back(random.below(2) == 0 ? random.place() : Vec3::Zero());
-    valve.rest.push_back(random.below(2) == 0 ? random.place() : pair.state.x.back());
+    pair.state.x.push_back(random.near());
+    pair.state.v.push_back(random.below(2) == 0 ? random.near() : Vec3::Zero());
+    valve.rest.push_back(random.below(2) == 0 ? random.near() : pair.state.x.back());
     valve.open.push_back(random.below(2) == 0 ? random.place() : valve.rest.back());
     valve.loaded.push_back(random.below(2) == 0 ? random.place() : valve.rest.back());
     valve.origin.push_back(random.below(2) == 0 ? random.below(n) : none);
