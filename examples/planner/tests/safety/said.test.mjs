@@ -3,9 +3,9 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, figures, sharePlanner, temporaryFile } from './fixtures/browser.mjs';
-import { answered, apply, becomes, begin, open, openPanel, save, startAfresh } from './fixtures/person.mjs';
-import { listed, openTour, startHealthy } from './fixtures/valves.mjs';
+import { closed, figures, sharePlanner, temporaryFile } from '../fixtures/browser.mjs';
+import { answered, apply, becomes, begin, open, openPanel, save, startAfresh } from '../fixtures/person.mjs';
+import { listed, openTour, startHealthy } from '../fixtures/valves.mjs';
 
 const flat = (text) => text.replace(/\s+/g, ' ').trim();
 

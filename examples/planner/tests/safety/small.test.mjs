@@ -2,8 +2,8 @@
 // and without, on the card and in the report.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, figures, sharePlanner } from './fixtures/browser.mjs';
-import { answered, apply, openPanel, startAfresh, undo } from './fixtures/person.mjs';
+import { closed, figures, sharePlanner } from '../fixtures/browser.mjs';
+import { answered, apply, openPanel, startAfresh, undo } from '../fixtures/person.mjs';
 
 describe('planner verdict on a small annulus and on the middle', () => {
   let page;

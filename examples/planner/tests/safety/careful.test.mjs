@@ -1,8 +1,8 @@
 // What an impatient or careless hand must not do: apply an operation that nobody asked for, or change a length unseen.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { figures, sharePlanner, withPlanner } from './fixtures/browser.mjs';
-import { answered, begin, startAfresh, undo } from './fixtures/person.mjs';
+import { figures, sharePlanner, withPlanner } from '../fixtures/browser.mjs';
+import { answered, begin, startAfresh, undo } from '../fixtures/person.mjs';
 
 describe('planner under a careless hand', () => {
   let page;

@@ -2,8 +2,8 @@
 // leaflet; a form does not begin with what would be refused.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, figures, sharePlanner, withPlanner } from './fixtures/browser.mjs';
-import { answered, begin, fillIn, startAfresh } from './fixtures/person.mjs';
+import { closed, figures, sharePlanner, withPlanner } from '../fixtures/browser.mjs';
+import { answered, begin, fillIn, startAfresh } from '../fixtures/person.mjs';
 
 const flat = (text) => text.replace(/\s+/g, ' ').trim();
 

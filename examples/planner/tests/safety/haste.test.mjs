@@ -1,8 +1,8 @@
 // Quick and careless hands: double clicks, undo pressed again and again, two files at once, a form in a narrow window.
 import assert from 'node:assert/strict';
 import { beforeEach, describe, it } from 'node:test';
-import { closed, figures, sharePlanner, withPlanner } from './fixtures/browser.mjs';
-import { answered, apply, begin, focused, startAfresh, undo } from './fixtures/person.mjs';
+import { closed, figures, sharePlanner, withPlanner } from '../fixtures/browser.mjs';
+import { answered, apply, begin, focused, startAfresh, undo } from '../fixtures/person.mjs';
 
 describe('planner in haste', () => {
   let page;
