@@ -616,12 +616,13 @@ export const verdictTexts = {
   folded: (percent: number) =>
     `the annulus is ${percent} % of its width before; leaflets lie in folds: do not trust the figures`,
   billows: (scallop: string, height: number) => `${scallop} billows ${number(height)} mm above the annulus`,
+  /** One line of the card: of both extents, the width first, it does not say what they were. */
   undersized: (small: { extent: 'annulusCc' | 'annulusAp'; now: number; from: number }[]) => {
     const of = { annulusCc: 'wide', annulusAp: 'front to back' };
-    const words = small.map(
-      ({ extent, now, from }) => `${number(now, 0)} mm ${of[extent]} (was ${number(from, 0)})`,
-    );
-    return `the annulus is ${listOf(words)}: much undersized`;
+    const now = small.map((one) => number(one.now, 0)).join(' × ');
+    const [{ extent, from }] = small;
+    const more = small.length === 1 ? ` ${of[extent]} (was ${number(from, 0)})` : '';
+    return `annulus ${now} mm${more}: much undersized`;
   },
   centreMeets: ([height, least]: [string, string]) =>
     `A2 and P2 meet over ${height} mm only, less than ${least}`,
@@ -844,7 +845,7 @@ export const valveTexts = {
   flow: 'Flow through the open valve',
   flowUnit: 'ml/s',
   flowHint: (low: number, high: number) =>
-    `Mean flow while the ventricle fills, about 200 ml/s at rest; ${low} to ${high} ml/s. Without it there is no gradient.`,
+    `Mean flow while the ventricle fills, about 200 ml/s at rest; from ${low} ml/s to ${high} ml/s. Without it there is no gradient.`,
   flowOutside: (given: number, low: number, high: number) =>
     `${String(given).replace('-', '−')} ml/s is out of range; it has to be ${low} to ${high} ml/s. No gradient is shown.`,
   gradient: 'Mean pressure gradient',

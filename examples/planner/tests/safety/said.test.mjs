@@ -74,7 +74,7 @@ describe('planner says what it shows', () => {
     await startHealthy(page);
     await openPanel(page, 'Plan');
     const [newest] = await listed(page).allInnerTexts();
-    assert.match(flat(newest), /Sealed, but the annulus is 25 mm wide/);
+    assert.match(flat(newest), /Sealed, but annulus 25 × 13 mm/);
     assert.doesNotMatch(newest, /not measured yet/);
   });
 

@@ -28,19 +28,18 @@ describe('planner verdict on a small annulus and on the middle', () => {
   it('names_an_annulus_below_80_per_cent_of_its_width_or_70_of_its_depth', async () => {
     // the healthy valve is 35.0 mm wide and 26.0 mm deep; of a valve whose illness is not known 24 mm of depth count as normal
     assert.match(await card(), /^Sealed 0 mm²/);
-    const wide = /^Sealed, but the annulus is \d+ mm wide \(was 35\): much undersized/;
-    const deep = /^Sealed, but the annulus is \d+ mm front to back \(was 26\): much undersized/;
+    const wide = /^Sealed, but annulus \d+ mm wide \(was 35\): much undersized/;
+    const deep = /^Sealed, but annulus \d+ mm front to back \(was 26\): much undersized/;
     assert.match(await attempt('annulus_scale', { factor: 0.8 }), /^Sealed 0 mm²/);
     for (const factor of [0.75, 0.7]) assert.match(await attempt('annulus_scale', { factor }), wide);
     assert.match(await attempt('ring', { size: 28 }), /^Sealed 0 mm²/);
     for (const size of [25, 27]) assert.match(await attempt('ring', { size }), wide);
     assert.match(await attempt('annulus_scale', { ap: 0.75 }), /^Sealed 0 mm²/);
     assert.match(await attempt('annulus_scale', { ap: 0.5 }), deep);
-    const both =
-      /^Sealed, but the annulus is 25 mm wide \(was 35\) and 13 mm front to back \(was 26\): much undersized/;
+    const both = /^Sealed, but annulus 25 × 13 mm: much undersized/;
     assert.match(await attempt('annulus_scale', { factor: 0.7, ap: 0.7 }), both);
     await apply(page);
-    assert.match(await inReport(), /^Sealed, but .*13 mm front to back/);
+    assert.match(await inReport(), /^Sealed, but .*annulus 25 × 13 mm/);
     await undo(page);
   });
 
