@@ -46,7 +46,7 @@ describe('planner goals', () => {
     await apply(page);
     const words = /^Sealed, but opening [23]\.\d cm² is below the goal (3\.9|4\.0)/;
     const all = await says(card, words);
-    const small = 'annulus 25 mm wide (was 40)';
+    const small = 'annulus 25 × 19 mm: much undersized';
     assert.ok(all.includes(small), all);
     await says(() => page.getByTestId('status').innerText(), /: Sealed, but opening [23]\.\d cm² is below/);
     await openPanel(page, 'Plan');

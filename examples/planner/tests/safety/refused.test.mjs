@@ -110,3 +110,24 @@ it('planner shows a refusal in a small window too', async () => {
     assert.ok(await isInSight(page, page.getByTestId('form').getByRole('alert')));
   });
 });
+
+it('scrolls_the_form_by_the_wheel_over_a_number_and_changes_no_length', async () => {
+  await withPlanner({ width: 1000, height: 520 }, async ({ page }) => {
+    const { id, rest } = (await figures(page)).chords[0];
+    await page.evaluate(
+      ([chord, length]) => window.planner.edit('chord_length', { chord, length }),
+      [id, rest],
+    );
+    await answered(page, 200);
+    const box = page.locator('#f-length');
+    await box.focus();
+    const before = await box.inputValue();
+    const { x, y, width, height } = await box.boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.wheel(0, 60);
+    await answered(page, 900);
+    assert.equal(await box.inputValue(), before);
+    assert.equal(await page.evaluate(() => window.planner.state.draft.value.fields.length), rest);
+    assert.ok((await box.boundingBox()).y < y, 'the form does not scroll');
+  });
+});
