@@ -112,7 +112,9 @@ void Servo::take_updates() {
     energy_.take_model(tissue_, next, validator_.pose().placement(), share_ * onset_);
   } else {
     energy_.forget();
-    onset_ = next.kind == TissueModel::held || next.kind == TissueModel::pulled ? 0 : 1;
+    // a changed view or gain is another contact of the same kind: it keeps its place on the ramp
+    const bool ramps = next.kind == TissueModel::held || next.kind == TissueModel::pulled;
+    if (!ramps || next.kind != tissue_.kind) onset_ = ramps ? 0 : 1;
   }
   tissue_ = next;
   status_.model_age = 0;
