@@ -33,7 +33,7 @@ class FailingDevice {
   }
 
   Device &device() { return device_; }
-  // What the driver was asked.
+  // The calls to the driver.
   const Asked &asked() const {
     return *static_cast<const Asked *>(
         dlsym(dlopen(path_.c_str(), RTLD_NOW | RTLD_LOCAL), "mvs_liar_asked"));

@@ -11,7 +11,7 @@ struct mvs_driver_device {
 };
 static struct mvs_driver_device the_one;
 
-/* What libmvs asked of the driver, for tests. */
+/* The calls of libmvs to the driver, for tests. */
 struct asked {
   mvs_driver_force last; /* written */
   int stops, panics;

@@ -1,4 +1,4 @@
-// A series of presses at one place is for the control that the first of them was on, not for what has come into its place
+// A series of presses at one place is for the control under the first of them, not for one that has come into its place
 // since: the list of operations lies under Apply, and a form under its card.
 
 const control = (target: EventTarget | null): Element | null => {
