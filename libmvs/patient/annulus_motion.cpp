@@ -189,6 +189,34 @@ void report_measured(const std::vector<Vec3> &annulus, const AnnulusMotion &moti
   set_points(moved_by(motion, annulus), findings.back());
 }
 
+void report_given(const std::vector<Vec3> &annulus, const std::vector<Vec3> &given,
+                  const AnnulusMotion &motion, Findings &findings) {
+  findings.push_back({"closed_annulus",
+                      FindingSource::given,
+                      1,
+                      "the annulus moves onto the given curve, by " + words_of(annulus, motion),
+                      {},
+                      ""});
+  set_points(given, findings.back());  // read back it is the same curve
+}
+
+// Without values: as a given curve they would be another boundary than this assumption.
+Finding unseen_motion() {
+  return {"annulus_motion",
+          FindingSource::assumed,
+          0.3,
+          "the annulus is taken to stay under load: too little of it lies near rims of the closed "
+          "surface; give points along the loaded annulus",
+          {},
+          ""};
+}
+
+double rms_of(const std::vector<Vec3> &annulus, const AnnulusMotion &motion) {
+  double sum = 0;
+  for (const Vec3 &p : annulus) sum += (motion(p) - p).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(annulus.size()));
+}
+
 // Whether a motion is that of one annulus between two phases.
 bool is_plausible(const Meeting &met) {
   return met.seen >= least_seen && met.motion.stretch.norm() <= most_stretch &&
@@ -241,47 +269,27 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
   motion.shift_ = met.motion.shift;
   if (!given.empty()) {
     MVS_MUST(
-        motion.moves(), MVS_E_OP, "closed_annulus",
+        motion.moves() && motion.put_on(annulus, through), MVS_E_OP, "closed_annulus",
         "the loaded annulus cannot be that of the open leaflets: its middle lies %.1f mm from "
         "theirs, and %.0f %% of it meets the curve; are both in one frame (LPS or RAS), and of "
         "one patient?",
         met.motion.shift.norm() * 1e3, 100 * met.seen);
-    findings.push_back({"closed_annulus",
-                        FindingSource::given,
-                        1,
-                        "the annulus moves onto the given curve, by " + words_of(annulus, motion),
-                        {},
-                        ""});
-    set_points(given, findings.back());  // read back it is the same curve
-    return motion;
-  }
-  if (!motion.moves()) {
-    // without values: as a given curve they would be another boundary than this assumption
-    findings.push_back(
-        {"annulus_motion",
-         FindingSource::assumed,
-         0.3,
-         "the annulus is taken to stay under load: too little of it lies near rims of the closed "
-         "surface; give points along the loaded annulus",
-         {},
-         ""});
-    return motion;
-  }
-  double sum = 0;
-  for (const Vec3 &p : annulus) sum += (motion(p) - p).squaredNorm();
-  if (std::sqrt(sum / static_cast<double>(annulus.size())) < no_motion) {
+    report_given(annulus, given, motion, findings);
+  } else if (!motion.moves()) {
+    findings.push_back(unseen_motion());
+  } else if (rms_of(annulus, motion) < no_motion) {
     motion.moves_ = false;
     report_measured(annulus, motion,
                     "the annulus stays under load: rims of the closed surface lie on it", findings);
-    return motion;
+  } else {
+    report_measured(
+        annulus, motion,
+        "the annulus moves to rims of the closed surface, by " + words_of(annulus, motion) +
+            format("; %.2f mm (RMS) remain on %.0f %% of it; give points along the loaded annulus "
+                   "if they are known",
+                   met.rms * 1e3, 100 * met.seen),
+        findings);
   }
-  report_measured(
-      annulus, motion,
-      "the annulus moves to rims of the closed surface, by " + words_of(annulus, motion) +
-          format("; %.2f mm (RMS) remain on %.0f %% of it; give points along the loaded annulus "
-                 "if they are known",
-                 met.rms * 1e3, 100 * met.seen),
-      findings);
   return motion;
 }
 

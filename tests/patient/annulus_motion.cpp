@@ -121,6 +121,25 @@ TEST_CASE("a_given_curve_decides_in_any_order_of_its_points") {
                        doctest::Contains("give six or more"), Error);
 }
 
+TEST_CASE("the_annulus_lies_on_a_given_curve_that_no_affine_motion_reaches") {
+  const ParametricSheet p = parametric_sheet(430);
+  const std::vector<Vec3> annulus = annulus_of(p);
+  std::vector<Vec3> given;
+  for (const Vec3 &x : annulus) {
+    const double angle = std::atan2(x.y(), x.x());
+    given.push_back(x + 1.5 * mm * std::sin(3 * angle) * Vec3(x.x(), x.y(), 0).normalized());
+  }
+  Findings findings;
+  const AnnulusMotion motion = find_annulus_motion(annulus, given, {}, findings);
+  const ClosedCurve curve(given);
+  double most = 0;
+  for (const Vec3 &x : annulus) {
+    const Vec3 loaded = motion(x);
+    most = std::max(most, (curve.at(curve.nearest(loaded)) - loaded).norm());
+  }
+  CHECK(most < 0.1 * mm);  // a smooth curve runs through the points, which chords of 3 mm cut off
+}
+
 TEST_CASE("heads_keep_their_distance_from_an_annulus_that_moves_as_a_whole") {
   const ParametricSheet p = parametric_sheet(430);
   Rigid motion;

@@ -106,6 +106,43 @@ std::vector<Vec3> followed(const std::vector<Vec3> &tips, const Rigid &annulus,
   return loaded;
 }
 
+PapillaryTips report_assumed_tips(const std::vector<Vec3> &two, const AnnulusFrame &frame,
+                                  const std::optional<Rigid> &annulus, Findings &findings) {
+  findings.push_back({"papillary_tips",
+                      FindingSource::assumed,
+                      0.2,
+                      format("two tips of normal anatomy, %.1f mm below the plane of the annulus; "
+                             "lengths of chordae and tethering follow from them: give the tips of "
+                             "the papillary muscles at the phase of the surface",
+                             -frame.local(two[0])[2] * 1e3),
+                      {},
+                      ""});
+  set_points(two, findings.back());
+  PapillaryTips tips{{two[0]}, {two[1]}, {}, {}};
+  if (!annulus) return tips;
+  const std::vector<Vec3> moved = followed(two, *annulus, findings);
+  tips.loaded_anterolateral = {moved[0]};
+  tips.loaded_posteromedial = {moved[1]};
+  return tips;
+}
+
+void report_given_tips(const PapillaryTips &tips, const std::vector<Vec3> &given, bool swapped,
+                       Findings &findings) {
+  findings.push_back(
+      {"papillary_tips",
+       FindingSource::given,
+       swapped ? 0.4 : 1,
+       format("the given points: %zu anterolateral, %zu posteromedial%s", tips.anterolateral.size(),
+              tips.posteromedial.size(),
+              swapped ? "; they lie under the anterior leaflet, where normal tips lie under the "
+                        "posterior one: give a point of the anterior leaflet if both are swapped, "
+                        "and check the frame (LPS or RAS) of the tips"
+                      : ""),
+       {},
+       ""});
+  set_points(given, findings.back());
+}
+
 }  // namespace
 
 PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientGeometry &g,
@@ -116,25 +153,7 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
            "%zu papillary tips are given, at most %zu are accepted", given.size(), most_tips);
   check_loaded(given, loaded);
   if (given.empty()) {
-    const std::vector<Vec3> two = assumed_tips(g, frame);
-    const double depth = -frame.local(two[0])[2];
-    findings.push_back(
-        {"papillary_tips",
-         FindingSource::assumed,
-         0.2,
-         format("two tips of normal anatomy, %.1f mm below the plane of the annulus; "
-                "lengths of chordae and tethering follow from them: give the tips of "
-                "the papillary muscles at the phase of the surface",
-                depth * 1e3),
-         {},
-         ""});
-    set_points(two, findings.back());
-    PapillaryTips tips{{two[0]}, {two[1]}, {}, {}};
-    if (!annulus) return tips;
-    const std::vector<Vec3> moved = followed(two, *annulus, findings);
-    tips.loaded_anterolateral = {moved[0]};
-    tips.loaded_posteromedial = {moved[1]};
-    return tips;
+    return report_assumed_tips(assumed_tips(g, frame), frame, annulus, findings);
   }
   PapillaryTips tips;
   double forward = 0;  // m, mean place of the tips from the centre towards the A point
@@ -149,19 +168,7 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
       "least one tip of each papillary muscle, or check commissures and anterior leaflet",
       given.size(), tips.anterolateral.empty() ? "posteromedial" : "anterolateral");
   const bool swapped = forward > most_forward * frame.diameter;
-  findings.push_back(
-      {"papillary_tips",
-       FindingSource::given,
-       swapped ? 0.4 : 1,
-       format("the given points: %zu anterolateral, %zu posteromedial%s", tips.anterolateral.size(),
-              tips.posteromedial.size(),
-              swapped ? "; they lie under the anterior leaflet, where normal tips lie under the "
-                        "posterior one: give a point of the anterior leaflet if both are swapped, "
-                        "and check the frame (LPS or RAS) of the tips"
-                      : ""),
-       {},
-       ""});
-  set_points(given, findings.back());
+  report_given_tips(tips, given, swapped, findings);
   std::vector<Vec3> moved = loaded;
   if (!loaded.empty()) {
     findings.push_back(
