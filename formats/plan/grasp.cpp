@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "formats/plan/named.h"
 #include "model/part_names.h"
-#include "surgery/leaflet/site.h"
 
 namespace mvs::core {
 namespace {
@@ -31,9 +31,8 @@ double share_at(const Json &place, const char *key) {
 
 template <typename Parts>
 const auto &part_at_place(const Parts &parts, const std::string &name, const char *word) {
-  const auto found =
-      std::find_if(parts.begin(), parts.end(), [&](const auto &part) { return part.name == name; });
-  MVS_MUST(found != parts.end(), MVS_E_ID, name,
+  const auto *found = find_named(parts, name);
+  MVS_MUST(found != nullptr, MVS_E_ID, name,
            "the grasp is at the %s \"%.63s\", which the valve does not have%s", word, name.c_str(),
            near_names(name, parts).c_str());
   return *found;
@@ -47,11 +46,9 @@ Json place_json(const Model &model, uint32_t node) {
     mvs_site site = {};
     site.how = MVS_SITE_NODE;
     site.index = node;
-    const mvs_site at = anatomical(model, site);
-    for (const Scallop &scallop : valve.scallops) {
-      if (scallop.id != at.scallop) continue;
-      return Json::object({{"scallop", scallop.name}, {"along", at.u[0]}, {"height", at.u[1]}});
-    }
+    Json place;
+    set_anatomical(model, site, place);
+    return place;
   }
   for (const Chord &chord : valve.chords) {
     if (chord.b == node) return Json::object({{"chord", chord.name}});
@@ -63,9 +60,9 @@ void check_place(const Json &place) {
   constexpr const char *wanted =
       "place has to be an object with scallop, along and height, or chord";
   MVS_MUST(place.is_object(), MVS_E_FORMAT, "plan", "%s", wanted);
-  const char *const word = place.has("chord") ? "chord" : "scallop";
-  MVS_MUST(place.has(word) && place[word].is_text(), MVS_E_FORMAT, "plan", "%s", wanted);
   const bool is_chord = place.has("chord");
+  const char *const word = is_chord ? "chord" : "scallop";
+  MVS_MUST(place.has(word) && place[word].is_text(), MVS_E_FORMAT, "plan", "%s", wanted);
   MVS_MUST(place.members().size() == (is_chord ? 1u : 3u), MVS_E_FORMAT, "plan", "%s", wanted);
   if (is_chord) return;
   share_at(place, "along");

@@ -2,9 +2,9 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "formats/plan/named.h"
 #include "formats/plan/plan.h"
 #include "model/part_names.h"
-#include "surgery/leaflet/site.h"
 
 namespace mvs::core {
 namespace {
@@ -35,19 +35,8 @@ auto with_parts(const Valve &valve, const OpField &f, Use use) {
 }
 
 template <typename Parts>
-std::string name_in(const Parts &parts, Id id) {
-  for (const auto &part : parts) {
-    if (part.id == id) return part.name;
-  }
-  fail(MVS_E_INTERNAL, "plan", "a part with id %llu is not in the valve it was used on",
-       static_cast<unsigned long long>(id));
-}
-
-template <typename Parts>
 Id id_in(const Parts &parts, const std::string &name, const char *word) {
-  for (const auto &part : parts) {
-    if (part.name == name) return part.id;
-  }
+  if (const auto *part = find_named(parts, name)) return part->id;
   fail(MVS_E_ID, name, "the valve has no %s named \"%.63s\"%s", word, name.c_str(),
        near_names(name, parts).c_str());
 }
@@ -63,10 +52,7 @@ Json site_json(const Model &model, const mvs_site &site) {
     json.set("triangle", site.index);
     json.set("weights", point_json(site.u));
   }
-  const mvs_site place = anatomical(model, site);
-  json.set("scallop", name_in(model.valve.scallops, place.scallop));
-  json.set("along", place.u[0]);
-  json.set("height", place.u[1]);
+  set_anatomical(model, site, json);
   return json;
 }
 

@@ -25,8 +25,7 @@ const char *sentence_of(Cause cause) {
       return "it moves too fast: hold it still";
     case Cause::watchdog:
       return "it does not answer in time, or its clock stands still: look at its cable and at what "
-             "else "
-             "this computer does";
+             "else this computer does";
     case Cause::deadman:
       return "its grip is not held: take it into the hand";
     case Cause::not_finite:

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "geometry/distance.h"
 #include "model/sides.h"
 #include "patient/findings.h"
@@ -78,12 +79,6 @@ Vec3 nearest_on_sides(const std::vector<CurveSide> &sides, const Vec3 &p) {
   return best;
 }
 
-double median_distance(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 struct Affine {
   Mat3 stretch = Mat3::Zero();
   Vec3 shift = Vec3::Zero();
@@ -134,8 +129,7 @@ Meeting meet(const std::vector<Vec3> &annulus, const Vec3 &centre,
       to.push_back(nearest_on_sides(sides, here));
       away.push_back((to.back() - here).norm());
     }
-    const double most =
-        std::min(reach, std::max(usual_rim, usual_rim_share * median_distance(away)));
+    const double most = std::min(reach, std::max(usual_rim, usual_rim_share * median_of(away)));
     std::vector<Vec3> from, step;
     double sum = 0;
     for (size_t k = 0; k < around.size(); ++k) {

@@ -194,29 +194,29 @@ bool Hand::wants(const Tool &tool) const {
   }
 }
 
-// A tool that returned with a state of the history has no hand: it would pull for ever.
-void Hand::take_back(mvs_sim &sim) {
+// Tools that returned with a state of the history have no hand, and would pull for ever.
+void Hand::remove_returned(mvs_sim &sim) {
   std::vector<Id> gone;
   for (const Tool &t : sim.current().state.tools.get()) {
-    if (t.id == tool_ || !made(t)) continue;
-    if (tool_ != 0 || !wants(t)) {
-      gone.push_back(t.id);
-      continue;
-    }
-    tool_ = t.id;
-    if (t.kind == ToolKind::grasp) events_ |= MVS_EVENT_GRASPED;
-    builder_.begin_contact();
+    if (t.id != tool_ && made(t)) gone.push_back(t.id);
   }
   for (const Id id : gone) remove_tool_now(sim, id);
 }
 
+void Hand::take_back(mvs_sim &sim) {
+  for (const Tool &t : sim.current().state.tools.get()) {
+    if (tool_ != 0) break;
+    if (!made(t) || !wants(t)) continue;
+    tool_ = t.id;
+    if (t.kind == ToolKind::grasp) events_ |= MVS_EVENT_GRASPED;
+    builder_.begin_contact();
+  }
+  remove_returned(sim);
+}
+
 void Hand::leave(mvs_sim &sim) {
   let_go(sim);
-  std::vector<Id> gone;
-  for (const Tool &t : sim.current().state.tools.get()) {
-    if (made(t)) gone.push_back(t.id);
-  }
-  for (const Id id : gone) remove_tool_now(sim, id);
+  remove_returned(sim);
 }
 
 void Hand::follow(mvs_sim &sim) {

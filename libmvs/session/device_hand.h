@@ -58,6 +58,7 @@ class Hand {
   bool made(const Tool &tool) const;
   bool wants(const Tool &tool) const;
   void take_back(mvs_sim &sim);
+  void remove_returned(mvs_sim &sim);
   mvs_tool_desc describe(ToolKind kind) const;
   Vec3 axis() const;
   double stiffest_spring(ToolKind kind) const;

@@ -68,29 +68,30 @@ Json parsed(const std::string &path) {
   }
 }
 
-// The findings that are an input of a build, and where their values go.
+// The findings that are an input of a build, where their values go, and how many numbers one value
+// has; of numbers there is one value.
 struct Input {
   const char *name;
   std::vector<double> KnownValues::*values;
+  size_t width;
 };
-constexpr Input inputs[] = {{"annulus", &KnownValues::annulus},
-                            {"commissures", &KnownValues::commissures},
-                            {"anterior", &KnownValues::anterior},
-                            {"papillary_tips", &KnownValues::papillary_tips},
-                            {"closed_annulus", &KnownValues::closed_annulus},
-                            {"closed_tips", &KnownValues::closed_tips},
-                            {"thickness", &KnownValues::thickness},
-                            {"edge_error", &KnownValues::edge_error},
-                            {"edge_lost", &KnownValues::edge_lost},
-                            {"thickness_error", &KnownValues::thickness_error},
-                            {"tissue", &KnownValues::tissue}};
+constexpr Input inputs[] = {{"annulus", &KnownValues::annulus, 3},
+                            {"commissures", &KnownValues::commissures, 3},
+                            {"anterior", &KnownValues::anterior, 3},
+                            {"papillary_tips", &KnownValues::papillary_tips, 3},
+                            {"closed_annulus", &KnownValues::closed_annulus, 3},
+                            {"closed_tips", &KnownValues::closed_tips, 3},
+                            {"thickness", &KnownValues::thickness, 1},
+                            {"edge_error", &KnownValues::edge_error, 1},
+                            {"edge_lost", &KnownValues::edge_lost, 1},
+                            {"thickness_error", &KnownValues::thickness_error, 1},
+                            {"tissue", &KnownValues::tissue, 1}};
 
-// Where the values of a finding with this name go; null: they are no input of a build.
-std::vector<double> *target_of(KnownValues &known, const std::string &name) {
-  for (const Input &input : inputs) {
-    if (name == input.name) return &(known.*input.values);
-  }
-  return nullptr;
+// Null: the finding is no input.
+const Input *find_input(const std::string &name) {
+  const auto found = std::find_if(std::begin(inputs), std::end(inputs),
+                                  [&](const Input &input) { return name == input.name; });
+  return found == std::end(inputs) ? nullptr : found;
 }
 
 std::string names_of_inputs() {
@@ -152,27 +153,25 @@ KnownValues read_findings(const std::string &path) {
       refuse_findings(path, "findings", "has a finding without a name");
     }
     const std::string name = row["name"].get<std::string>();
-    std::vector<double> *target = target_of(known, name);
+    const Input *input = find_input(name);
     const std::string source = row.value("source", "");
     // findings that a build wrote have a digest, so that this row is written by hand
-    if (!target && !row.contains("unedited")) {
+    if (!input && !row.contains("unedited")) {
       refuse_findings(
           path, name,
           "the finding \"" + name + "\" is no input of a build; inputs are " + names_of_inputs());
     }
-    if (!target || source == "measured") continue;
-    *target = numbers_of(path, name, row);
-    const auto points = {&known.annulus,        &known.commissures,    &known.anterior,
-                         &known.papillary_tips, &known.closed_annulus, &known.closed_tips};
-    const bool is_number = std::find(points.begin(), points.end(), target) == points.end();
-    if (target->empty() || target->size() % (is_number ? 1 : 3) != 0 ||
-        (is_number && target->size() != 1)) {
+    if (!input || source == "measured") continue;
+    std::vector<double> &values = known.*input->values;
+    values = numbers_of(path, name, row);
+    if (values.empty() || values.size() % input->width != 0 ||
+        (input->width == 1 && values.size() != 1)) {
       refuse_findings(path, name,
-                      "the finding \"" + name + "\" has " + std::to_string(target->size()) +
+                      "the finding \"" + name + "\" has " + std::to_string(values.size()) +
                           " values: points need x, y, z each, the others one");
     }
     const bool is_unsure = source == "guessed" || source == "assumed";
-    if (!is_unsure || row.value("unedited", "") != digest_of(*target)) continue;
+    if (!is_unsure || row.value("unedited", "") != digest_of(values)) continue;
     mvs::BuildFinding found;
     found.name = name;
     found.source = source_of(source);

@@ -1,7 +1,7 @@
 // Checks that node coordinates are finite, in metres, and within one valve.
-#include <algorithm>
 #include <cmath>
 
+#include "base/median.h"
 #include "model/checks/checks.h"
 
 namespace mvs::core {
@@ -14,12 +14,6 @@ constexpr double smallest_in_mm = 8;  // m: an extent above 8 means mm, below it
 // node.
 constexpr double far_away = 10, far_moved = 2;
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Robust extent: medians do not depend on single stray nodes.
 struct Extent {
   Vec3 centre;
@@ -30,10 +24,10 @@ Extent extent_of(const std::vector<Vec3> &points) {
   std::vector<double> values(points.size());
   for (int k = 0; k < 3; ++k) {
     for (size_t i = 0; i < points.size(); ++i) values[i] = points[i][k];
-    extent.centre[k] = median(values);
+    extent.centre[k] = median_of(values);
   }
   for (size_t i = 0; i < points.size(); ++i) values[i] = (points[i] - extent.centre).norm();
-  extent.size = 2 * median(values);
+  extent.size = 2 * median_of(values);
   return extent;
 }
 

@@ -106,8 +106,8 @@ std::vector<Vec3> followed(const std::vector<Vec3> &tips, const Rigid &annulus,
   return loaded;
 }
 
-PapillaryTips report_assumed_tips(const std::vector<Vec3> &two, const AnnulusFrame &frame,
-                                  const std::optional<Rigid> &annulus, Findings &findings) {
+void report_assumed_tips(const std::vector<Vec3> &two, const AnnulusFrame &frame,
+                         Findings &findings) {
   findings.push_back({"papillary_tips",
                       FindingSource::assumed,
                       0.2,
@@ -118,12 +118,6 @@ PapillaryTips report_assumed_tips(const std::vector<Vec3> &two, const AnnulusFra
                       {},
                       ""});
   set_points(two, findings.back());
-  PapillaryTips tips{{two[0]}, {two[1]}, {}, {}};
-  if (!annulus) return tips;
-  const std::vector<Vec3> moved = followed(two, *annulus, findings);
-  tips.loaded_anterolateral = {moved[0]};
-  tips.loaded_posteromedial = {moved[1]};
-  return tips;
 }
 
 void report_given_tips(const PapillaryTips &tips, const std::vector<Vec3> &given, bool swapped,
@@ -152,33 +146,36 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
   MVS_MUST(given.size() <= most_tips, MVS_E_ARGUMENT, "papillary_tips",
            "%zu papillary tips are given, at most %zu are accepted", given.size(), most_tips);
   check_loaded(given, loaded);
-  if (given.empty()) {
-    return report_assumed_tips(assumed_tips(g, frame), frame, annulus, findings);
-  }
-  PapillaryTips tips;
   double forward = 0;  // m, mean place of the tips from the centre towards the A point
   for (size_t k = 0; k < given.size(); ++k) {
     check_tip(given[k], k + 1, frame);
     forward += frame.local(given[k])[1] / static_cast<double>(given.size());
-    (is_medial(given[k], frame) ? tips.posteromedial : tips.anterolateral).push_back(given[k]);
+  }
+  const std::vector<Vec3> all = given.empty() ? assumed_tips(g, frame) : given;
+  PapillaryTips tips;
+  for (const Vec3 &tip : all) {
+    (is_medial(tip, frame) ? tips.posteromedial : tips.anterolateral).push_back(tip);
   }
   MVS_MUST(
       !tips.anterolateral.empty() && !tips.posteromedial.empty(), MVS_E_OP, "papillary_tips",
       "all %zu papillary tips lie on the %s side of the plane between the commissures: give at "
       "least one tip of each papillary muscle, or check commissures and anterior leaflet",
-      given.size(), tips.anterolateral.empty() ? "posteromedial" : "anterolateral");
-  const bool swapped = forward > most_forward * frame.diameter;
-  report_given_tips(tips, given, swapped, findings);
+      all.size(), tips.anterolateral.empty() ? "posteromedial" : "anterolateral");
+  if (given.empty()) {
+    report_assumed_tips(all, frame, findings);
+  } else {
+    report_given_tips(tips, given, forward > most_forward * frame.diameter, findings);
+  }
   std::vector<Vec3> moved = loaded;
   if (!loaded.empty()) {
     findings.push_back(
-        {"closed_tips", FindingSource::given, 1, words_of(given, loaded) + "as given", {}, ""});
+        {"closed_tips", FindingSource::given, 1, words_of(all, loaded) + "as given", {}, ""});
     set_points(loaded, findings.back());
   } else if (annulus) {
-    moved = followed(given, *annulus, findings);
+    moved = followed(all, *annulus, findings);
   }
   for (size_t k = 0; k < moved.size(); ++k) {
-    (is_medial(given[k], frame) ? tips.loaded_posteromedial : tips.loaded_anterolateral)
+    (is_medial(all[k], frame) ? tips.loaded_posteromedial : tips.loaded_anterolateral)
         .push_back(moved[k]);
   }
   return tips;

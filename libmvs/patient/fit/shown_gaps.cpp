@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/median.h"
 #include "measure/orifice/orifice.h"
 #include "measure/regions/orifice_parts.h"
 #include "model/sides.h"
@@ -180,15 +181,13 @@ std::vector<double> missing_beside(const Orifice &orifice, const OrificeParts &p
   }
   std::vector<double> least(count.size(), HUGE_VAL);
   for (size_t k = 0; k < along.size(); ++k) {
-    std::vector<double> &rim = along[k];
+    const std::vector<double> &rim = along[k];
     const size_t part = k / leaflets;
     if (rim.empty() ||
         static_cast<double>(rim.size()) < share_of_rim * static_cast<double>(count[part])) {
       continue;
     }
-    const auto middle = rim.begin() + static_cast<ptrdiff_t>(rim.size() / 2);
-    std::nth_element(rim.begin(), middle, rim.end());
-    least[part] = std::min(least[part], *middle);
+    least[part] = std::min(least[part], median_of(rim));
   }
   for (double &l : least) l = l < HUGE_VAL ? std::max(0.0, l) : 0;
   return least;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
+#include "base/median.h"
 #include "model/sides.h"
 #include "patient/surface/clusters.h"
 
@@ -20,9 +22,7 @@ double median_edge(const std::vector<Vec3> &x, const std::vector<Tri> &triangles
     }
   }
   if (length.empty()) return 0;
-  const auto middle = length.begin() + static_cast<std::ptrdiff_t>(length.size() / 2);
-  std::nth_element(length.begin(), middle, length.end());
-  return *middle;
+  return median_of(std::move(length));
 }
 
 std::vector<uint32_t> weld_map(const std::vector<Vec3> &x, double distance) {

@@ -1,15 +1,7 @@
 /* Tools of a device belong to it: one that an undo or a restored snapshot brings back is held by
  * the hand again or removed, and closing the device removes all. */
 #include "recorded_hand.h"
-
-static uint32_t tool_count(mvs_sim *of) {
-  const mvs_snapshot *snapshot = NULL;
-  uint32_t count = 0;
-  MUST(mvs_get_snapshot(of, &snapshot));
-  MUST(mvs_snapshot_get_tool_count(snapshot, &count));
-  mvs_snapshot_release(snapshot);
-  return count;
-}
+#include "tool_count.h"
 
 static void shorten_a_chord(void) {
   mvs_part chord;

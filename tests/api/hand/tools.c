@@ -6,6 +6,7 @@
 
 #include "tests/api/check.h"
 #include "tests/api/hand/small_valve.h"
+#include "tests/api/hand/tool_count.h"
 #include "tests/api/saved.h"
 
 static void steps(mvs_sim *of, int count) {
@@ -180,13 +181,9 @@ static void undo_and_restore_bring_tools_back(void) {
 
 static void an_obj_file_is_without_tools(void) {
   mvs_id tools[2];
-  uint32_t count = 9;
   make_work(tools);
   mvs_sim *other = saved_and_loaded(sim, MVS_FORMAT_OBJ);
-  const mvs_snapshot *snapshot = present(other);
-  MUST(mvs_snapshot_get_tool_count(snapshot, &count));
-  CHECK(count == 0);
-  mvs_snapshot_release(snapshot);
+  CHECK(tool_count(other) == 0);
   mvs_destroy(other);
 }
 

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "tests/api/check.h"
+#include "tests/api/hand/tool_count.h"
 
 static mvs_sim *make_sim(void) {
   mvs_sim *sim = NULL;
@@ -51,15 +52,6 @@ static mvs_tool_state state_of(mvs_sim *sim, mvs_id tool) {
 
 static int is_same_place(const double a[3], const double b[3]) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
-}
-
-static uint32_t tools_in(mvs_sim *sim) {
-  const mvs_snapshot *snapshot = NULL;
-  uint32_t count = 0;
-  MUST(mvs_get_snapshot(sim, &snapshot));
-  MUST(mvs_snapshot_get_tool_count(snapshot, &count));
-  mvs_snapshot_release(snapshot);
-  return count;
 }
 
 typedef struct plan {
@@ -169,7 +161,7 @@ static void a_plan_touches_no_tool_that_was_held(void) {
   MUST(mvs_replay_plan(busy, made.text, made.size, &replay));
   CHECK(replay.same_valve == 0 && replay.same_result == 0);
   /* the simulator's own tool, and the grasp that the plan did not remove */
-  CHECK(tools_in(busy) == 2);
+  CHECK(tool_count(busy) == 2);
   const mvs_tool_state after = state_of(busy, mine);
   CHECK(after.node == before.node);
   CHECK(is_same_place(after.position, before.position));
@@ -184,7 +176,7 @@ static void a_plan_touches_no_tool_that_was_held(void) {
   CHECK(same_hash(sim_hash(third), sim_hash(busy)));
   /* the plan applies a second time to its own result */
   MUST(mvs_replay_plan(busy, made.text, made.size, NULL));
-  CHECK(tools_in(busy) == 3);
+  CHECK(tool_count(busy) == 3);
   CHECK(is_same_place(state_of(busy, mine).position, before.position));
   free(made.text);
   free(both.text);

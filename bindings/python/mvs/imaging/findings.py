@@ -56,7 +56,8 @@ def _digest(values: Sequence[float]) -> str:
 def read_rows(path: Union[str, "os.PathLike[str]"]) -> list[dict[str, Any]]:
     """The inputs of a build among the findings of a file (`--with`) that are given, guessed or assumed.
 
-    Measured ones are left out: they are measured again. ArgumentError for another file.
+    Measured ones are left out: they are measured again. FormatError for another file, and for a row without a name or
+    one written by hand that is no input.
     """
     try:
         with open(path, encoding="utf-8") as file:
