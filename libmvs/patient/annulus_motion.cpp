@@ -184,13 +184,20 @@ void report_measured(const std::vector<Vec3> &annulus, const AnnulusMotion &moti
 }
 
 void report_given(const std::vector<Vec3> &annulus, const std::vector<Vec3> &given,
-                  const AnnulusMotion &motion, Findings &findings) {
-  findings.push_back({"closed_annulus",
-                      FindingSource::given,
-                      1,
-                      "the annulus moves onto the given curve, by " + words_of(annulus, motion),
-                      {},
-                      ""});
+                  const std::vector<CurveSide> &curve, const AnnulusMotion &motion,
+                  Findings &findings) {
+  double sum = 0;
+  for (const Vec3 &p : moved_by(motion, annulus))
+    sum += (nearest_on_sides(curve, p) - p).squaredNorm();
+  findings.push_back(
+      {"closed_annulus",
+       FindingSource::given,
+       1,
+       "the annulus moves to the given curve, by " + words_of(annulus, motion) +
+           format("; %.2f mm (RMS) remain, in waves that are shorter than motions of an annulus",
+                  std::sqrt(sum / static_cast<double>(annulus.size())) * 1e3),
+       {},
+       ""});
   set_points(given, findings.back());  // read back it is the same curve
 }
 
@@ -221,13 +228,10 @@ bool is_plausible(const Meeting &met) {
 
 Vec3 AnnulusMotion::operator()(const Vec3 &p) const {
   if (!moves_) return p;
-  if (!given_) return affine(p);
-  const auto [side, share] = given_->annulus.locate(given_->annulus.nearest(p));
-  const std::vector<double> &place = given_->place;
-  return given_->curve.at(place[side] + share * (place[side + 1] - place[side]));
+  return waves_ ? p + (*waves_)(p) : affine(p);
 }
 
-bool AnnulusMotion::put_on(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve) {
+bool AnnulusMotion::move_to(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve) {
   std::vector<Vec3> moved;
   moved.reserve(annulus.size());
   for (const Vec3 &p : annulus) moved.push_back(affine(p));
@@ -238,8 +242,10 @@ bool AnnulusMotion::put_on(const std::vector<Vec3> &annulus, const std::vector<V
     place = places_along(to, moved);
   }
   if (place.empty()) return false;
-  place.push_back(place[0] + to.length());
-  given_.emplace(OnCurve{ClosedCurve(annulus), std::move(to), std::move(place)});
+  std::vector<Vec3> displacement;
+  displacement.reserve(annulus.size());
+  for (size_t k = 0; k < annulus.size(); ++k) displacement.push_back(to.at(place[k]) - annulus[k]);
+  waves_.emplace(ClosedCurve(annulus), displacement);
   return true;
 }
 
@@ -263,12 +269,12 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
   motion.shift_ = met.motion.shift;
   if (!given.empty()) {
     MVS_MUST(
-        motion.moves() && motion.put_on(annulus, through), MVS_E_OP, "closed_annulus",
+        motion.moves() && motion.move_to(annulus, through), MVS_E_OP, "closed_annulus",
         "the loaded annulus cannot be that of the open leaflets: its middle lies %.1f mm from "
         "theirs, and %.0f %% of it meets the curve; are both in one frame (LPS or RAS), and of "
         "one patient?",
         met.motion.shift.norm() * 1e3, 100 * met.seen);
-    report_given(annulus, given, motion, findings);
+    report_given(annulus, given, sides, motion, findings);
   } else if (!motion.moves()) {
     findings.push_back(unseen_motion());
   } else if (rms_of(annulus, motion) < no_motion) {

@@ -4,14 +4,15 @@
 // (iterative closest points, Besl and McKay 1992), with a weak preference for none: rims from
 // images are rough and may lack parts, and their free edges are rims as well. So the annulus keeps
 // its local shape, and its size, place and tilt change. A given curve is of the annulus alone: the
-// affine motion brings the annulus near to it, and each point then moves to its place along it.
+// affine motion brings the annulus near to it, each point has its place along it, and the annulus
+// moves by the long waves of the way to these places: shorter ones are errors of both curves.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "measure/comparison/register.h"
-#include "patient/closed_curve.h"
+#include "patient/annulus_waves.h"
 #include "patient/fit/surface_match.h"
 #include "patient/leaflet_sheet.h"
 
@@ -28,17 +29,12 @@ class AnnulusMotion {
                                            const ClosedSurface &, Findings &);
   Vec3 affine(const Vec3 &p) const { return p + stretch_ * (p - centre_) + shift_; }
   // Returns false if the curve does not run once around the annulus.
-  bool put_on(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve);
+  bool move_to(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve);
 
   bool moves_ = false;
   Vec3 centre_ = Vec3::Zero(), shift_ = Vec3::Zero();
   Mat3 stretch_ = Mat3::Zero();
-  // the annulus at rest, the given curve, and the place of each point of the one along the other
-  struct OnCurve {
-    ClosedCurve annulus, curve;
-    std::vector<double> place;  // m; the first one again a lap later
-  };
-  std::optional<OnCurve> given_;  // empty: no curve is given
+  std::optional<AnnulusWaves> waves_;  // towards a given curve
 };
 
 // `annulus`: points along it at rest. `given`: points along the loaded annulus in any order; empty:
