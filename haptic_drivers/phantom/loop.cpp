@@ -49,6 +49,8 @@ int32_t begin_locked(mvs_driver_device &device) {
     return fail(device.sentence, MVS_DRIVER_E_OPTION,
                 driver::sentence("rate=%lu: this device does not run at that: %s", rate,
                                  describe(hd(), code).c_str()));
+  // set before the first tick, whose servo may close the device
+  device.running = true;
   const unsigned long ticket = hd().schedule(tick, &device, kHighestPriority);
   unsigned code = take_errors(hd()).code;
   if (code == 0 && all.running == 0) {
@@ -57,13 +59,13 @@ int32_t begin_locked(mvs_driver_device &device) {
   }
   if (code) {
     hd().unschedule(ticket);
+    device.running = false;
     take_errors(hd());
     return fail(device.sentence, MVS_DRIVER_E_FAULT,
                 "OpenHaptics' scheduler does not start: " + describe(hd(), code) +
                     ". Close other programs that use the device, and start again");
   }
   ++all.running;
-  device.running = true;
   return MVS_DRIVER_OK;
 }
 

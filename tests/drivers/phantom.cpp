@@ -132,16 +132,22 @@ TEST_CASE("phantom_stop_ends_the_loop_from_the_servo_and_from_elsewhere") {
 }
 
 TEST_CASE("phantom_close_from_the_servo_waits_for_the_loop") {
-  PhantomBench bench;
-  bench.start();
-  const auto servo = [](void *user, const mvs_driver_state *state, mvs_driver_force *) -> int32_t {
-    auto &plugin = *static_cast<Plugin *>(user);
-    if (state->sequence == 10) plugin.api.close(plugin.device);
-    return MVS_DRIVER_OK;
-  };
-  CHECK(bench.plugin.api.run(bench.plugin.device, servo, &bench.plugin) == MVS_DRIVER_OK);
-  bench.plugin.device = nullptr;
-  CHECK(bench.in.open[0] == 0);
+  for (const long late_ms : {0, 50}) {  // the servo closes while the scheduler is still starting
+    CAPTURE(late_ms);
+    PhantomBench bench;
+    bench.in.late_start_ms = late_ms;
+    bench.start();
+    const auto servo = [](void *user, const mvs_driver_state *state,
+                          mvs_driver_force *) -> int32_t {
+      auto &plugin = *static_cast<Plugin *>(user);
+      if (state->sequence == 10) plugin.api.close(plugin.device);
+      return MVS_DRIVER_OK;
+    };
+    CHECK(bench.plugin.api.run(bench.plugin.device, servo, &bench.plugin) == MVS_DRIVER_OK);
+    bench.plugin.device = nullptr;
+    CHECK(bench.in.open[0] == 0);
+    bench.in.late_start_ms = 0;
+  }
 }
 
 TEST_CASE("phantom_opens_a_device_once") {

@@ -1,6 +1,5 @@
 // Faulty drivers, which lie, hang or lack a function, are detected, reported with a sentence each,
 // and cause no harm.
-#include <dlfcn.h>
 #include <doctest/doctest.h>
 #include <mvs/driver.h>
 #include <sys/stat.h>
@@ -13,6 +12,7 @@
 
 #include "base/error.h"
 #include "haptics/device.h"
+#include "tests/haptics/asked.h"
 
 using namespace mvs::core;
 
@@ -98,13 +98,7 @@ TEST_CASE("a_loop_that_hangs_is_detected_latched_and_abandoned") {
   CHECK_EQ(now.phase, DevicePhase::latched);
   CHECK_EQ(now.cause, Cause::watchdog);
   CHECK_EQ(device.status().phase, DevicePhase::latched);
-  struct Asked {  // as in liar.c
-    mvs_driver_force last;
-    int stops, panics;
-  };
-  const auto *const asked = static_cast<const Asked *>(
-      dlsym(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL), "mvs_liar_asked"));
-  CHECK_EQ(asked->panics, 1);
+  CHECK_EQ(test::asked_of(path).panics, 1);
   CHECK_THROWS_AS(device.arm(), Error);
   CHECK_THROWS_AS(device.stop(), Error);
   CHECK_THROWS_AS(device.start(), Error);

@@ -117,6 +117,7 @@ HDAPI void hdStartScheduler() {
   }
   told().ticks = 0;
   all.thread = std::thread(loop);
+  std::this_thread::sleep_for(std::chrono::milliseconds(told().late_start_ms));
 }
 
 HDAPI void hdStopScheduler() {

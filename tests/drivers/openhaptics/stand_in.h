@@ -22,7 +22,8 @@ struct HdStandIn {
   std::atomic<long> temperature{20};  // percent of the motors' largest
   std::atomic<long> parked{0};
   std::atomic<long> buttons{0};
-  std::atomic<long> hang{0};  // 1: stopping or closing blocks while it is 1
+  std::atomic<long> late_start_ms{0};  // from the first tick to the end of hdStartScheduler
+  std::atomic<long> hang{0};           // 1: stopping or closing blocks while it is 1
 
   // The record, of device 0 ("Default Device") and 1 ("Phantom2").
   std::atomic<long> ticks{0};

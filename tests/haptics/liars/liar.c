@@ -1,6 +1,7 @@
 /* Drivers with a defect that libmvs has to detect: compiled once for each LIE_*. */
 #include <math.h>
 #include <mvs/driver.h>
+#include <pthread.h>
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,7 +17,24 @@ struct asked {
   mvs_driver_force last; /* written */
   int stops, panics;
 };
-MVS_DRIVER_EXPORT struct asked mvs_liar_asked;
+static struct asked asked;
+static pthread_mutex_t asked_lock = PTHREAD_MUTEX_INITIALIZER;
+
+/* A copy: the servo's thread goes on. */
+MVS_DRIVER_EXPORT void mvs_liar_asked(struct asked *to);
+void mvs_liar_asked(struct asked *to) {
+  pthread_mutex_lock(&asked_lock);
+  *to = asked;
+  pthread_mutex_unlock(&asked_lock);
+}
+
+static void note(const mvs_driver_force *force, int stops, int panics) {
+  pthread_mutex_lock(&asked_lock);
+  if (force) asked.last = *force;
+  asked.stops += stops;
+  asked.panics += panics;
+  pthread_mutex_unlock(&asked_lock);
+}
 
 /* The sample from which on a device fails, some of it after forces are on. */
 #define AT 1000u
@@ -33,7 +51,9 @@ static int32_t open_device(const mvs_driver_host *host, const char *name,
 #endif
   *device = &the_one;
   the_one.sequence = 0;
-  memset(&mvs_liar_asked, 0, sizeof mvs_liar_asked);
+  pthread_mutex_lock(&asked_lock);
+  memset(&asked, 0, sizeof asked);
+  pthread_mutex_unlock(&asked_lock);
 #ifdef LIE_NO_HANDLE
   *device = NULL;
 #endif
@@ -132,7 +152,7 @@ static int32_t read_state(mvs_driver_device *device, uint64_t now_ns, mvs_driver
 }
 
 static int32_t write_force(mvs_driver_device *device, const mvs_driver_force *force) {
-  mvs_liar_asked.last = *force;
+  note(force, 0, 0);
 #ifdef LIE_WRITE_FAILS
   if (device->sequence >= AT) return MVS_DRIVER_E_FAULT;
 #endif
@@ -161,14 +181,14 @@ static int32_t run(mvs_driver_device *device, mvs_driver_servo servo, void *user
 
 static int32_t stop(mvs_driver_device *device) {
   (void)device;
-  ++mvs_liar_asked.stops;
+  note(NULL, 1, 0);
   return MVS_DRIVER_OK;
 }
 
 #ifdef LIE_LOOP_HANGS
 static void panic(mvs_driver_device *device) {
   (void)device;
-  ++mvs_liar_asked.panics;
+  note(NULL, 0, 1);
 }
 #endif
 
