@@ -122,7 +122,7 @@ TEST_CASE("a_given_curve_decides_in_any_order_of_its_points") {
                        doctest::Contains("give six or more"), Error);
 }
 
-TEST_CASE("the_annulus_lies_on_a_given_curve_that_no_affine_motion_reaches") {
+TEST_CASE("the_annulus_moves_to_a_given_curve_that_no_affine_motion_reaches") {
   const ParametricSheet p = parametric_sheet(430);
   const std::vector<Vec3> annulus = annulus_of(p);
   std::vector<Vec3> given;
@@ -139,8 +139,9 @@ TEST_CASE("the_annulus_lies_on_a_given_curve_that_no_affine_motion_reaches") {
     const Vec3 loaded = motion(x);
     most = std::max(most, (curve.at(curve.nearest(loaded)) - loaded).norm());
   }
-  // chords of 3 mm cut 0.11 mm off where the curvature is 0.1 per mm; waves are 1.5 mm high
-  CHECK(most < 0.15 * mm);
+  // three waves of 1.5 mm by the angle are up to six by the length of a D, of which four are kept;
+  // no affine motion reaches any
+  CHECK(most < 0.4 * mm);
 }
 
 TEST_CASE("errors_of_the_points_of_a_given_curve_do_not_wrinkle_the_annulus") {
