@@ -42,6 +42,19 @@ class Close(Command):
         self.assertIn("(no grade: not at rest)", self.ok("measure", "early.obj").stdout)
         self.ok(*early, "--allow-unsettled")
 
+    def test_a_valve_whose_leaflets_cross_is_not_said_to_be_sealed(self):
+        self.ok("generate", "-o", "membrane.obj")
+        done = mvs("close", "membrane.obj", "--solver", "explicit", "-o", "crossing.obj", cwd=self.dir)
+        self.assertEqual(done.returncode, 0)
+        self.assertRegex(done.stdout, r"^membrane\.obj: at rest, leaflets CROSS, under 120 mmHg")
+        self.assertIn("(no grade: the leaflets cross)", done.stdout)
+        self.assertRegex(done.stderr, r"the leaflets of membrane\.obj cross \(\d+ pairs of triangles\)")
+        self.assertIn("(no grade: the leaflets cross)",
+                      self.ok("measure", "crossing.obj", "--only", "orifice").stdout)
+        leak = self.ok("leak", "crossing.obj").stdout.splitlines()[0]
+        self.assertIn("the leaflets cross", leak)
+        self.assertNotIn("sealed", done.stdout + leak)
+
     def test_numbers_that_are_none_are_named_in_short(self):
         said = self.misused("close", "v.obj", "--pressure", "nan")
         self.assertEqual(said.splitlines()[0],

@@ -25,6 +25,26 @@ def test_the_text_of_a_snapshot_tells_size_load_and_leak(opened, closed):
         assert repr(sim.snapshot()).endswith("120 mmHg, not at rest>")
 
 
+@pytest.fixture(scope="module")
+def crossing():
+    """The default valve settled by the explicit solver, which does not prevent crossing."""
+    with mvs.Simulator() as sim:
+        sim.generate()
+        sim.set_load(mvs.SYSTOLE_PA)
+        stats = sim.settle(solver="explicit")
+        return sim.snapshot(), stats
+
+
+def test_a_valve_whose_leaflets_cross_is_not_said_to_be_sealed(crossing):
+    cases = pytest.importorskip("mvs.report.cases")
+    valve, stats = crossing
+    pairs = valve.measures.intersections
+    assert stats.converged and valve.at_rest and pairs > 0
+    said = f"leaflets cross ({pairs} pairs of triangles)"
+    assert repr(valve).endswith(f"at rest, {said}: its measures do not count>")
+    assert cases.verdict(valve, stats) == f"{said}: its figures do not count"
+
+
 def test_the_text_of_a_simulator_tells_its_state(closed):
     sim = mvs.Simulator()
     assert "no valve yet" in repr(sim)

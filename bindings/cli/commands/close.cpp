@@ -112,14 +112,16 @@ Json closed_json(const CloseOptions &options, const Closed &closed, const mvs_me
 std::string closed_text(const CloseOptions &options, const Closed &closed,
                         const mvs_measures &measures) {
   const mvs_stats &stats = closed.stats;
-  return text("%s: %s under %g mmHg after %.2f s, %u iterations, residual %.1e N\n",
-              options.in.c_str(), stats.converged ? "at rest" : "NOT at rest", closed.pressure_mmhg,
+  return text("%s: %s%s under %g mmHg after %.2f s, %u iterations, residual %.1e N\n",
+              options.in.c_str(), stats.converged ? "at rest" : "NOT at rest",
+              measures.intersections != 0 ? ", leaflets CROSS," : "", closed.pressure_mmhg,
               stats.wall_s, stats.iterations, stats.residual) +
          (closed.ensemble ? ensemble_text(*closed.ensemble) : measures_text(measures)) +
          (closed.errors ? errors_text(*closed.errors) : "");
 }
 
-// A valve that is not at rest is written, marked, warned of, and ends with exit code 1.
+// A valve that is not at rest is written, marked, warned of, and ends with exit code 1. One whose
+// leaflets cross is warned of.
 void run_close(const CloseOptions &options, Console &console) {
   std::optional<mvs::Snapshot> reference;  // read first: a missing file fails before the closure
   if (!options.reference.empty()) reference = load(options.reference);
@@ -131,6 +133,7 @@ void run_close(const CloseOptions &options, Console &console) {
   const mvs_measures measures = closed.valve.measure();
   if (!options.out.empty()) closed.valve.save(options.out);
   warn_unsettled(closed.stats, options.in, " (see --max-iterations)");
+  warn_crossing(measures, options.in);
   print(console, closed_json(options, closed, measures), closed_text(options, closed, measures));
   demand_rest(console, closed.stats, options.allow_unsettled);
 }
@@ -157,7 +160,8 @@ void add_close(CLI::App &app, Console &console) {
                       "write the closed valve, .obj, .h5, .vtp or .vtm");
   add_pressure_option(*command, options->pressure_mmhg);
   add_tissue_option(*command, options->leaflet);
-  add_choice(*command, "--solver", options->solver, "method", solvers);
+  add_choice(*command, "--solver", options->solver, "method; explicit does not prevent crossing",
+             solvers);
   add_choice(*command, "--backend", options->backend, "sparse factorisation", backends(),
              absent_backend);
   command

@@ -103,13 +103,19 @@ void run_leak(const LeakOptions &options, const Console &console) {
     part_rows.push_back(part_json(part));
     area += part.area;
   }
-  const std::string state = at_rest ? "" : ", not at rest";
-  const std::string verdict =
-      parts.empty() ? std::string("sealed") : text("orifice %.2f mm2", area * 1e6);
+  const uint32_t crossing = valve.measure(MVS_MEASURE_GROUP_CROSSINGS).intersections;
+  std::string state = at_rest ? "" : ", not at rest";
+  if (crossing != 0) {
+    state +=
+        text("; the leaflets cross (%u pairs of triangles): the figures do not count", crossing);
+  }
+  const std::string verdict = parts.empty() ? std::string(crossing != 0 ? "no orifice" : "sealed")
+                                            : text("orifice %.2f mm2", area * 1e6);
   print(console,
         {{"file", options.file},
          {"pressure_mmHg", pressure_mmhg},
          {"at_rest", at_rest},
+         {"intersections", crossing},
          {"regurgitant_orifice_area_mm2", area * 1e6},
          {"regions", region_rows},
          {"openings", part_rows}},

@@ -30,7 +30,8 @@ mvs_measure_group_flags groups_of(const std::vector<std::string> &only) {
 void run_measure(const MeasureOptions &options, const Console &console) {
   const mvs::Snapshot valve = load(options.file);
   const mvs_measure_group_flags groups = groups_of(options.only);
-  const mvs_measures measures = valve.measure(groups);
+  // crossings also decide whether a leak has a grade
+  const mvs_measures measures = valve.measure(groups | MVS_MEASURE_GROUP_CROSSINGS);
   const mvs_load_case load_case = valve.load();
   const double pressure_mmhg = load_case.pressure / pa_per_mmhg;
   Json object = {{"file", options.file},

@@ -123,6 +123,7 @@ const ShownUnit *shown_unit(const std::string &si) {
 const char *leak_grade(const mvs_measures &measures) {
   if (measures.under_load == 0) return "no grade: no load";
   if (measures.at_rest == 0) return "no grade: not at rest";
+  if (measures.intersections != 0) return "no grade: the leaflets cross";
   const double cm2 = measures.regurgitant_orifice_area * 1e4;
   if (cm2 == 0) return "sealed";
   if (cm2 < 0.2) return "mild";

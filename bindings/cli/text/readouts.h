@@ -56,7 +56,7 @@ Json statistics_json(const Statistics &statistics);
 std::string measures_text(const mvs_measures &plain, const Statistics &statistics);
 
 // The grade of the leak: "sealed", "mild", ...; the reason for no grade if the valve is not at rest
-// or bears no pressure.
+// or bears no pressure, or if leaflets cross.
 const char *leak_grade(const mvs_measures &measures);
 
 }  // namespace cli

@@ -28,12 +28,22 @@ void warn_unsettled(const mvs_stats &stats, const std::string &name, const char 
       name.c_str(), stats.iterations, stats.residual, hint);
 }
 
+void warn_crossing(const mvs_measures &measures, const std::string &name) {
+  if (measures.intersections == 0) return;
+  std::fprintf(
+      stderr,
+      "mvs: warning: the leaflets of %s cross (%u pairs of triangles): its measures do not "
+      "count; the solver explicit does not prevent crossing, newton and implicit do\n",
+      name.c_str(), measures.intersections);
+}
+
 AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name) {
   sim.set_load(pressure_mmhg * pa_per_mmhg);
   const mvs_stats stats = sim.settle();
   warn_unsettled(stats, name);
   mvs::Snapshot valve = sim.snapshot();
   const mvs_measures measures = valve.measure();
+  warn_crossing(measures, name);
   return {std::move(valve), stats, measures};
 }
 

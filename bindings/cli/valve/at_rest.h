@@ -18,6 +18,9 @@ struct AtRest {
 // that is in no equilibrium.
 void warn_unsettled(const mvs_stats &stats, const std::string &name, const char *hint = "");
 
+// A warning on stderr if leaflets cross.
+void warn_crossing(const mvs_measures &measures, const std::string &name);
+
 // Settles under a pressure and measures. A valve that is not at rest is a result, not an error: it
 // is warned of.
 AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name);

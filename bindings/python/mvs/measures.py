@@ -12,7 +12,10 @@ from .kinds import SamRisk
 @with_field_help
 @dataclasses.dataclass(frozen=True)
 class Measures:
-    """The measures of a valve. Sources: libmvs/measure/DEFINITIONS.md."""
+    """The measures of a valve. Sources: libmvs/measure/DEFINITIONS.md.
+
+    Figures of leaflets that cross (intersections > 0) do not count.
+    """
 
     intersections: Annotated[int, "1", "pairs of triangles that cross (exact test)"]
     regurgitant_orifice_area: Annotated[

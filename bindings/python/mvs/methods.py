@@ -60,7 +60,11 @@ def words_of(snapshot: _core.Snapshot) -> str:
     words += ", at rest"
     if vertices > MOST_VERTICES:
         return words
-    area = measure(snapshot, "orifice").regurgitant_orifice_area
+    found = measure(snapshot, ("crossings", "orifice"))
+    if found.intersections:
+        pairs = found.intersections
+        return f"{words}, leaflets cross ({pairs} pairs of triangles): its measures do not count"
+    area = found.regurgitant_orifice_area
     return f"{words}, leaks {area * 1e6:.1f} mm2" if area > 0 else f"{words}, no leak"
 
 

@@ -91,7 +91,8 @@ void bind_work(py::class_<Simulator> &type) {
       "progress"_a = py::none(),
       "Brings the valve to static equilibrium under the load and returns mvs.Stats. A closure "
       "that does not converge raises no exception: check Stats.converged.\n\nsolver: "
-      "\"newton\", \"implicit\" or \"explicit\"\nresidual: N, largest out-of-balance force at "
+      "\"newton\", \"implicit\" or \"explicit\", which does not prevent crossing\nresidual: N, "
+      "largest out-of-balance force at "
       "rest [1e-5]\ndt: s, and damping: 1/s, of the dynamic solvers\nmargins: False leaves the "
       "margins of stability of Stats at 0, which is quicker and the same shape; "
       "Snapshot.stability has them\nprogress: called with "

@@ -33,12 +33,14 @@ class Case:
 
 
 def verdict(closed: Snapshot, stats: Stats) -> str:
-    """The result of a closure in a few words: sealed, leaking, or not at rest."""
+    """The result of a closure in a few words: sealed, leaking, crossing, or not at rest."""
     measures = closed.measures
     if not (stats.converged and measures.at_rest):
         return "not at rest"
     if not measures.under_load:
         return "no load"
+    if measures.intersections:
+        return f"leaflets cross ({measures.intersections} pairs of triangles): its figures do not count"
     area = measures.regurgitant_orifice_area * 1e6
     return "sealed" if area == 0 else f"leaks through {area:.1f} mm²"
 

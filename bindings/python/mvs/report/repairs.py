@@ -153,7 +153,10 @@ def _draw_sections(ax: Any, valve: tuple[Stage, Stage, Stage]) -> None:
 
 
 def _legend(stage: Stage) -> str:
-    area = stage.closed.measures.regurgitant_orifice_area * 1e6
+    measures = stage.closed.measures
+    if measures.intersections:
+        return f"{stage.state}, leaflets cross"
+    area = measures.regurgitant_orifice_area * 1e6
     return f"{stage.state}, {area:.1f} mm²" if area > 0 else f"{stage.state}, sealed"
 
 
