@@ -74,7 +74,8 @@ typedef struct mvs_ensemble_summary {
   uint32_t struct_size;
   uint32_t members;
   uint32_t converged;  /* members at rest */
-  uint32_t equilibria; /* distinct shapes among them */
+  uint32_t equilibria; /* distinct shapes among them; a shape and its mirror image, both equilibria
+                          of a symmetric valve, are two */
   uint32_t lowest;     /* the member of lowest potential energy; UINT32_MAX without one at rest */
   uint32_t reserved;
   double node_rms;    /* m, node to node, RMS over all pairs of members */

@@ -90,7 +90,8 @@ typedef struct mvs_op_chord_add {
   mvs_site site;
   double length; /* m [as taut as its neighbours: its distance in the rest shape times the median
                     ratio of rest length to distance of the five nearest chords of the head; its
-                    distance if the head has no chords] */
+                    distance if the head has no chords. Slack where these lie far from the site or
+                    on the other leaflet: give a length there] */
   double young;  /* Pa [40e6] */
   double area;   /* m2 [pi/4 * (1 mm)^2] */
   mvs_chord_kind type; /* MVS_CHORD_KIND_* except trunk and suture [other] */

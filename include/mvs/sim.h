@@ -96,7 +96,8 @@ MVS_API void mvs_destroy(mvs_sim *sim);
 MVS_API mvs_result mvs_set_valve(mvs_sim *sim, const mvs_valve_desc *valve);
 
 /* Replaces the valve by a parametric mitral valve. `desc` is nullable: the default valve.
- * MVS_E_ARGUMENT names an impossible dimension. */
+ * MVS_E_ARGUMENT names an impossible dimension. Its rest shape is no equilibrium without load:
+ * chordae are taut there (libmvs/anatomy/PARAMETRIC.md), and a settle at zero pressure moves it. */
 MVS_API mvs_result mvs_generate_valve(mvs_sim *sim, const mvs_parametric_desc *desc);
 
 /* Receives one fault of a valve: the part ("triangle 17") and a sentence, valid during the callback
@@ -183,7 +184,9 @@ typedef struct mvs_stats {
   uint32_t
       stable; /* 1: the last settle found a stable equilibrium, and nothing has changed since */
   double residual; /* N, largest out-of-balance force on a free node or tool point */
-  double energy;   /* J, total potential energy at the end, of tissue with a node that moves */
+  double energy;   /* J, potential energy at the end, of tissue with a node that moves. Without the
+                      work of the pressure at the free edge, which has no potential: derivatives of
+                      the energy differ from forces there */
   double kinetic;  /* J, kinetic energy at the end */
   double wall_s;   /* s, elapsed time */
   /* Margins of mvs_stability at the last equilibrium that a settle found; 0 where none was found,

@@ -212,7 +212,9 @@ MVS_API mvs_result mvs_snapshot_get_stability(const mvs_snapshot *snapshot,
                                               mvs_stability *stability);
 
 /* Measures of a valve (fields: MVS_STRUCT_MEASURES). Definitions and sources:
- * libmvs/measure/DEFINITIONS.md. */
+ * libmvs/measure/DEFINITIONS.md. The annulus surface is the one that spans the annulus; the annulus
+ * plane is the plane of least squares. Figures of leaflets that cross (intersections > 0) do not
+ * count. */
 typedef struct mvs_measures {
   uint32_t struct_size;
   uint32_t intersections;          /* pairs of triangles that cross (exact test) */
@@ -224,10 +226,10 @@ typedef struct mvs_measures {
   double coaptation_height;        /* m, extent along the valve axis, central AP plane */
   double coaptation_depth;         /* m, annulus plane to its upper end, central AP plane */
   double tenting_height;           /* m, deepest leaflet point on the atrial side below the plane */
-  double tenting_area;             /* m2, in the central AP plane */
-  double tenting_volume;           /* m3 */
+  double tenting_area;             /* m2, below the annulus surface, central AP plane */
+  double tenting_volume;           /* m3, below the annulus surface */
   double billow_height;            /* m, highest leaflet point above the annulus surface */
-  double billow_volume;            /* m3 */
+  double billow_volume;            /* m3, above the annulus surface */
   double annulus_ap;               /* m */
   double annulus_cc;               /* m */
   double annulus_perimeter;        /* m */

@@ -109,8 +109,9 @@ typedef struct mvs_tool_desc {
 /* Adds a tool to the state; *tool is its id, unique for this valve. The spring of a grasp has no
  * rest length: a node 5 mm from the hand is pulled with 1 N (200 N/m) from the first step on. Add
  * it with `position` at the node, and move the hand from there, to begin without force.
- * MVS_E_ARGUMENT if a value is out of its range or no node is within reach; MVS_E_STATE if a tool
- * that pushes would overlap tissue, or there are MVS_MAX_TOOLS. */
+ * MVS_E_ARGUMENT if a value is out of its range, no node is within reach, or a tool that pushes is
+ * farther from the middle of the valve than ten times its size; MVS_E_STATE if a tool that pushes
+ * would overlap tissue, or there are MVS_MAX_TOOLS. */
 MVS_API mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool);
 
 /* Moves the hand of a tool. The next mvs_settle or mvs_step starts with the last position of each

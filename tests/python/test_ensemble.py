@@ -34,6 +34,13 @@ def test_member_0_is_the_plain_closure(thin, ensemble):
     assert (first.perturbation, first.node_max, first.increments) == (0, 0, 1)
 
 
+def test_the_text_of_an_ensemble_tells_its_size(ensemble):
+    found = ensemble.summary
+    assert repr(ensemble) == (
+        f"<mvs.Ensemble: {MEMBERS} members, {found.converged} at rest, equilibria: {found.equilibria}>"
+    )
+
+
 def test_statistics_are_those_of_the_snapshots(ensemble):
     assert len(ensemble) == MEMBERS == ensemble.summary.converged
     each = [ensemble.snapshot(k).measures for k in range(MEMBERS)]

@@ -26,6 +26,26 @@ def test_every_figure_has_a_unit_and_a_definition(kind):
 COUNTS = {"intersections", "chords_over_strain", "chords_over_tension", "at_rest", "under_load"}
 
 
+def test_at_rest_is_a_bool_as_that_of_the_snapshot(opened, closed):
+    for valve in (opened, closed):
+        assert valve.measures.at_rest is valve.at_rest
+        assert isinstance(valve.measures.under_load, bool)
+
+
+@pytest.mark.parametrize("read", [mvs.unit_of, mvs.definition_of])
+def test_an_unknown_field_is_an_argument_error_with_near_names(read):
+    with pytest.raises(mvs.ArgumentError, match="did you mean 'tenting_height'"):
+        read(mvs.Measures, "tenting_heigth")
+    with pytest.raises(mvs.ArgumentError, match=r"help\(mvs.Stats\) lists the fields"):
+        read(mvs.Stats, "xyz")
+
+
+def test_tenting_is_defined_below_the_surface_that_spans_the_annulus():
+    assert mvs.definition_of(mvs.Measures, "tenting_height").endswith("below the annulus plane")
+    for name in ("tenting_area", "tenting_volume", "billow_height", "billow_volume"):
+        assert "surface spanning the annulus" in mvs.definition_of(mvs.Measures, name)
+
+
 def test_measures_are_finite_floats(closed):
     for field in dataclasses.fields(closed.measures):
         value = getattr(closed.measures, field.name)

@@ -5,12 +5,20 @@ from __future__ import annotations
 import dataclasses
 from typing import TypeVar, get_type_hints
 
+from .errors import ArgumentError
+from .words import did_you_mean
+
 Kind = TypeVar("Kind", bound=type)
 
 
 def annotation_of(kind: type, name: str) -> tuple[str, str]:
     """Unit (or shape and unit) and definition of a field."""
-    unit, definition = get_type_hints(kind, include_extras=True)[name].__metadata__
+    hints = get_type_hints(kind, include_extras=True)
+    if name not in hints:
+        near = did_you_mean(name, hints)
+        where = f"; help(mvs.{kind.__name__}) lists the fields"
+        raise ArgumentError(f'a mvs.{kind.__name__} has no field "{name}"{near or where}', "name")
+    unit, definition = getattr(hints[name], "__metadata__", ("", ""))
     return unit, definition
 
 

@@ -25,8 +25,12 @@ class Measures:
         float, "m2", "area of one side where leaflets face each other within the contact thickness"
     ]
     coaptation_length_mean: Annotated[float, "m", "mean along the coaptation line"]
-    coaptation_length_min: Annotated[float, "m", "smallest along the coaptation line"]
-    coaptation_length_max: Annotated[float, "m", "largest along the coaptation line"]
+    coaptation_length_min: Annotated[
+        float, "m", "smallest along the coaptation line but for 5 % at either end"
+    ]
+    coaptation_length_max: Annotated[
+        float, "m", "largest along the coaptation line but for 5 % at either end"
+    ]
     coaptation_height: Annotated[
         float, "m", "extent of the coaptation along the valve axis, central AP plane"
     ]
@@ -36,10 +40,18 @@ class Measures:
     tenting_height: Annotated[
         float, "m", "deepest leaflet point on the atrial side below the annulus plane"
     ]
-    tenting_area: Annotated[float, "m2", "below the annulus plane, in the central AP plane"]
-    tenting_volume: Annotated[float, "m3", "between leaflets and annulus surface, below it"]
-    billow_height: Annotated[float, "m", "highest leaflet point above the annulus surface"]
-    billow_volume: Annotated[float, "m3", "between leaflets and annulus surface, above it"]
+    tenting_area: Annotated[
+        float, "m2", "below the surface spanning the annulus, central AP plane"
+    ]
+    tenting_volume: Annotated[
+        float, "m3", "between leaflets and the surface spanning the annulus, below it"
+    ]
+    billow_height: Annotated[
+        float, "m", "highest leaflet point above the surface spanning the annulus"
+    ]
+    billow_volume: Annotated[
+        float, "m3", "between leaflets and the surface spanning the annulus, above it"
+    ]
     annulus_ap: Annotated[float, "m", "anteroposterior (septal-lateral) diameter"]
     annulus_cc: Annotated[float, "m", "intercommissural diameter"]
     annulus_perimeter: Annotated[float, "m", "length of the annulus in space"]
@@ -54,8 +66,8 @@ class Measures:
     leaflet_area: Annotated[float, "m2", "area of both leaflets in the present shape"]
     chords_over_strain: Annotated[int, "1", "chordae strained beyond the limit of their kind"]
     chords_over_tension: Annotated[int, "1", "chordae that carry more than the limit of their kind"]
-    at_rest: Annotated[int, "1", "1: at rest under its load, as a settle or step found it"]
-    under_load: Annotated[int, "1", "1: the pressure closes the valve"]
+    at_rest: Annotated[bool, "1", "1: at rest under its load, as a settle or step found it"]
+    under_load: Annotated[bool, "1", "1: the pressure closes the valve"]
     leaflet_strain_p50: Annotated[
         float, "1", "largest principal strain that half of the tissue does not exceed, by rest area"
     ]

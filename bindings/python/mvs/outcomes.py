@@ -63,7 +63,7 @@ class Stats:
         bool, "1", "1: the last settle found a stable equilibrium, and nothing has changed since"
     ]
     residual: Annotated[float, "N", "largest out-of-balance force on a free node or tool point"]
-    energy: Annotated[float, "J", "total potential energy at the end"]
+    energy: Annotated[float, "J", "potential energy at the end, without the work of the pressure at the free edge"]
     kinetic: Annotated[float, "J", "kinetic energy at the end"]
     wall_s: Annotated[float, "s", "elapsed time"]
     stiffness_margin: Annotated[
@@ -101,7 +101,7 @@ class EnsembleSummary:
 
     members: Annotated[int, "1", "closures, the plain one included"]
     converged: Annotated[int, "1", "members at rest"]
-    equilibria: Annotated[int, "1", "distinct shapes among them"]
+    equilibria: Annotated[int, "1", "distinct shapes among them; a shape and its mirror image are two"]
     lowest: Annotated[Optional[int], "1", "member at rest of lowest energy; None: none at rest"]
     node_rms: Annotated[float, "m", "node to node, RMS over all pairs of members"]
     node_max: Annotated[float, "m", "largest distance of a node between any two members"]

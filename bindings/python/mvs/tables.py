@@ -200,11 +200,16 @@ def _triangles(snapshot: Snapshot) -> Table:
     return Table((dict(zip(TRIANGLE_UNITS, row)) for row in zip(*columns)), TRIANGLE_UNITS)
 
 
+def _number(value: Union[bool, int, float]) -> Union[int, float]:
+    """A number, so that a column of them is one of numbers: 1 for True."""
+    return int(value) if isinstance(value, bool) else value
+
+
 def _measures(snapshot: Snapshot) -> Table:
     measures = snapshot.measures
     return Table(
         (
-            {"measure": field.name, "value": getattr(measures, field.name),
+            {"measure": field.name, "value": _number(getattr(measures, field.name)),
              "unit": unit_of(Measures, field.name),
              "definition": definition_of(Measures, field.name)}
             for field in dataclasses.fields(Measures)

@@ -26,12 +26,15 @@ __all__ = [
 
 
 def unit_of(kind: type, name: str) -> str:
-    """The unit of a field of Measures, Stats or Comparison; "1" for a pure number."""
+    """The unit of a field of Measures, Stats or Comparison; "1" for a pure number.
+
+    ArgumentError for an unknown name, with the near ones.
+    """
     return annotation_of(kind, name)[0]
 
 
 def definition_of(kind: type, name: str) -> str:
-    """The definition of a field of Measures, Stats or Comparison."""
+    """The definition of a field of Measures, Stats or Comparison; errors as of unit_of."""
     return annotation_of(kind, name)[1]
 
 

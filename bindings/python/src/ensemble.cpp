@@ -101,7 +101,7 @@ std::unique_ptr<Snapshot> member_snapshot(const Ensemble &self, uint32_t member)
 py::object statistic_of(const Ensemble &self, uint32_t statistic) {
   auto found = sized<mvs_measures>();
   release_and([&] { return mvs_ensemble_measure(self.get(), statistic, &found); });
-  return measures_value(found);
+  return statistics_value(found);
 }
 
 py::array ensemble_array(const py::object &self, uint32_t which) {
@@ -149,6 +149,12 @@ void bind_ensemble(py::module_ &module, py::class_<Snapshot> &type) {
   made.def_property_readonly(
       "summary", [](const Ensemble &self) { return ensemble_summary_value(summary_of(self)); },
       "Distances over all members (mvs.EnsembleSummary).");
+  made.def("__repr__", [](const Ensemble &self) {
+    const mvs_ensemble_summary found = summary_of(self);
+    return "<mvs.Ensemble: " + std::to_string(found.members) + " members, " +
+           std::to_string(found.converged) +
+           " at rest, equilibria: " + std::to_string(found.equilibria) + ">";
+  });
   made.def_property_readonly("members", &all_members,
                              "Every member (tuple of mvs.EnsembleMember).");
   made.def(
@@ -176,7 +182,9 @@ void bind_ensemble(py::module_ &module, py::class_<Snapshot> &type) {
       "max_iterations"_a = py::none(), "residual"_a = py::none(), "progress"_a = py::none(),
       "Closes the valve along several paths and returns mvs.Ensemble: slack tissue can fold in "
       "several ways, and the members show the range of shapes and measures. Member 0 is the plain "
-      "closure, with the same bits; the same arguments give the same bits.\n\npressure_pa, "
+      "closure, with the same bits; the same arguments give the same bits. A shape and its mirror "
+      "image, both equilibria of a symmetric valve as generate() makes it, are two equilibria."
+      "\n\npressure_pa, "
       "boundary_fraction: the load, as for Simulator.set_load\nmembers: number of closures, the "
       "plain one included\nseed: of the perturbations\nperturbation: m, largest displacement of a "
       "node of the start [0.5e-3]; 0: no perturbation\nwavelength: m, shortest wavelength of a "

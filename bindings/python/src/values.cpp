@@ -34,6 +34,11 @@ py::dict keywords(const std::vector<mvs_field_info> &fields, const void *from) {
   return found;
 }
 
+py::dict measure_fields(const mvs_measures &s) {
+  static const auto measures = mvs::fields_of(MVS_STRUCT_MEASURES);
+  return keywords(measures, &s);
+}
+
 }  // namespace
 
 py::list field_descriptions(uint32_t which) {
@@ -81,8 +86,14 @@ py::object stats_value(const mvs_stats &s, const mvs_profile &p) {
 }
 
 py::object measures_value(const mvs_measures &s) {
-  static const auto measures = mvs::fields_of(MVS_STRUCT_MEASURES);
-  return make_value("Measures", **keywords(measures, &s));
+  py::dict fields = measure_fields(s);
+  fields["at_rest"] = s.at_rest != 0;
+  fields["under_load"] = s.under_load != 0;
+  return make_value("Measures", **fields);
+}
+
+py::object statistics_value(const mvs_measures &s) {
+  return make_value("Measures", **measure_fields(s));
 }
 
 py::object cost_value(const mvs_cost &s, py::object opened) {

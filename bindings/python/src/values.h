@@ -16,6 +16,8 @@ py::object cost_value(const mvs_cost &cost, py::object opened);
 py::object stability_value(const mvs_stability &stability);
 py::object stats_value(const mvs_stats &stats, const mvs_profile &profile);
 py::object measures_value(const mvs_measures &measures);
+// Statistics over several valves: at_rest and under_load are numbers of them.
+py::object statistics_value(const mvs_measures &statistics);
 py::object comparison_value(const mvs_comparison &comparison);
 py::object coarsening_value(const mvs_coarsening &coarsening);
 py::object frame_value(const double frame[12]);

@@ -1063,7 +1063,8 @@ export class Functions extends Calls {
 
   /**
    * Replaces the valve by a parametric mitral valve. `desc` is nullable: the default valve.
-   * MVS_E_ARGUMENT names an impossible dimension.
+   * MVS_E_ARGUMENT names an impossible dimension. Its rest shape is no equilibrium without load:
+   * chordae are taut there (libmvs/anatomy/PARAMETRIC.md), and a settle at zero pressure moves it.
    */
   mvs_generate_valve(sim: SimHandle, desc?: ParametricDesc | null): void {
     return this.invoke(signatures.mvs_generate_valve!, [sim, desc]) as never;
@@ -1457,8 +1458,9 @@ export class Functions extends Calls {
    * Adds a tool to the state; *tool is its id, unique for this valve. The spring of a grasp has no
    * rest length: a node 5 mm from the hand is pulled with 1 N (200 N/m) from the first step on. Add
    * it with `position` at the node, and move the hand from there, to begin without force.
-   * MVS_E_ARGUMENT if a value is out of its range or no node is within reach; MVS_E_STATE if a tool
-   * that pushes would overlap tissue, or there are MVS_MAX_TOOLS.
+   * MVS_E_ARGUMENT if a value is out of its range, no node is within reach, or a tool that pushes
+   * is farther from the middle of the valve than ten times its size; MVS_E_STATE if a tool that
+   * pushes would overlap tissue, or there are MVS_MAX_TOOLS.
    */
   mvs_add_tool(sim: SimHandle, desc: ToolDesc): bigint {
     return this.invoke(signatures.mvs_add_tool!, [sim, desc]) as never;

@@ -337,7 +337,11 @@ export interface Stats {
   stable: number;
   /** N, largest out-of-balance force on a free node or tool point */
   residual: number;
-  /** J, total potential energy at the end, of tissue with a node that moves */
+  /**
+   * J, potential energy at the end, of tissue with a node that moves. Without the work of the
+   * pressure at the free edge, which has no potential: derivatives of the energy differ from forces
+   * there
+   */
   energy: number;
   /** J, kinetic energy at the end */
   kinetic: number;
@@ -428,7 +432,9 @@ export interface Stability {
 
 /**
  * Measures of a valve (fields: MVS_STRUCT_MEASURES). Definitions and sources:
- * libmvs/measure/DEFINITIONS.md.
+ * libmvs/measure/DEFINITIONS.md. The annulus surface is the one that spans the annulus; the annulus
+ * plane is the plane of least squares. Figures of leaflets that cross (intersections > 0) do not
+ * count.
  */
 export interface Measures {
   /** pairs of triangles that cross (exact test) */
@@ -449,13 +455,13 @@ export interface Measures {
   coaptation_depth: number;
   /** m, deepest leaflet point on the atrial side below the plane */
   tenting_height: number;
-  /** m2, in the central AP plane */
+  /** m2, below the annulus surface, central AP plane */
   tenting_area: number;
-  /** m3 */
+  /** m3, below the annulus surface */
   tenting_volume: number;
   /** m, highest leaflet point above the annulus surface */
   billow_height: number;
-  /** m3 */
+  /** m3, above the annulus surface */
   billow_volume: number;
   /** m */
   annulus_ap: number;
@@ -691,7 +697,7 @@ export interface OpChordAdd {
   /**
    * m [as taut as its neighbours: its distance in the rest shape times the median ratio of rest
    * length to distance of the five nearest chords of the head; its distance if the head has no
-   * chords]
+   * chords. Slack where these lie far from the site or on the other leaflet: give a length there]
    */
   length?: number;
   /** Pa [40e6] */
@@ -1115,7 +1121,10 @@ export interface EnsembleSummary {
   members: number;
   /** members at rest */
   converged: number;
-  /** distinct shapes among them */
+  /**
+   * distinct shapes among them; a shape and its mirror image, both equilibria of a symmetric valve,
+   * are two
+   */
   equilibria: number;
   /** the member of lowest potential energy; UINT32_MAX without one at rest */
   lowest: number;
