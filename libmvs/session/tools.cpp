@@ -5,6 +5,7 @@
 
 #include "base/option_checks.h"
 #include "history/event_limits.h"
+#include "model/checks/extent.h"
 #include "session/nearest.h"
 #include "session/recorded_event.h"
 #include "session/tool_bodies.h"
@@ -106,6 +107,16 @@ ToolSizes read_tool_sizes(const ToolSizes &given, const std::string &of) {
 double read_reach(double given, double fallback, const std::string &of) {
   must_be_in(given, 1e-6, 1, (of + ".reach").c_str());
   return value_or(given, fallback);
+}
+
+void must_be_near(const mvs_snapshot &now, const mvs_tool_desc &desc) {
+  if (desc.kind == MVS_TOOL_KIND_GRASP) return;  // within reach of a node, or anywhere with by_node
+  const Vec3 place = read_place(desc.position, "desc.position");
+  const Extent extent = extent_of(now.model->valve);
+  MVS_MUST(!is_far(extent, place), MVS_E_ARGUMENT, "desc.position",
+           "desc.position lies %.3g m from the middle of a valve of %.3g m: positions are in m, in "
+           "the frame of the valve",
+           (place - extent.centre).norm(), extent.size);
 }
 
 Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc, const ToolShapePtr &shape) {

@@ -28,6 +28,10 @@ inline constexpr double max_coordinate = 10;
 Vec3 read_place(const double given[3], const char *what);
 Vec3 read_axis(const double given[3], const char *what);
 
+// Throws MVS_E_ARGUMENT if a tool that pushes is far from the valve: its position is in mm, or of
+// another frame.
+void must_be_near(const mvs_snapshot &now, const mvs_tool_desc &desc);
+
 // `shape`: of a convex tool, in place of the bodies of `desc`.
 Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc, const ToolShapePtr &shape = {});
 void remove_tool_now(mvs_sim &sim, Id id);

@@ -4,6 +4,7 @@
 #include <mvs/sim.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -155,6 +156,12 @@ void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale) {
   lengths.log(sim);
 }
 
+// Whether a number has no more than this number of significant digits.
+bool has_few_digits(double value, int most) {
+  const double rounded = std::strtod(format("%.*g", most, value).c_str(), nullptr);
+  return std::abs(rounded - value) < 1e-12 * value;
+}
+
 }  // namespace
 
 void log_units(const mvs_sim &sim, const Model &model) {
@@ -169,19 +176,29 @@ void log_units(const mvs_sim &sim, const Model &model) {
   log_chords(sim, model, scale);
 }
 
-// Warns about numbers that a person types and a pressure ramp passes in longer fractions: whole
-// ones from 20 to 300 Pa (mmHg), and those with at most three decimals from 1 to 20 Pa (kPa).
+// Warns about pressures below 1.5 mmHg, which are systolic ones as numbers in MPa, kPa or mmHg
+// (that of a hypertensive patient: a whole number up to 300), and about those above 100 kPa. A ramp
+// begins with pressures as small, in longer fractions, which pass: a number in mmHg has at most
+// five digits (122.3; the first of 100 steps to 120 mmHg is 159.9864 Pa), one in kPa at most eight
+// (15.99864 is 120 mmHg). In MPa no ramp of less than 500,000 steps has one. Below 1e-3 Pa they are
+// rounding errors of zero.
 void log_pressure(const mvs_sim &sim, double pressure) {
   constexpr double mmhg = MVS_SYSTOLE_PA / 120, most = 100e3;
-  const double size = std::abs(pressure), thousandths = 1000 * size;
-  if (size >= 20 && size <= 300 && size == std::floor(size)) {
+  constexpr double least = 1e-3, most_mpa = 0.03, most_kpa = 30, most_mmhg = 200,
+                   most_whole_mmhg = 300;
+  struct Unit {
+    const char *name;
+    double pa;
+  };
+  constexpr Unit in_mpa{"MPa", 1e6}, in_kpa{"kPa", 1e3}, in_mmhg{"mmHg", mmhg};
+  const double size = std::abs(pressure);
+  const bool is_small = size <= most_mmhg || (size <= most_whole_mmhg && size == std::floor(size));
+  if (size >= least && is_small &&
+      (size <= most_mpa || has_few_digits(size, size <= most_kpa ? 8 : 5))) {
+    const Unit &unit = size <= most_mpa ? in_mpa : size <= most_kpa ? in_kpa : in_mmhg;
     sim.log(MVS_LOG_WARNING,
-            "a pressure of %g Pa is %.2g mmHg: looks like mmHg given as Pa; %g mmHg are %.8g Pa",
-            pressure, pressure / mmhg, pressure, pressure * mmhg);
-  } else if (size >= 1 && size < 20 && std::abs(thousandths - std::round(thousandths)) < 1e-9) {
-    sim.log(MVS_LOG_WARNING,
-            "a pressure of %g Pa is %.2g mmHg: looks like kPa given as Pa; %g kPa are %.8g Pa",
-            pressure, pressure / mmhg, pressure, 1e3 * pressure);
+            "a pressure of %.8g Pa is %.2g mmHg: looks like %s given as Pa; %.8g %s are %.8g Pa",
+            pressure, pressure / mmhg, unit.name, pressure, unit.name, pressure * unit.pa);
   } else if (size > most) {
     sim.log(MVS_LOG_WARNING,
             "a pressure of %g Pa is %.4g mmHg: looks like Pa taken for mmHg; pressures are in Pa",

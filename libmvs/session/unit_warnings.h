@@ -9,7 +9,7 @@ namespace mvs::core {
 // implausible length.
 void log_units(const mvs_sim &sim, const Model &model);
 
-// Logs a pressure that is probably in mmHg or kPa.
+// Logs a pressure that is probably in mmHg, kPa or MPa.
 void log_pressure(const mvs_sim &sim, double pressure);
 
 }  // namespace mvs::core

@@ -92,7 +92,10 @@ static void lengths_in_other_units_are_warned_of(void) {
 static void pressures_in_mmhg_are_warned_of(void) {
   MUST(generate_founding(sim));
   WARNS(load(120), 1, "a pressure of 120 Pa is 0.9 mmHg: looks like mmHg given as Pa");
-  WARNS(load(-25), 1, "-25 mmHg are -3333.05 Pa");
+  WARNS(load(-35), 1, "-35 mmHg are -4666.27 Pa");
+  WARNS(load(120.5), 1, "looks like mmHg given as Pa; 120.5 mmHg are 16065.301 Pa");
+  WARNS(load(122.3), 1, "looks like mmHg given as Pa");
+  WARNS(load(199.9), 1, "looks like mmHg given as Pa");
   WARNS(load(120 * 133.322 * 20), 1, "looks like Pa taken for mmHg");
 }
 
@@ -100,7 +103,19 @@ static void pressures_in_kpa_are_warned_of(void) {
   MUST(generate_founding(sim));
   WARNS(load(16), 1, "a pressure of 16 Pa is 0.12 mmHg: looks like kPa given as Pa; 16 kPa are");
   WARNS(load(-13.33), 1, "-13.33 kPa are -13330 Pa");
+  WARNS(load(25), 1, "looks like kPa given as Pa");
+  WARNS(load(120 * 133.322 / 1000), 1, "looks like kPa given as Pa; 15.99864 kPa are 15998.64 Pa");
   WARNS(load(120 * 133.322 / 900), 0, ""); /* the first of 900 steps of a ramp */
+  WARNS(load(5 * 133.322), 0, "");         /* 5 mmHg, of early filling */
+  WARNS(load(0), 0, "");
+}
+
+static void pressures_in_mpa_are_warned_of(void) {
+  MUST(generate_founding(sim));
+  WARNS(load(0.016), 1, "a pressure of 0.016 Pa is 0.00012 mmHg: looks like MPa given as Pa");
+  WARNS(load(-0.013), 1, "-0.013 MPa are -13000 Pa");
+  WARNS(load(118.3 * 133.322387415e-6), 1, "looks like MPa given as Pa");
+  WARNS(load(1e-12), 0, ""); /* zero, rounded */
 }
 
 int main(void) {
@@ -111,6 +126,7 @@ int main(void) {
   lengths_in_other_units_are_warned_of();
   pressures_in_mmhg_are_warned_of();
   pressures_in_kpa_are_warned_of();
+  pressures_in_mpa_are_warned_of();
   mvs_destroy(sim);
   return finish("units");
 }

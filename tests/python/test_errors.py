@@ -91,6 +91,7 @@ def test_a_closed_simulator_is_reported(sim):
 
 MISFITS = [
     (lambda sim: sim.set_load("120"), "set_load: pressure_pa has to be a number, not '120' (str)"),
+    (lambda sim: sim.set_load(True), "set_load: pressure_pa has to be a number, not True (bool)"),
     (lambda sim: sim.set_load(), "set_load() needs the argument pressure_pa"),
     (lambda sim: sim.set_load(1, 2, 3), "set_load: 3 (int) is one argument too many"),
     (lambda sim: sim.set_load(1e4, presure=1), 'set_load() has no argument "presure"; did you mean'),

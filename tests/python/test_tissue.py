@@ -166,3 +166,8 @@ def test_constants_are_numbers(sim):
     for wrong in ("12", None, 3.0):
         with pytest.raises(mvs.ArgumentError, match="constants: numbers or a dictionary"):
             mvs.Leaflet("A", constants=wrong)
+    for wrong in ({"c0": "2000"}, {"c0": True}, ("2000",), (None,)):
+        with pytest.raises(mvs.ArgumentError, match="constants: a number is needed for (c0|0), not "):
+            sim.set_leaflet(law="fung", constants=wrong)
+    sim.set_leaflet(law="fung", constants={"c0": np.float32(2000), "c2": 5})
+    assert sim.snapshot().leaflet_constants[0, 1] == 2000

@@ -151,5 +151,7 @@ def test_wrong_words_are_refused(sim):
         sim.add_tool("knife", (0, 0, 0))
     with pytest.raises(mvs.ArgumentError, match="no free vertex"):
         sim.add_tool("grasp", (0, 0, 1))
+    with pytest.raises(mvs.ArgumentError, match="desc.position lies 10 m from the middle of a valve"):
+        sim.add_tool("ball", (0, 0, 10))  # mm
     with pytest.raises(mvs.StateError, match="leaflet tissue"):
         sim.add_tool("ball", sim.snapshot().node_position[sim.snapshot().free_edge_nodes[0]])

@@ -199,6 +199,15 @@ def test_values_like_another_unit_are_warned_of(valve):
     assert any("looks like mmHg given as Pa" in text for text in messages)
 
 
+@pytest.mark.parametrize("number, unit", [
+    (120.0, "mmHg"), (119.9, "mmHg"), (120.5, "mmHg"), (122.3, "mmHg"), (16.0, "kPa"), (15.99864, "kPa"),
+    (0.016, "MPa"), (0.0159986, "MPa"),
+])
+def test_a_systolic_pressure_in_another_unit_is_warned_of(sim, number, unit):
+    with pytest.warns(mvs.ValveWarning, match=f"looks like {unit} given as Pa"):
+        sim.set_load(number)
+
+
 def test_a_pressure_like_kpa_is_warned_of(sim):
     words = "looks like kPa given as Pa; 16 kPa are 16000 Pa"
     with pytest.warns(mvs.ValveWarning, match=words) as caught:

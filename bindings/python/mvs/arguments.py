@@ -97,7 +97,7 @@ def _split(text: str) -> list[str]:
 
 
 def _is_number(value: object) -> bool:
-    return hasattr(value, "__float__") or _is_index(value)
+    return not isinstance(value, bool) and (hasattr(value, "__float__") or _is_index(value))
 
 
 def _is_index(value: object) -> bool:

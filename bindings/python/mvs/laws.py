@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Union
+from typing import TYPE_CHECKING, SupportsFloat, Union
+
+import numpy as np
 
 from . import _core
 from .errors import ArgumentError
@@ -63,7 +65,7 @@ def constants_of(law: int, given: Constants) -> tuple[float, ...]:
             )
         if len(given) > 8:
             raise ArgumentError(f"constants: a law has at most 8, not {len(given)}", "constants")
-        return tuple(map(float, given))
+        return tuple(_constant(value, str(k)) for k, value in enumerate(given))
     if not given:
         return ()
     known = {each.key: each for each in leaflet_law(law).constants}
@@ -74,4 +76,12 @@ def constants_of(law: int, given: Constants) -> tuple[float, ...]:
                 f'constants: {leaflet_law(law).name} has no "{key}", but {words}',
                 f"constants.{key}",
             )
-    return tuple(exact(given.get(key, each.default)) for key, each in known.items())
+    values = {key: _constant(value, key) for key, value in given.items()}
+    return tuple(exact(values.get(key, each.default)) for key, each in known.items())
+
+
+def _constant(value: object, key: str) -> float:
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, SupportsFloat):
+        words = f"constants: a number is needed for {key}, not {shown(value)}"
+        raise ArgumentError(words, f"constants.{key}")
+    return float(value)

@@ -8,6 +8,30 @@
 #include "values.h"
 
 namespace mvs_python {
+
+// A number that is no bool.
+struct Real {
+  double value = 0;
+};
+
+}  // namespace mvs_python
+
+namespace pybind11::detail {
+
+template <>
+struct type_caster<mvs_python::Real> {
+  PYBIND11_TYPE_CASTER(mvs_python::Real, make_caster<double>::name);
+  bool load(handle given, bool convert) {
+    make_caster<double> number;
+    if (PyBool_Check(given.ptr()) || !number.load(given, convert)) return false;
+    value.value = cast_op<double>(number);
+    return true;
+  }
+};
+
+}  // namespace pybind11::detail
+
+namespace mvs_python {
 namespace {
 
 using namespace py::literals;
@@ -76,8 +100,8 @@ py::object step(Simulator &self, uint64_t count, const std::string &solver, Numb
   return stats_of(self);
 }
 
-void set_load(Simulator &self, double pressure, double boundary_fraction) {
-  const mvs_load_case load{sizeof load, 0, pressure, boundary_fraction};
+void set_load(Simulator &self, Real pressure, Real boundary_fraction) {
+  const mvs_load_case load{sizeof load, 0, pressure.value, boundary_fraction.value};
   self.call([&](mvs_sim *sim) { return mvs_set_load(sim, &load); });
 }
 

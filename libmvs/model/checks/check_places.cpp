@@ -3,6 +3,7 @@
 
 #include "base/median.h"
 #include "model/checks/checks.h"
+#include "model/checks/extent.h"
 
 namespace mvs::core {
 namespace {
@@ -14,12 +15,7 @@ constexpr double smallest_in_mm = 8;  // m: an extent above 8 means mm, below it
 // node.
 constexpr double far_away = 10, far_moved = 2;
 
-// Robust extent: medians do not depend on single stray nodes.
-struct Extent {
-  Vec3 centre;
-  double size;  // m: twice the median distance from the centre
-};
-Extent extent_of(const std::vector<Vec3> &points) {
+Extent extent_of_points(const std::vector<Vec3> &points) {
   Extent extent{Vec3::Zero(), 0};
   std::vector<double> values(points.size());
   for (int k = 0; k < 3; ++k) {
@@ -56,11 +52,10 @@ void check_units(const Extent &extent, Faults &faults) {
 
 void check_strays(const Valve &valve, const Extent &extent, Faults &faults) {
   for (size_t n = 0; n < valve.rest.size(); ++n) {
-    const double distance = (valve.rest[n] - extent.centre).norm();
-    if (distance <= far_away * extent.size) continue;
+    if (!is_far(extent, valve.rest[n])) continue;
     faults.add(format("node %zu", n),
                "node %zu lies %.3g m from the middle of a valve of %.3g m: remove or correct it", n,
-               distance, extent.size);
+               (valve.rest[n] - extent.centre).norm(), extent.size);
   }
 }
 
@@ -92,7 +87,7 @@ void check_held(const Valve &valve, const CowVector<Vec3> &places, const char *w
 void check_rings(const Valve &valve, const Extent &extent, Faults &faults) {
   for (size_t r = 0; r < valve.rings.size(); ++r) {
     for (const Vec3 &p : valve.rings[r].curve) {
-      if ((p - extent.centre).norm() <= far_away * extent.size) continue;
+      if (!is_far(extent, p)) continue;
       faults.add(format("ring %zu", r), "ring %zu has a point that is not a number or far away", r);
       break;
     }
@@ -101,11 +96,19 @@ void check_rings(const Valve &valve, const Extent &extent, Faults &faults) {
 
 }  // namespace
 
+Extent extent_of(const Valve &valve) {
+  return extent_of_points(valve.rest);
+}
+
+bool is_far(const Extent &extent, const Vec3 &place) {
+  return !((place - extent.centre).norm() <= far_away * extent.size);
+}
+
 void check_places(const Valve &valve, Faults &faults) {
   const size_t before = faults.list.size();
   check_numbers(valve.rest, "rest", faults);
   if (faults.list.size() > before) return;
-  const Extent extent = extent_of(valve.rest);
+  const Extent extent = extent_of(valve);
   check_units(extent, faults);
   check_strays(valve, extent, faults);
   check_held(valve, valve.open, "open", extent, faults);

@@ -106,9 +106,11 @@ static void what_cannot_be_is_refused_and_changes_nothing(void) {
   bad.kind = MVS_TOOL_KIND_ROD;
   bad.axis[0] = NAN;
   MUST_FAIL(mvs_add_tool(sim, &bad, &tool), MVS_E_ARGUMENT, "direction");
+  bad.axis[0] = 0;
+  bad.position[2] = 9; /* mm */
+  MUST_FAIL(mvs_add_tool(sim, &bad, &tool), MVS_E_ARGUMENT, "positions are in m, in the frame");
   CHECK(tool == 0);
   CHECK(same_hash(before, sim_hash(sim)));
-  bad.axis[0] = 0;
   bad.position[2] = 0.06;
   MUST(mvs_add_tool(sim, &bad, &tool));
   MUST_FAIL(mvs_move_tool(sim, tool, NULL, NULL), MVS_E_ARGUMENT, "null");
