@@ -52,6 +52,17 @@ class Op(Command):
         self.assertRegex(self.ok("op", "chord-add", "--help").stdout,
                          r"--young MPa +Young's modulus, MPa \[40\]")
 
+    def test_an_operation_has_its_name_in_plans_too(self):
+        fields = ("--chord", "P2/3", "--factor", 0.75)
+        self.assertEqual(self.op("chord_length", *fields)["hash"], self.op("chord-length", *fields)["hash"])
+
+    def test_help_says_which_shape_is_operated_on(self):
+        for command in ("op", "sweep"):
+            said = " ".join(self.ok(command, "--help").stdout.split())
+            self.assertIn("give", said)
+            self.assertIn("closed", said)
+            self.assertIn("same figures", said)
+
     def test_millimetres_and_factors_agree(self):
         half = self.op("chord-length", "--chord", "P2/3", "--factor", 0.5)
         length = re.search(r"([\d.]+) mm", half["title"]).group(1)

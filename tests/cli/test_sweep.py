@@ -37,7 +37,9 @@ class Sweep(Shell):
         self.assertEqual((self.printed["combinations"], self.printed["closed_now"]), (6, 6))
         for row in rows:
             self.assertEqual((row["converged"], row["error"], row["pressure_mmHg"]),
-                             ("1", "", "120.0"))
+                             ("true", "", "120.0"))
+            self.assertEqual((row["at_rest"], row["under_load"]), ("true", "true"))
+        self.assertIs(self.printed["best"][0]["converged"], True)
 
     def test_a_row_is_what_op_and_close_give(self):
         self.ok("close", "v.obj", "-o", "c.obj")

@@ -30,6 +30,7 @@ def test_rows_are_in_the_order_of_the_combinations(opened, serial):
         sim.set_load(mvs.SYSTOLE_PA)
         sim.settle(**QUICK)
         alone = sim.snapshot().measures
+    assert all(isinstance(row[name], bool) for row in serial for name in ("converged", "at_rest"))
     assert serial[1]["tenting_height"] == alone.tenting_height
     assert serial[1]["max_chord_tension"] == alone.max_chord_tension
 

@@ -128,6 +128,7 @@ void add_kind(CLI::App &op, Console &console, const mvs::OpKind &kind,
   auto request = std::make_shared<OpRequest>();
   request->kind = kind;
   CLI::App *command = add_command(op, console, dashed(kind.info.name), kind.info.help);
+  if (dashed(kind.info.name) != kind.info.name) command->alias(kind.info.name);  // as in plans
   for (const mvs_field_info &field : kind.fields) add_field(*command, *request, field);
   command->add_option("-o,--output", request->out, "write the valve, .obj, .h5, .vtp or .vtm")
       ->type_name("FILE");
@@ -174,7 +175,10 @@ void add_op(CLI::App &app, Console &console) {
   command->footer(
       "Lengths are in mm, areas in mm2, moduli in MPa. A site on a leaflet is P2:0.5:0.9 (share "
       "along the scallop,\nshare from annulus to free edge), node:17, or "
-      "triangle:12:0.3:0.3:0.4. Points are a text file with one x,y,z per line.");
+      "triangle:12:0.3:0.3:0.4. Points are a text file with one x,y,z per line.\n--settle "
+      "operates on the valve as given, `mvs sweep` on the closed one: give a closed valve (mvs "
+      "close "
+      "-o) for the\nsame figures.");
   for (const mvs::OpKind &kind : mvs::op_kinds()) add_kind(*command, console, kind, file);
 }
 

@@ -59,7 +59,7 @@ CsvRow row_of(const Sweep &sweep, size_t combination) {
   std::string error;
   try {
     const AtRest at_rest = close_combination(sweep, combination);
-    row.emplace_back(at_rest.stats.converged ? "1" : "0");
+    row.push_back(cell_of(at_rest.stats.converged != 0));
     row.push_back(cell_of(at_rest.stats.residual));
     row.push_back(cell_of(at_rest.measures.intersections));
     std::optional<mvs_cost> cost;
@@ -81,9 +81,10 @@ Json best_json(const SweepTable &table, const CsvRow &row) {
   Json object = Json::object();
   for (size_t k = 0; k < row.size(); ++k) {
     double number = 0;
-    object[table.columns()[k]] = row[k].empty()                ? Json()
-                                 : read_number(row[k], number) ? Json::parse(row[k], nullptr, false)
-                                                               : Json(row[k]);
+    const bool is_value = read_number(row[k], number) || row[k] == "true" || row[k] == "false";
+    object[table.columns()[k]] = row[k].empty() ? Json()
+                                 : is_value     ? Json::parse(row[k], nullptr, false)
+                                                : Json(row[k]);
   }
   return object;
 }
@@ -229,6 +230,10 @@ void add_sweep(CLI::App &app, Console &console) {
   for (CLI::Option *given : add_cost_options(*command, options->cost_options)) given->needs(cost);
   command->add_flag("--largest", options->largest, "print the largest first")->needs(sort);
   add_progress_flag(*command, console);
+  command->footer(
+      "The valve is closed first, and every combination starts from that closed valve; `mvs op "
+      "--settle` and Python's\nmvs.sweep operate on the valve as given: give them a closed one "
+      "(mvs close -o) for the same figures.");
 }
 
 }  // namespace cli

@@ -78,7 +78,9 @@ std::vector<CsvRow> SweepTable::best(const std::string &measure, bool largest_fi
   std::vector<std::pair<double, CsvRow>> found;
   for (const CsvRow &row : rows()) {
     double value = 0;
-    if (cell(row, "converged") != "1" || !read_number(cell(row, measure), value)) continue;
+    const std::string &converged = cell(row, "converged");  // "1": of an older table
+    const bool at_rest = converged == "true" || converged == "1";
+    if (!at_rest || !read_number(cell(row, measure), value)) continue;
     found.emplace_back(largest_first ? -value : value, row);
   }
   std::stable_sort(found.begin(), found.end(),

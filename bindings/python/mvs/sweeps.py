@@ -53,7 +53,8 @@ def sweep(
                   ProcessPoolExecutor())
 
     Each combination starts from the same valve or snapshot, is settled under the pressure and
-    measured. Arguments that fit no valve, as a factor of 0, raise. Columns: the parameters with several values ("ring.size"), "converged", the fields of
+    measured. `mvs sweep` closes the valve before it operates, and this function operates on the valve
+    as given: give it a closed snapshot for the same figures. Arguments that fit no valve, as a factor of 0, raise. Columns: the parameters with several values ("ring.size"), "converged", the fields of
     mvs.Measures in SI units, and "error", the sentence of an impossible combination, whose measures
     are NaN. The rows are in the order of the combinations, the last parameter fastest, and do not
     depend on the executor.
@@ -177,7 +178,7 @@ def _run(task: _Task) -> Row:
     """One row; an impossible combination is a row with its sentence. Runs in a worker."""
     names = [field.name for field in dataclasses.fields(Measures)]
     costs = _cost_names() if task.cost is not None else []
-    row: Row = dict.fromkeys([*names, *(f"cost.{name}" for name in costs)], float("nan"))
+    row: dict[str, Any] = dict.fromkeys([*names, *(f"cost.{name}" for name in costs)], float("nan"))
     try:
         with Simulator(log=lambda level, text: None) as sim:
             sim.restore(task.start)
