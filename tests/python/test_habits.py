@@ -208,6 +208,7 @@ def test_pyvista_blocks_hold_the_arrays(closed):
     assert np.isfinite(leaflets["stretch_1"]).all() and np.isnan(leaflets["coaptation"]).any()
     assert chords.n_cells == len(closed.chord_nodes)
     assert np.array_equal(chords["tension"], closed.chord_tension)
+    assert [list(block.field_data["UNITS"]) for block in (leaflets, chords)] == [["m"], ["m"]]
 
 
 def test_the_report_of_a_file_is_of_that_file_only(opened, tmp_path):

@@ -165,6 +165,12 @@ def test_the_simulator_differentiates_its_present_snapshot(sim, closed):
     assert found.derivative == closed.sensitivity(of="coaptation", to="pressure").derivative
 
 
+@pytest.mark.parametrize("to", ["chords", "areas", "sites", "tissue", "scallops", "pressure", "heads", "annulus"])
+def test_a_label_of_a_parameter_is_accepted(closed, to):
+    label = closed.sensitivity(of="leaflet_area", to=to, test=False).to[-1]
+    assert closed.sensitivity(of="leaflet_area", to=label, test=False).to == (label,)
+
+
 def test_bad_input_is_refused(sim, closed):
     with pytest.raises(mvs.ArgumentError, match="did you mean"):
         closed.sensitivity(of="coaptation_aera", to="chords")

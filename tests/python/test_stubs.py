@@ -1,8 +1,10 @@
 """The stubs match the module."""
 
+import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import mvs
 
@@ -29,6 +31,21 @@ def test_stubs_match_the_module(tmp_path):
          "mvs.haptics", "mvs.kinds", "mvs.measures", "mvs.outcomes", "mvs.plans", "mvs.values"],
         capture_output=True,
         text=True,
+    )
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
+def test_the_arrays_of_a_copied_valve_are_not_optional(tmp_path):
+    program = tmp_path / "program.py"
+    program.write_text(
+        "import mvs\n\n\ndef edit(closed: mvs.Snapshot) -> mvs.Valve:\n"
+        "    valve = mvs.valve_of(closed)\n    valve.chord_rest_length[3] *= 1.25\n"
+        "    valve.nodes_now = None\n    return valve\n"
+    )
+    found = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", str(program)],
+        capture_output=True, text=True, cwd=tmp_path,
+        env={**os.environ, "MYPYPATH": str(Path(mvs.__file__).parents[1])},
     )
     assert found.returncode == 0, found.stdout + found.stderr
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, cast
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -9,6 +12,7 @@ from ._core import Snapshot
 from .arrays import Curve, Leaflet, Ring, Valve
 from .kinds import ChordLaw, LeafletLaw, PartKind, RingKind
 from .laws import ZERO, exact, leaflet_law
+from .values import Part
 
 
 _COPIED = {
@@ -27,7 +31,43 @@ _COPIED = {
 """The array of mvs.Snapshot for each array of mvs.Valve."""
 
 
-def valve_of(snapshot: Snapshot) -> Valve:
+if TYPE_CHECKING:
+
+    class _FilledValve(Valve):
+        """For type checkers: the fields that valve_of always fills are not None."""
+
+        leaflets: Sequence[Leaflet]
+        triangle_leaflet: NDArray[Any]
+        nodes: NDArray[Any]
+        nodes_loaded: NDArray[Any]
+        nodes_open: NDArray[Any]
+        triangles: NDArray[Any]
+        annulus: NDArray[Any]
+        node_origin: NDArray[Any]
+        scallops: Sequence[str]
+        scallop_id: NDArray[Any]
+        triangle_scallop: NDArray[Any]
+        triangle_thickness: NDArray[Any]
+        triangle_fibre: NDArray[Any]
+        chord_nodes: NDArray[Any]
+        chord_rest_length: NDArray[Any]
+        chord_kind: NDArray[Any]
+        chord_young: NDArray[Any]
+        chord_area: NDArray[Any]
+        chord_law: NDArray[Any]
+        chord_constants: NDArray[Any]
+        chord_id: NDArray[Any]
+        chord_names: Sequence[str]
+        head_nodes: NDArray[Any]
+        head_id: NDArray[Any]
+        head_names: Sequence[str]
+        density: float
+        contact_thickness: float
+        contact_stiffness: float
+        bending_scale: float
+
+
+def valve_of(snapshot: Snapshot) -> _FilledValve:
     """Copies the valve of a snapshot to arrays, with ids and names.
 
     ``sim.set_valve(mvs.valve_of(snapshot))`` sets the same valve; change the arrays first to set a
@@ -46,7 +86,7 @@ def valve_of(snapshot: Snapshot) -> Valve:
     constants, law = copied["chord_constants"], copied["chord_law"]
     has_them = (law == ChordLaw.BILINEAR) | (law == ChordLaw.OGDEN)
     constants[(constants == 0) & has_them[:, None]] = ZERO
-    return Valve(
+    filled = Valve(
         **copied,
         leaflets=leaflets,
         scallops=[part.name for part in parts[PartKind.SCALLOP]],
@@ -62,6 +102,7 @@ def valve_of(snapshot: Snapshot) -> Valve:
         contact_stiffness=contact_stiffness,
         bending_scale=bending,
     )
+    return cast("_FilledValve", filled)
 
 
 def _constants(law: int, values: NDArray[np.float64]) -> tuple[float, ...]:
@@ -69,7 +110,7 @@ def _constants(law: int, values: NDArray[np.float64]) -> tuple[float, ...]:
     return (*map(exact, values[:count]), *map(float, values[count:]))
 
 
-def _rings(snapshot: Snapshot, parts: list) -> list[Ring]:
+def _rings(snapshot: Snapshot, parts: Sequence[Part]) -> list[Ring]:
     start = snapshot.ring_start
     curves = [snapshot.ring_points[a:b].copy() for a, b in zip(start, start[1:])]
     return [
@@ -78,7 +119,7 @@ def _rings(snapshot: Snapshot, parts: list) -> list[Ring]:
     ]
 
 
-def _curves(snapshot: Snapshot, parts: list) -> list[Curve]:
+def _curves(snapshot: Snapshot, parts: Sequence[Part]) -> list[Curve]:
     start = snapshot.curve_start
     return [
         Curve(part.name, snapshot.curve_points[a:b].copy(), part.id)
@@ -86,5 +127,5 @@ def _curves(snapshot: Snapshot, parts: list) -> list[Curve]:
     ]
 
 
-def _ids(parts: list) -> np.ndarray:
+def _ids(parts: Sequence[Part]) -> NDArray[np.uint64]:
     return np.array([part.id for part in parts], dtype=np.uint64)

@@ -18,7 +18,8 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Optional, Union
 
 from . import _core
-from ._op_fields import FieldType, OpField, Site, resolve
+from ._op_fields import FieldType, OpField, resolve
+from ._op_sites import Site
 from .errors import ArgumentError
 
 if TYPE_CHECKING:

@@ -136,7 +136,7 @@ def sensitivity(
     of: quantities, one or several of
         the name of a measure ("coaptation_area"; "coaptation" and "orifice" for short), "measures"
         (all that have a derivative), "tension", "strain", "length" (of every chord) or one of them
-        ("tension P2/3"), "force" (on every head) or one ("force PM1"), an array (n, 3) of weights of
+        ("tension P2/3"), "force" (magnitude of the force on every head) or one ("force PM1"), an array (n, 3) of weights of
         the positions, a pair (label, array) or a mapping of labels to arrays
     to: parameters, one or several of
         "chords" (rest lengths), "areas", "moduli" (of every chord) or one ("chords P2/3"), "sites"
@@ -145,7 +145,8 @@ def sensitivity(
         (every constant of every leaflet), "thickness" (by leaflet), "scallops" (thickness by
         scallop), "pressure", "prestrain", "heads" (their coordinates), "annulus" (coordinates of its
         nodes), "annulus_scale" (also of a ring: its size times this), an array (n, 3) that moves
-        prescribed nodes (a mode), a pair (label, array) or a mapping
+        prescribed nodes (a mode), a pair (label, array) or a mapping; also each label of
+        Sensitivity.to ("head PM1 x")
     slack: m, the distance at which both sides are tested [1e-7]
     motion: also dx/dp of all nodes
     test: False: no test of both sides, no margin; faster

@@ -117,14 +117,22 @@ def parameters(snapshot: _core.Snapshot, item: Asked) -> list[Labelled]:
         return [row for k, n in _parts(snapshot, PartKind.CHORD, part)
                 for row in _sites(snapshot, k, n, bool(part))]
     if word == "tissue":
-        return [row for k, n in _parts(snapshot, PartKind.LEAFLET, part)
+        rows = [row for k, n in _parts(snapshot, PartKind.LEAFLET, "")
                 for row in _constants(snapshot, k, n)]
+        one = [row for row in rows if row[0] == item]  # a label of Sensitivity.to
+        return one or [row for k, n in _parts(snapshot, PartKind.LEAFLET, part)
+                       for row in _constants(snapshot, k, n)]
     if word == "heads":
         return [(f"head {n} {AXES[a]}", "m", (PARAMETER["head"], k, a, None))
                 for k, n in _parts(snapshot, PartKind.HEAD, part) for a in range(3)]
     if word == "annulus" and not part:
         return [(f"annulus {i} {AXES[a]}", "m", (PARAMETER["node"], int(i), a, None))
                 for i in snapshot.annulus_nodes for a in range(3)]
+    several = {"head": "heads", "annulus": "annulus", "site": "sites"}.get(word)
+    if several and part:  # a label of Sensitivity.to
+        one = [row for row in parameters(snapshot, several) if row[0] == item]
+        if one:
+            return one
     raise ArgumentError(
         f'to: "{item}" is not known{did_you_mean(item, TO_WORDS)}; there are {listed(TO_WORDS)}', "to"
     )

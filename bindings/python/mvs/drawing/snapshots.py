@@ -79,7 +79,7 @@ def plot(self: Snapshot, view: str = "atrium") -> Picture:
 def to_pyvista(self: Snapshot) -> Any:
     """The valve as a pyvista.MultiBlock in m: "leaflets", "chords", and "orifice" if open.
 
-    Point k of "leaflets" and "chords" is node k of the snapshot. Needs the extra ``report``.
+    The field UNITS of each block is "m" (files .vtp have "mm"). Point k of "leaflets" and "chords" is node k of the snapshot. Needs the extra ``report``.
     leaflets: a surface; per point kind, force (N), coaptation (m, NaN without a facing leaflet);
         per triangle leaflet, scallop, thickness (m), stretch_1, stretch_2, stress_1, stress_2 (Pa)
     chords: lines; per line kind, strain, tension (N), flags, rest_length (m)
@@ -107,6 +107,8 @@ def to_pyvista(self: Snapshot) -> Any:
         blocks["orifice"] = pyvista.PolyData.from_regular_faces(
             np.array(self.orifice_vertices), self.orifice_triangles.astype(int)
         )
+    for block in blocks.values():
+        block.field_data["UNITS"] = ["m"]
     return pyvista.MultiBlock(blocks)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
 import mvs
 from mvs import study
@@ -46,7 +47,7 @@ def _close_all(files: list[Path], asked_pa: float | None, pressure_pa: float) ->
     return cases
 
 
-def _draw(cases: list[Case], folder: Path) -> list:
+def _draw(cases: list[Case], folder: Path) -> list[Any]:
     from .gallery import common_scales, pictures_of
 
     folder.mkdir(parents=True, exist_ok=True)
