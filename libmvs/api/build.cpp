@@ -68,7 +68,7 @@ PatientSurface read_surface(const mvs_surface_desc *given) {
   surface.anterior = read_points(desc.anterior, "surface.anterior");
   surface.tips = read_points(desc.papillary_tips, "surface.papillary_tips");
   surface.closed_points = read_points(desc.closed_points, "surface.closed_points");
-  if (!surface.closed_points.empty()) {
+  if (!surface.closed_points.empty() || is_given(desc.closed_triangles)) {
     surface.closed_triangles = triangles_of(desc.closed_triangles, surface.closed_points.size(),
                                             "surface.closed_triangles");
   }

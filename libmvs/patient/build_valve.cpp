@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "patient/checks/input_arrays.h"
 #include "patient/findings.h"
 #include "patient/fit/edge_range.h"
 #include "patient/fit/fitted_law.h"
@@ -48,6 +49,7 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   BuiltValve built;
   Findings &findings = built.findings;
   tell_progress(progress, 0.0);
+  check_landmarks(surface);
   const MidSheet mid = find_mid_sheet(surface, settings, findings);
   begin_stage(settings, "leaflets");
   find_leaflets_of(surface, mid, findings);

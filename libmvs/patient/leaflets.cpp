@@ -187,8 +187,6 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
   double orientation = 1;
   std::vector<Vec3> commissures = landmarks.commissures;
   if (!commissures.empty()) {
-    MVS_MUST(commissures.size() == 2, MVS_E_ARGUMENT, "commissures",
-             "%zu commissures are given: a mitral valve has two", commissures.size());
     add(findings, "commissures", FindingSource::given, 1, "");
   } else {
     const GuessedFeet guess = area.anterior + area.posterior > 0

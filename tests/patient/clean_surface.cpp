@@ -265,7 +265,7 @@ TEST_CASE("clean_surface_refuses_arrays_that_do_not_fit") {
   refused(bad, "no triangles");
   bad = s;
   bad.x[3].y() = NAN;
-  refused(bad, "point 3 is");
+  refused(bad, "point 3 of points is");
   bad = s;
   bad.triangles[5][1] = 10000;
   refused(bad, "count points from 0");

@@ -43,8 +43,6 @@ std::vector<Vec3> assumed_tips(const PatientGeometry &g, const AnnulusFrame &fra
 
 void check_tip(const Vec3 &tip, size_t number, const AnnulusFrame &frame) {
   const Vec3 local = frame.local(tip);
-  MVS_MUST(std::isfinite(local.squaredNorm()), MVS_E_ARGUMENT, "papillary_tips",
-           "papillary tip %zu is not a finite point", number);
   MVS_MUST(local.norm() <= farthest_tip, MVS_E_OP, "papillary_tips",
            "papillary tip %zu lies %.0f mm from the centre of the annulus, at most %.0f mm are "
            "accepted: are both in one frame (LPS or RAS), in m, and of one patient?",
@@ -158,9 +156,11 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
   }
   MVS_MUST(
       !tips.anterolateral.empty() && !tips.posteromedial.empty(), MVS_E_OP, "papillary_tips",
-      "all %zu papillary tips lie on the %s side of the plane between the commissures: give at "
-      "least one tip of each papillary muscle, or check commissures and anterior leaflet",
-      all.size(), tips.anterolateral.empty() ? "posteromedial" : "anterolateral");
+      "%s papillary %s on the %s side of the plane between the commissures: give at least one tip "
+      "of each of the two papillary muscles, or check commissures and anterior leaflet",
+      all.size() == 1 ? "the only" : format("all %zu", all.size()).c_str(),
+      all.size() == 1 ? "tip lies" : "tips lie",
+      tips.anterolateral.empty() ? "posteromedial" : "anterolateral");
   if (given.empty()) {
     report_assumed_tips(all, frame, findings);
   } else {

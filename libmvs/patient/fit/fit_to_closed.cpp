@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "measure/orifice/orifice.h"
+#include "patient/checks/input_arrays.h"
 #include "patient/fit/fit_report.h"
 #include "patient/fit/fit_search.h"
 #include "patient/fit/linear_closure.h"
@@ -35,12 +36,7 @@ constexpr uint64_t start_seed = 22;  // of the other starts
 ModelPtr checked_model(const ClosedSurface &given, const Valve &valve) {
   MVS_MUST(!given.triangles.empty(), MVS_E_ARGUMENT, "closed_triangles",
            "the closed surface has no triangles");
-  for (const Tri &t : given.triangles) {
-    for (const uint32_t i : t) {
-      MVS_MUST(i < given.points.size(), MVS_E_ARGUMENT, "closed_triangles",
-               "the closed surface names point %u of %zu", i, given.points.size());
-    }
-  }
+  check_triangles(given.points, given.triangles, "closed_points", "closed_triangles");
   ModelPtr made = make_model(valve);
   const Model &model = *made;
   const TriangleBvh tree(given.triangles, given.points);

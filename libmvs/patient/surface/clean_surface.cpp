@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "geometry/aabb.h"
 #include "model/sides.h"
+#include "patient/checks/input_arrays.h"
 #include "patient/findings.h"
 #include "patient/mesh/surface_pieces.h"
 #include "patient/surface/manifold.h"
@@ -41,15 +42,7 @@ void check_arrays(const std::vector<Vec3> &points, const std::vector<Tri> &trian
   MVS_MUST(thickness.empty() || thickness.size() == points.size(), MVS_E_ARGUMENT,
            "point_thickness", "%zu values for %zu points: give one for each point, or none",
            thickness.size(), points.size());
-  for (size_t t = 0; t < triangles.size(); ++t) {
-    for (const uint32_t i : triangles[t]) {
-      MVS_MUST(i < points.size(), MVS_E_OP, "triangles",
-               "triangle %zu has point %u of %zu: count points from 0", t, i, points.size());
-      MVS_MUST(points[i].allFinite(), MVS_E_OP, "points",
-               "point %u is (%g, %g, %g): give numbers, or drop triangle %zu", i, points[i].x(),
-               points[i].y(), points[i].z(), t);
-    }
-  }
+  check_triangles(points, triangles, "points", "triangles");
   for (size_t i = 0; i < thickness.size(); ++i) {
     MVS_MUST(
         thickness[i] >= least_tissue && thickness[i] <= most_tissue, MVS_E_OP, "point_thickness",
