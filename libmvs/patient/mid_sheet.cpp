@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "geometry/intersect.h"
+#include "patient/checks/displaced_points.h"
 #include "patient/skin/mid_surface.h"
 #include "patient/skin/skin_holes.h"
 #include "patient/surface/boundary.h"
@@ -96,6 +97,7 @@ MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &sett
            "the surface where its leaflets touch",
            crossings.after, crossings.before);
   if (crossings.before > 0) findings.push_back(crossings_finding(crossings));
+  doubt_far_tissue(mid.sheet, mid.rims, findings);
   return mid;
 }
 

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "geometry/aabb.h"
 #include "model/sides.h"
+#include "patient/checks/displaced_points.h"
 #include "patient/checks/input_arrays.h"
 #include "patient/findings.h"
 #include "patient/mesh/surface_pieces.h"
@@ -256,6 +257,7 @@ LeafletSheet clean_surface(const std::vector<Vec3> &points, const std::vector<Tr
                  {static_cast<double>(flat)}, "");
   }
   drop_unused(sheet);
+  mend_displaced(sheet, findings);
   const double area = surface_area(sheet.x, sheet.triangles);
   add_measured(findings, "surface",
                format("%zu triangles with sides of %.2f mm, together %.0f mm2 and %.1f mm across",
