@@ -8,7 +8,7 @@ namespace {
 
 // A closure from a closed valve has some ten iterations; one that wanders is given up for another
 // trial of the fit.
-constexpr uint32_t most_iterations = 150;
+constexpr uint32_t most_again = 150;
 
 SolveOptions without_margins() {
   SolveOptions options;
@@ -18,12 +18,14 @@ SolveOptions without_margins() {
 
 }  // namespace
 
-ClosedValve close_open(Solver &solver, ModelPtr model, double pressure, const Progress &progress) {
+ClosedValve close_open(Solver &solver, ModelPtr model, double pressure, const Progress &progress,
+                       uint32_t most_iterations) {
   ClosedValve closed{std::move(model), {}, {}};
   closed.state = initial_state(*closed.model);
   closed.state.load = {pressure, 1};
-  closed.stats =
-      settle_with_mesh_hierarchy(solver, *closed.model, closed.state, without_margins(), progress);
+  SolveOptions options = without_margins();
+  options.max_iterations = most_iterations;
+  closed.stats = settle_with_mesh_hierarchy(solver, *closed.model, closed.state, options, progress);
   return closed;
 }
 
@@ -32,7 +34,7 @@ ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &va
   closed.state.drop_cache();
   closed.state.rest_tolerance = 0;
   SolveOptions options = without_margins();
-  options.max_iterations = most_iterations;
+  options.max_iterations = most_again;
   closed.stats = solver.settle(*closed.model, closed.state, options, {});
   return closed;
 }

@@ -14,9 +14,10 @@ struct ClosedValve {
   SolveStats stats;
 };
 
-// From the rest shape, as a caller closes a new valve.
+// From the rest shape, as a caller closes a new valve; it ends after `most_iterations` (0: those of
+// a settle), at rest or not.
 ClosedValve close_open(Solver &solver, ModelPtr model, double pressure,
-                       const Progress &progress = {});
+                       const Progress &progress = {}, uint32_t most_iterations = 0);
 
 // From a closed valve with the same nodes and other rest lengths; it ends after 150
 // iterations, at rest or not.

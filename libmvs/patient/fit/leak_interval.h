@@ -13,9 +13,10 @@
 // of the leak of the valve as it is, in squares, as lengths and shape err independently; and the
 // interval reaches to what the gaps of the surface itself may leak (shown_gaps.h). Every
 // closure starts from the open shape, so that none depends on another; one that does not come to
-// rest is left out, and the findings say so; if none does, the interval is not known. A valve that
-// still creeps after the last iteration shows as well whether it leaks: if none does, no random
-// ones are closed, which creep as well and take most of the time of a build.
+// rest within 400 iterations is left out, and the findings say so; if none does, the interval is
+// not known, and no random ones are closed. A valve that still creeps after the last iteration
+// shows as well whether it leaks: if none does, no random ones are closed, which creep as well and
+// take most of the time of a build.
 #pragma once
 
 #include <array>
