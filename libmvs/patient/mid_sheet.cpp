@@ -6,6 +6,10 @@
 #include "base/error.h"
 #include "geometry/intersect.h"
 #include "patient/checks/displaced_points.h"
+#include "patient/checks/rim_length.h"
+#include "patient/checks/rough_surface.h"
+#include "patient/closed_curve.h"
+#include "patient/findings.h"
 #include "patient/skin/mid_surface.h"
 #include "patient/skin/skin_holes.h"
 #include "patient/surface/boundary.h"
@@ -43,7 +47,23 @@ SurfaceKind kind_of(const PatientSurface &surface, const LeafletSheet &sheet, Fi
 // m: errors of surfaces from images make points move so far.
 constexpr double small_move = 1e-3;
 
-// Fills notches of the free edge, moves an atrial surface to the middle of the tissue, separates
+// The notches of two rims, for keep_crossing(); the second rim was filled after the first.
+FilledNotches both(FilledNotches first, const FilledNotches &second) {
+  first.last.insert(first.last.end(), second.last.begin(), second.last.end());
+  first.inner.insert(first.inner.end(), second.inner.begin(), second.inner.end());
+  return first;
+}
+
+// The annulus that is given back is the one with its notches filled, unless it is one along which
+// tissue was cut off.
+void set_filled_annulus(const MidSheet &mid, Findings &findings) {
+  if (!find_finding(findings, "annulus_notches") || find_finding(findings, "atrial_tissue")) return;
+  if (Finding *annulus = find_finding(findings, "annulus")) {
+    set_points(points_along(mid.rims.annulus, mid.sheet.x), *annulus);
+  }
+}
+
+// Fills notches of both rims, moves an atrial surface to the middle of the tissue, separates
 // triangles that cross. Notches whose filling stays crossed are kept open.
 CrossingReport mend(const BuildSettings &settings, SurfaceKind kind, MidSheet &mid,
                     Findings &findings) {
@@ -52,13 +72,15 @@ CrossingReport mend(const BuildSettings &settings, SurfaceKind kind, MidSheet &m
   for (;;) {
     mid = as_found;
     Findings made;
-    const FilledNotches notches = fill_notches(mid.sheet, mid.rims, kept);
-    report_notches(notches, made);
+    const FilledNotches of_annulus = fill_notches(mid.sheet, mid.rims.annulus, kept);
+    const FilledNotches of_edge = fill_notches(mid.sheet, mid.rims.free_edge, kept);
+    report_notches(of_annulus, NotchesOf::annulus, made);
+    report_notches(of_edge, NotchesOf::free_edge, made);
     if (kind == SurfaceKind::atrial) move_to_mid(mid.sheet, settings.thickness, made);
     const CrossingReport crossings = mend_crossings(mid.sheet, mid.rims);
     if (crossings.after > 0) {
       const std::vector<Edge> left = find_intersections(mid.sheet.x, mid.sheet.triangles);
-      if (keep_crossing(notches, left, kept)) continue;
+      if (keep_crossing(both(of_annulus, of_edge), left, kept)) continue;
     }
     findings.insert(findings.end(), made.begin(), made.end());
     return crossings;
@@ -90,6 +112,7 @@ MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &sett
   begin_stage(settings, "mid");
   if (kind == SurfaceKind::skin) mid.sheet = mid_of_skin(mid.sheet, landmarks, findings);
   mid.rims = find_rims(mid.sheet, landmarks, findings);
+  doubt_rough_surface(mid.sheet, findings);  // untangling hides a part of the noise
   begin_stage(settings, "untangle");
   const CrossingReport crossings = mend(settings, kind, mid, findings);
   MVS_MUST(crossings.after == 0, MVS_E_OP, "crossings",
@@ -97,7 +120,9 @@ MidSheet find_mid_sheet(const PatientSurface &surface, const BuildSettings &sett
            "the surface where its leaflets touch",
            crossings.after, crossings.before);
   if (crossings.before > 0) findings.push_back(crossings_finding(crossings));
+  set_filled_annulus(mid, findings);
   doubt_far_tissue(mid.sheet, mid.rims, findings);
+  doubt_annulus_length(mid.sheet, mid.rims, findings);
   return mid;
 }
 

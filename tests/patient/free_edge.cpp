@@ -56,7 +56,7 @@ TEST_CASE("notches_are_filled_and_clefts_and_straight_edges_are_kept") {
   const double full = surface_area(whole.x, whole.triangles);
   LeafletSheet sheet = whole;
   SheetRims rims = rims_of(sheet);
-  CHECK(fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0)).last.empty());
+  CHECK(fill_notches(sheet, rims.free_edge, std::vector<uint8_t>(sheet.x.size(), 0)).last.empty());
   CHECK(sheet.triangles == whole.triangles);
 
   // three notches, 1 to 3 mm wide and deep, and a cleft 1 mm wide and 7 mm deep
@@ -66,7 +66,8 @@ TEST_CASE("notches_are_filled_and_clefts_and_straight_edges_are_kept") {
   });
   rims = rims_of(sheet);
   const size_t edge_before = rims.free_edge.size();
-  const FilledNotches filled = fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0));
+  const FilledNotches filled =
+      fill_notches(sheet, rims.free_edge, std::vector<uint8_t>(sheet.x.size(), 0));
   CHECK(filled.last.size() == 3);
   CHECK(filled.deepest == about(3e-3, 0.02));
   // mouths of 2 and 3 mm are divided into sides of 1 mm
@@ -81,7 +82,7 @@ TEST_CASE("notches_are_filled_and_clefts_and_straight_edges_are_kept") {
   sheet = band(round, [](uint32_t i, uint32_t row) { return i == 5 && row < 1; });
   rims = rims_of(sheet);
   const std::vector<uint32_t> edge = rims.free_edge;
-  fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 1));
+  fill_notches(sheet, rims.free_edge, std::vector<uint8_t>(sheet.x.size(), 1));
   CHECK(rims.free_edge == edge);
 }
 
@@ -100,7 +101,7 @@ TEST_CASE("a_valley_of_the_edge_that_is_wider_than_a_notch_is_kept") {
   }
   LeafletSheet sheet = valley;
   SheetRims rims = rims_of(sheet);
-  CHECK(fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0)).last.empty());
+  CHECK(fill_notches(sheet, rims.free_edge, std::vector<uint8_t>(sheet.x.size(), 0)).last.empty());
   CHECK(sheet.triangles == valley.triangles);
 }
 
@@ -120,7 +121,8 @@ TEST_CASE("the_valley_of_a_commissure_is_kept_where_the_edge_is_torn") {
   }
   SheetRims rims = rims_of(sheet);
   const double before = surface_area(sheet.x, sheet.triangles);
-  const FilledNotches filled = fill_notches(sheet, rims, std::vector<uint8_t>(sheet.x.size(), 0));
+  const FilledNotches filled =
+      fill_notches(sheet, rims.free_edge, std::vector<uint8_t>(sheet.x.size(), 0));
   CHECK(filled.last.size() == 3);
   CHECK(filled.area == about(14e-6, 0.05));  // of the notches alone
   CHECK(surface_area(sheet.x, sheet.triangles) == about(before + filled.area));

@@ -72,7 +72,7 @@ TEST_CASE("a_filled_notch_with_a_wide_mouth_has_no_folds_and_leaves_no_flat_tria
   const size_t given = band.sheet.triangles.size();
   const std::vector<uint8_t> kept(band.sheet.x.size(), 0);
   band.sheet.thickness.assign(band.sheet.x.size(), 1.1e-3);
-  const FilledNotches filled = fill_notches(band.sheet, band.rims, kept);
+  const FilledNotches filled = fill_notches(band.sheet, band.rims.free_edge, kept);
   REQUIRE(filled.last.size() == 1);
   REQUIRE(filled.deepest > 1e-3);
   LeafletSheet filling;

@@ -40,11 +40,11 @@ struct Notch {
   double width = 0, depth = 0;  // m
 };
 
-class FreeEdge {
+class NotchedRim {
  public:
   // Vertices that are `kept` stay on the edge. A torn edge has gentle notches as well.
-  FreeEdge(LeafletSheet &sheet, std::vector<uint32_t> &loop, std::vector<uint8_t> kept,
-           bool is_torn)
+  NotchedRim(LeafletSheet &sheet, std::vector<uint32_t> &loop, std::vector<uint8_t> kept,
+             bool is_torn)
       : sheet_(sheet),
         loop_(loop),
         detour_(is_torn ? gentle_detour : sharp_detour),
@@ -230,7 +230,7 @@ FilledNotches fill_all(bool is_torn, const std::vector<uint8_t> &kept, LeafletSh
   FilledNotches filled;
   filled.sheet_triangles = sheet.triangles.size();
   const double area = surface_area(sheet.x, sheet.triangles);
-  FreeEdge edge(sheet, loop, kept, is_torn);
+  NotchedRim edge(sheet, loop, kept, is_torn);
   for (Notch notch = edge.largest(); notch.count > 0; notch = edge.largest()) {
     filled.inner.push_back(edge.fill(notch));
     filled.last.push_back(sheet.triangles.size());
@@ -245,15 +245,14 @@ FilledNotches fill_all(bool is_torn, const std::vector<uint8_t> &kept, LeafletSh
 
 }  // namespace
 
-FilledNotches fill_notches(LeafletSheet &sheet, SheetRims &rims, const std::vector<uint8_t> &kept) {
+FilledNotches fill_notches(LeafletSheet &sheet, std::vector<uint32_t> &rim,
+                           const std::vector<uint8_t> &kept) {
   LeafletSheet with_sharp = sheet;
-  std::vector<uint32_t> loop = rims.free_edge;
+  std::vector<uint32_t> loop = rim;
   FilledNotches sharp = fill_all(false, kept, with_sharp, loop);
-  if (sharp.last.size() >= sharp_of_torn) {
-    return fill_all(true, kept, sheet, rims.free_edge);
-  }
+  if (sharp.last.size() >= sharp_of_torn) return fill_all(true, kept, sheet, rim);
   sheet = std::move(with_sharp);
-  rims.free_edge = std::move(loop);
+  rim = std::move(loop);
   return sharp;
 }
 
@@ -280,19 +279,21 @@ bool keep_crossing(const FilledNotches &notches, const std::vector<Edge> &crossi
   return any;
 }
 
-void report_notches(const FilledNotches &notches, Findings &findings) {
+void report_notches(const FilledNotches &notches, NotchesOf rim, Findings &findings) {
   if (notches.last.empty()) return;
-  findings.push_back(
-      {"free_edge",
-       FindingSource::guessed,
-       0.6,
-       format("%zu notches of the free edge, up to %.1f mm deep and at most %.0f mm wide, were "
-              "filled with %.1f mm2 of tissue; the edge is %.1f mm shorter for it. Deeper clefts "
-              "are kept: if a notch is a cleft, extend it in the surface",
-              notches.last.size(), notches.deepest * 1e3, widest_notch * 1e3, notches.area * 1e6,
-              notches.saved * 1e3),
-       {notches.deepest, notches.saved, notches.mean_depth},
-       "m"});
+  const bool is_annulus = rim == NotchesOf::annulus;
+  std::string sentence = format(
+      "%zu notches of the %s, up to %.1f mm deep and at most %.0f mm wide, were filled with %.1f "
+      "mm2 "
+      "of tissue; the %s is %.1f mm shorter for it. ",
+      notches.last.size(), is_annulus ? "annulus" : "free edge", notches.deepest * 1e3,
+      widest_notch * 1e3, notches.area * 1e6, is_annulus ? "annulus" : "edge", notches.saved * 1e3);
+  sentence += is_annulus
+                  ? "If tissue ends there, extend the notch in the surface"
+                  : "Deeper clefts are kept: if a notch is a cleft, extend it in the surface";
+  const std::vector<double> values = {notches.deepest, notches.saved, notches.mean_depth};
+  findings.push_back({is_annulus ? "annulus_notches" : "free_edge", FindingSource::guessed, 0.6,
+                      std::move(sentence), values, "m"});
 }
 
 }  // namespace mvs::core

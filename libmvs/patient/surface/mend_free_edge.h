@@ -1,4 +1,4 @@
-// Notches of a torn or ragged free edge are filled.
+// Notches of a torn or ragged rim are filled: of the free edge, and of the annulus.
 #pragma once
 
 #include "patient/leaflet_sheet.h"
@@ -19,18 +19,22 @@ struct FilledNotches {
   std::vector<std::vector<uint32_t>> inner;  // vertices of each notch that left the edge
 };
 
-// Closes the free edge over its notches: in the order of the length that it becomes shorter by, a
-// notch is filled with triangles up to the straight line between both ends of its mouth: sharp
-// ones, and gentle ones as well if the edge is torn in several places. The bottoms of valleys, of
-// which the edge goes on rising beyond both ends of the mouth, stay as they are at a commissure.
-// Vertices with a mark in `kept` stay on the edge. Labels of new triangles are those beside them.
-FilledNotches fill_notches(LeafletSheet &sheet, SheetRims &rims, const std::vector<uint8_t> &kept);
+// Closes a rim of the sheet, free edge or annulus, over its notches: in the order of the length
+// that it becomes shorter by, a notch is filled with triangles up to the straight line between both
+// ends of its mouth: sharp ones, and gentle ones as well if the edge is torn in several places. The
+// bottoms of valleys, of which the edge goes on rising beyond both ends of the mouth, stay as they
+// are at a commissure. Vertices with a mark in `kept` stay on the edge. Labels of new triangles are
+// those beside them.
+FilledNotches fill_notches(LeafletSheet &sheet, std::vector<uint32_t> &rim,
+                           const std::vector<uint8_t> &kept);
 
 // Marks the vertices of the notches whose filling is in one of the pairs of crossing triangles, or
 // of all notches if none is; returns whether there was a vertex to mark.
 bool keep_crossing(const FilledNotches &notches, const std::vector<Edge> &crossings,
                    std::vector<uint8_t> &kept);
 
-void report_notches(const FilledNotches &notches, Findings &findings);
+enum class NotchesOf : uint8_t { free_edge, annulus };
+// Adds the finding "free_edge" or "annulus_notches" if there are any.
+void report_notches(const FilledNotches &notches, NotchesOf rim, Findings &findings);
 
 }  // namespace mvs::core
