@@ -11,8 +11,6 @@ namespace {
 
 // m: given commissures farther from the surface than landmarks by hand are doubted.
 constexpr double near_landmark = 3e-3;
-// Confidence in commissures that lie on the surface only if x and y are mirrored.
-constexpr double mirrored_confidence = 0.1;
 
 }  // namespace
 
@@ -46,13 +44,13 @@ void say_given(const CommissureFeet &found, Finding &finding) {
   const double farthest = std::max(distance[0], distance[1]);
   finding.sentence = format("the given points, %.1f and %.1f mm from the surface",
                             distance[0] * 1e3, distance[1] * 1e3);
-  if (farthest <= near_landmark) return;
-  finding.confidence = near_landmark / farthest;
+  const bool is_mirrored =
+      farthest > off_by_frame && fits_mirrored(farthest, found.mirrored, near_landmark);
+  if (farthest <= near_landmark && !is_mirrored) return;
+  finding.confidence = std::min(1.0, near_landmark / farthest);
   finding.sentence += ": are they of this patient and phase?" +
                       mirrored_words(farthest, found.mirrored, near_landmark);
-  if (fits_mirrored(farthest, found.mirrored, near_landmark)) {
-    finding.confidence = std::min(finding.confidence, mirrored_confidence);
-  }
+  if (is_mirrored) finding.confidence = std::min(finding.confidence, mirrored_confidence);
 }
 
 void doubt_high(const AnnulusSamples &annulus, const std::array<double, 2> &feet, double length,

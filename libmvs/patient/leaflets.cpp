@@ -13,6 +13,7 @@
 #include "patient/leaflet_heights.h"
 #include "patient/leaflet_labels.h"
 #include "patient/leaflet_odds.h"
+#include "patient/surface/mirrored.h"
 
 namespace mvs::core {
 namespace {
@@ -23,6 +24,9 @@ constexpr size_t samples = 120;
 constexpr double least_guessed_share = 0.28;
 // Odds of the leaflet that is said to be the anterior one, below which this is doubted.
 constexpr double doubtful_odds = 0.1;
+// The anterior leaflet is up to twice as high as the posterior one, and about as high where that is
+// enlarged. Below this share of its height a given one is doubted, with a confidence of this.
+constexpr double low_anterior = 0.75, low_confidence = 0.4;
 // Least over greatest height along the annulus, from which on no commissures are guessed: leaflets
 // are 0.25 to 0.5 times as high at a commissure as at A2, a tube cut straight is as high
 // everywhere.
@@ -131,6 +135,38 @@ void add_anterior(FindingSource source, const char *sentence, const AnteriorOdds
              sentence, 100 * (1 - odds), shape.cues.c_str()));
 }
 
+// The greatest height of the leaflet along an arc, m.
+double greatest_height(const std::vector<double> &height, double from, double to, double length) {
+  double most = 0;
+  for (size_t k = 0; k < samples; ++k) {
+    const double foot = (static_cast<double>(k) + 0.5) * length / samples;
+    if (contains(from, to, foot, length)) most = std::max(most, height[k]);
+  }
+  return most;
+}
+
+// Doubts a given anterior leaflet that is far lower than the other one, as with landmarks of
+// another frame.
+void doubt_low(const AnnulusSamples &annulus, const LeafletArcs &arcs, double length,
+               Finding &finding) {
+  const double own = greatest_height(annulus.height, arcs.from, arcs.to, length);
+  const double other = greatest_height(annulus.height, arcs.to, arcs.from + length, length);
+  if (own >= low_anterior * other) return;
+  finding.confidence = std::min(finding.confidence, low_confidence);
+  finding.sentence += format(
+      "; but it is up to %.0f mm high and the other one %.0f mm: are both leaflets swapped, or are "
+      "the landmarks in the other frame of LPS and RAS?",
+      own * 1e3, other * 1e3);
+}
+
+// Doubts an anterior point that lies on the surface only if x and y are mirrored.
+void doubt_mirrored(double distance, double other, Finding &finding) {
+  if (distance <= off_by_frame || !fits_mirrored(distance, other, farthest_landmark)) return;
+  finding.confidence = std::min(finding.confidence, mirrored_confidence);
+  finding.sentence += format(", which lies %.1f mm from the surface.", distance * 1e3) +
+                      mirrored_words(distance, other, farthest_landmark);
+}
+
 // Whether the leaflet along an arc is the anterior one. `shape`: the odds for it by its shape.
 bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
                  const LeafletLandmarks &landmarks, const LabelledArea &area,
@@ -146,6 +182,8 @@ bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
     const bool anterior = contains(from, to, place.foot, length);
     add_anterior(FindingSource::given, "the leaflet with the given point", shape, anterior,
                  findings);
+    doubt_mirrored(place.distance, place_on(sheet, c, mirrored(landmarks.anterior[0])).distance,
+                   findings.back());
     return anterior;
   }
   double labelled = 0;
@@ -210,6 +248,7 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
     arcs = {feet[1], feet[1] + wrapped(feet[0] - feet[1], length)};
     std::swap(commissures[0], commissures[1]);
   }
+  if (!landmarks.anterior.empty()) doubt_low(annulus, arcs, length, findings.back());
   const double share = (arcs.to - arcs.from) / length;
   MVS_MUST(share >= least_share && share <= 1 - least_share, MVS_E_OP, "commissures",
            "the anterior leaflet would be attached along %.0f %% of the annulus: is a leaflet "

@@ -143,6 +143,31 @@ TEST_CASE("commissures_in_the_other_frame_are_named_so") {
   }
 }
 
+TEST_CASE("a_given_anterior_leaflet_that_is_far_lower_or_fits_mirrored_is_doubted") {
+  ParametricSheet p = parametric_sheet(430);
+  for (Vec3 &x : p.sheet.x) x += Vec3(2e-3, 1.5e-3, 0);
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  Findings guessed, posterior, turned;
+  find_leaflets(p.sheet, p.rims, c, {}, guessed);
+  const Vec3 anterior = points_in(*find_finding(guessed, "anterior"))[0];
+  const std::vector<Vec3> ends = points_in(*find_finding(guessed, "commissures"));
+  Vec3 other = Vec3::Zero();
+  for (const uint32_t i : p.rims.annulus) {
+    if ((p.sheet.x[i] - anterior).norm() > (other - anterior).norm()) other = p.sheet.x[i];
+  }
+  find_leaflets(p.sheet, p.rims, c, {ends, {other}, {}}, posterior);
+  const Finding &low = *find_finding(posterior, "anterior");
+  CHECK(low.confidence <= 0.4);
+  CHECK(low.sentence.find("are both leaflets swapped") != std::string::npos);
+  find_leaflets(p.sheet, p.rims, c, {ends, {mirrored(anterior)}, {}}, turned);
+  const Finding &off = *find_finding(turned, "anterior");
+  CHECK(off.confidence <= 0.1);
+  CHECK(off.sentence.find("in the other frame") != std::string::npos);
+  Findings right;
+  find_leaflets(p.sheet, p.rims, c, {ends, {anterior}, {}}, right);
+  CHECK(find_finding(right, "anterior")->confidence == 1);
+}
+
 TEST_CASE("places_as_low_as_the_commissures_are_counted") {
   constexpr size_t n = 120;
   const auto heights = [](size_t leaflets) {

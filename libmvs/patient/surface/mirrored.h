@@ -17,6 +17,10 @@ inline std::vector<Vec3> mirrored(std::vector<Vec3> points) {
   return points;
 }
 
+// m: landmarks nearer than this are in the right frame. Confidence in those that fit if they are
+// mirrored only.
+inline constexpr double off_by_frame = 1e-3, mirrored_confidence = 0.1;
+
 // Whether landmarks fit with x and y mirrored: `other` (m, from where they belong) is within `near`
 // and at most a third of the distance as given.
 inline bool fits_mirrored(double as_given, double other, double near) {

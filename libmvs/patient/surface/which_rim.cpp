@@ -70,7 +70,10 @@ bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims
   finding.sentence = format(
       "the boundary %.1f mm from the given points in the mean; the other one is %.1f mm away",
       near * 1e3, far * 1e3);
-  if (near > near_annulus) {
+  if (near > off_by_frame && fits_mirrored(near, other(), near_annulus)) {
+    finding.confidence = std::min(finding.confidence, mirrored_confidence);
+    finding.sentence += "." + mirrored_words(near, other(), near_annulus);
+  } else if (near > near_annulus) {
     finding.confidence = std::min(finding.confidence, near_annulus / near);
     finding.sentence +=
         "; the leaflets are taken to begin at this boundary, not at the points: if tissue between "
