@@ -103,6 +103,10 @@ bool orient(LeafletSheet &sheet, std::vector<RimLoop> &rims, const std::vector<V
       rim.shape.area = -rim.shape.area;
     }
   }
+  // with the other rim as annulus the atrium is on the other side
+  if (const Finding *found = find_finding(findings, "annulus")) {
+    finding.confidence = std::min(finding.confidence, found->confidence);
+  }
   const Vec3 into_atrium = up < 0 ? Vec3(-axis) : axis;
   finding.value = {into_atrium.x(), into_atrium.y(), into_atrium.z()};
   findings.push_back(finding);

@@ -25,3 +25,11 @@ TEST_CASE("annulus_points_that_fit_the_rim_only_if_they_are_mirrored_are_doubted
   CHECK(is_doubtful(annulus));
   CHECK(annulus.sentence.find("With x and y mirrored they lie") != std::string::npos);
 }
+
+TEST_CASE("the_atrium_is_no_surer_than_the_annulus_that_it_follows_from") {
+  const ParametricSheet p = parametric_sheet(430);
+  Findings found;
+  rims_of(surface_of(p.sheet), {}, found);
+  CHECK(find(found, "annulus")->confidence < 1);
+  CHECK(find(found, "atrium")->confidence <= find(found, "annulus")->confidence);
+}
