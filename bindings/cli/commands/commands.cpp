@@ -45,4 +45,17 @@ CLI::Validator positive() {
       "POSITIVE");
 }
 
+CLI::Validator between(double least, double most, const std::string &unit) {
+  const std::string range =
+      text("%g to %g", least, most) + (unit.empty() ? std::string() : " " + unit);
+  return CLI::Validator(
+      [least, most, range](const std::string &given) {
+        double value = 0;
+        const bool good =
+            CLI::detail::lexical_cast(given, value) && value >= least && value <= most;
+        return good ? std::string() : "a number from " + range + " is needed, not " + given;
+      },
+      "{" + range + "}");
+}
+
 }  // namespace cli

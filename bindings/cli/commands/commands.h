@@ -58,4 +58,7 @@ CLI::Validator one_of(const std::vector<std::string> &names);
 // Accepts a finite number above 0.
 CLI::Validator positive();
 
+// A number from one to another one, in a unit that the sentence names.
+CLI::Validator between(double least, double most, const std::string &unit = "");
+
 }  // namespace cli

@@ -41,6 +41,31 @@ void warn_of_contradictions(const std::vector<mvs::BuildFinding> &findings) {
   }
 }
 
+// Refuses an output that is one of the inputs, under whatever name.
+void keep_inputs(const ImportOptions &options, const std::string &findings) {
+  for (const std::string &out : {options.out, findings}) {
+    for (const std::string *in :
+         {&options.surface, &options.annulus, &options.commissures, &options.anterior,
+          &options.tips, &options.closed, &options.closed_annulus, &options.closed_tips}) {
+      std::error_code unknown;  // of a file that is not there
+      if (in->empty() || !std::filesystem::equivalent(out, *in, unknown)) continue;
+      fail(MVS_E_ARGUMENT, "output",
+           out + ": is the input " + *in + " as well, which would be lost: give another output");
+    }
+  }
+}
+
+// Names edited values of an earlier import that are not used, as the build measures them again.
+void warn_of_ignored(const KnownValues &known, const std::string &path) {
+  for (const std::string &name : known.ignored) {
+    std::fprintf(stderr, "mvs: warning: %s: the edited value of \"%s\" is not used: %s\n",
+                 path.c_str(), name.c_str(),
+                 is_input(name) ? "it was measured, and is measured again; change its source to "
+                                  "\"given\" if it is known"
+                                : "it is a result of the build and no input");
+  }
+}
+
 void run_import(const ImportOptions &given, Console &console) {
   ImportOptions options = given;
   options.build.edge = options.edge * 1e-3;
@@ -50,6 +75,9 @@ void run_import(const ImportOptions &given, Console &console) {
   options.build.edge_lost = options.edge_lost * 1e-3;
   options.build.thickness_error = options.thickness_error * 1e-3;
   options.build.leaflet_law = law_of(options.leaflet);
+  options.build.without_leak = options.no_leak ? 1 : 0;
+  const std::string path = findings_path(options);
+  keep_inputs(options, path);
   KnownValues known;
   const ImportInput input = read_input(given, options, known);
   warn_of_whole_valve(options.surface);
@@ -62,10 +90,10 @@ void run_import(const ImportOptions &given, Console &console) {
   std::vector<mvs::BuildFinding> findings =
       mvs::build_valve(sim, desc_of(input, options, name), options.build);
   keep_doubts(known, findings);
+  warn_of_ignored(known, options.with);
   warn_of_contradictions(findings);
   const mvs::Snapshot valve = sim.snapshot();
   valve.save(options.out);
-  const std::string path = findings_path(options);
   write_findings(path, options.surface, findings);
   const Size size = size_of(valve);
   print(
@@ -106,17 +134,20 @@ void add_range_options(CLI::App &command, ImportOptions &options) {
           "--edge-error", options.edge_error,
           "how far the free edge may lie farther out or in, mm: widens the interval of leaks "
           "[0]")
-      ->check(positive());
+      ->check(between(0.001, 5, "mm"));
   command
       .add_option("--edge-lost", options.edge_lost,
                   "tissue that may be missing at the free edge, mm: widens the interval of leaks "
                   "[half of the mean depth of its filled notches; 0.001: none]")
-      ->check(positive());
+      ->check(between(0.001, 5, "mm"));
   command
       .add_option("--thickness-error", options.thickness_error,
                   "by how much the leaflets may be thicker or thinner, mm: widens the interval of "
                   "leaks [0]")
-      ->check(positive());
+      ->check(between(0.001, 2, "mm"));
+  command.add_flag("--no-leak", options.no_leak,
+                   "leave the leak and its interval out, which take most of the time of an import "
+                   "without --closed; mvs leak finds them later");
 }
 
 }  // namespace
@@ -147,20 +178,20 @@ void add_import(CLI::App &app, Console &console) {
   auto *array = command->add_option("--thickness-array", options->thickness_array,
                                     "array of the surface: thickness per point, in its unit");
   command->add_option("--thickness", options->thickness, "of the leaflets, mm [0.8]")
-      ->check(positive())
+      ->check(between(0.1, 5, "mm"))
       ->excludes(array);
   command->add_option("--edge", options->edge, "sides of the new triangles, mm [1,000 vertices]")
-      ->check(positive());
+      ->check(between(0.2, 5, "mm"));
   command
       ->add_option("--coaptation-length", options->coaptation_length,
                    "overlap in the middle for which rest lengths are chosen, mm [8]")
-      ->check(positive());
+      ->check(between(1, 20, "mm"));
   command
       ->add_option("--chord-slack", options->build.chord_factor,
                    "factor on the rest length of every chord [1]")
-      ->check(positive());
+      ->check(between(0.5, 2));
   command->add_option("--chords", options->build.chords, "chord segments, about [100]")
-      ->check(positive());
+      ->check(between(20, 400));
   add_range_options(*command, *options);
   add_law_option(*command, options->leaflet, "membrane; with --closed the nearest one");
   command->add_option("--with", options->with,

@@ -94,6 +94,17 @@ const Input *find_input(const std::string &name) {
   return found == std::end(inputs) ? nullptr : found;
 }
 
+// Whether the values of a finding that a build wrote are others now. Not numbers: they are not
+// used.
+bool is_edited(const Json &row) {
+  std::vector<double> values;
+  for (const Json &value : row.value("values", Json::array())) {
+    if (!value.is_number()) return true;
+    values.push_back(value.get<double>());
+  }
+  return row.contains("unedited") && row["unedited"] != digest_of(values);
+}
+
 std::string names_of_inputs() {
   std::string names;
   for (const Input &input : inputs) names += (names.empty() ? "" : ", ") + std::string(input.name);
@@ -135,6 +146,10 @@ void write_findings(const std::string &path, const std::string &surface,
   replace_file(path, object.dump(2) + "\n", "findings");
 }
 
+bool is_input(const std::string &name) {
+  return find_input(name) != nullptr;
+}
+
 KnownValues read_findings(const std::string &path) {
   const Json object = parsed(path);
   if (!object.is_object() || object.value("format", "") != "libmvs import") {
@@ -161,7 +176,10 @@ KnownValues read_findings(const std::string &path) {
           path, name,
           "the finding \"" + name + "\" is no input of a build; inputs are " + names_of_inputs());
     }
-    if (!input || source == "measured") continue;
+    if (!input || source == "measured") {
+      if (is_edited(row)) known.ignored.push_back(name);
+      continue;
+    }
     std::vector<double> &values = known.*input->values;
     values = numbers_of(path, name, row);
     if (values.empty() || values.size() % input->width != 0 ||

@@ -27,11 +27,15 @@ struct KnownValues {
   std::vector<double> tissue;                                             // one, MVS_LEAFLET_LAW_*
   // guesses and assumptions of the file with unedited values, by name
   std::map<std::string, mvs::BuildFinding> unsure;
+  std::vector<std::string> ignored;  // names of edited findings that are no values for a build
 };
 
 // The values of a file of findings that are given, guessed or assumed. Measured ones are left out,
 // as the build measures them again; a source that is changed to "given" counts.
 KnownValues read_findings(const std::string &path);
+
+// Whether a finding is an input of a build.
+bool is_input(const std::string &name);
 
 // A value that was read back as it was found is as sure as it was found: gives such findings of a
 // build that takes it for given their source, confidence and doubt.

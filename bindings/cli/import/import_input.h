@@ -13,6 +13,7 @@ namespace cli {
 struct ImportOptions {
   std::string surface, out, findings_out, with;
   std::string annulus, commissures, anterior, tips, closed, closed_annulus, closed_tips;
+  bool no_leak = false;
   std::string kind, leaflet, label_array, thickness_array;
   FileOptions files;
   double edge = 0, thickness = 0, coaptation_length = 0;      // mm

@@ -15,9 +15,9 @@ pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 from label_images import NAMES, VOXEL, funnel, image_of  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging import requests  # noqa: E402
-from mvs.imaging.command import main, parser_of  # noqa: E402
+from mvs.imaging.command import check_outputs, main, parser_of  # noqa: E402
 from mvs.imaging.console import Console  # noqa: E402
-from mvs.imaging.findings import read_known  # noqa: E402
+from mvs.imaging.findings import finding, read_known, write_findings  # noqa: E402
 
 
 def test_spacing_in_metres_or_cm_and_other_files_are_refused(tmp_path):
@@ -229,6 +229,36 @@ def test_faulty_rows_of_a_file_of_findings_are_named(tmp_path, row, words):
     path.write_text(json.dumps({"format": "libmvs import", "version": 1, "findings": [row]}))
     with pytest.raises(mvs.FormatError, match=words):
         read_known(path)
+
+
+def test_edited_rows_that_are_not_used_are_warned_of(tmp_path):
+    path = tmp_path / "a.import.json"
+    write_findings(path, "a.nrrd", [finding(name, source, 1, "", [1e-3], "m") for name, source in (
+        ("surface", mvs.FindingSource.MEASURED), ("thickness", mvs.FindingSource.MEASURED),
+        ("edge_error", mvs.FindingSource.ASSUMED))])
+    assert read_known(path) == {"edge_error": 1e-3}
+    written = json.loads(path.read_text())
+    for row in written["findings"]:
+        row["values"] = [2e-3]
+    path.write_text(json.dumps(written))
+    with pytest.warns(mvs.ValveWarning) as warned:
+        assert read_known(path) == {"edge_error": 2e-3}
+    assert [str(one.message).split('"')[1] for one in warned] == ["surface", "thickness"]
+    assert "change its source" in str(warned[1].message)
+
+
+def test_an_output_that_is_an_input_is_refused(tmp_path):
+    image = tmp_path / "open.obj"  # whatever it holds: it is not read
+    image.write_bytes(b"kept")
+    chosen = parser_of()[0].parse_args(["build", str(image), "-o", str(image)])
+    with pytest.raises(mvs.ArgumentError, match="is an input as well"):
+        check_outputs(chosen)
+    assert image.read_bytes() == b"kept"
+    tips = tmp_path / "valve.import.json"
+    tips.write_text("{}")
+    chosen = parser_of()[0].parse_args(["build", str(image), "-o", str(tmp_path / "valve.h5"), "--tips", str(tips)])
+    with pytest.raises(mvs.ArgumentError, match="valve.import.json: is an input as well"):
+        check_outputs(chosen)
 
 
 def test_loaded_landmarks_are_the_boundary_under_load(tmp_path, monkeypatch):

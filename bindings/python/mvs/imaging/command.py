@@ -120,12 +120,18 @@ def _count(text: str) -> int:
 VALVE_ENDINGS = (".h5", ".vtkhdf", ".obj", ".vtp", ".vtm", ".feb")
 
 
+def findings_path(chosen: argparse.Namespace) -> Path:
+    return chosen.findings or chosen.output.with_suffix(".import.json")
+
+
 def check_outputs(chosen: argparse.Namespace) -> None:
     """Refuses, before the work, outputs that cannot be written and a plan that cannot be read."""
     if chosen.output.suffix.lower() not in VALVE_ENDINGS:
         raise mvs.ArgumentError(f"{chosen.output}: the ending names no known format: known endings are "
                                 f"{', '.join(VALVE_ENDINGS)}", "output")
-    for path in (chosen.output, chosen.findings, chosen.report):
+    inputs = [value for name, value in vars(chosen).items()
+              if isinstance(value, Path) and name not in ("output", "findings", "report", "known")]
+    for path in (chosen.output, findings_path(chosen), chosen.report):
         if path is None:
             continue
         if path.is_dir():
@@ -134,6 +140,8 @@ def check_outputs(chosen: argparse.Namespace) -> None:
             raise mvs.IoError(f"{path}: there is no folder {path.parent}: create it first", "output")
         if not os.access(path.parent, os.W_OK):
             raise mvs.IoError(f"{path}: the folder {path.parent} cannot be written", "output")
+        if any(path.exists() and source.exists() and path.samefile(source) for source in inputs):
+            raise mvs.ArgumentError(f"{path}: is an input as well, which would be lost: give another output", "output")
     if chosen.plan:
         try:
             json.loads(chosen.plan.read_text(encoding="utf-8"))
@@ -155,7 +163,7 @@ def run_build(chosen: argparse.Namespace) -> int:
         console.stage("repair")
         made.repair = repaired(made.opened, chosen.plan)
     made.opened.save(str(chosen.output))
-    findings = chosen.findings or chosen.output.with_suffix(".import.json")
+    findings = findings_path(chosen)
     write_findings(findings, str(chosen.image), made.findings)
     if chosen.report:
         from .page import write_page

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 import os
+import warnings
 from collections.abc import Iterable, Sequence
 from typing import Any, Union
 
@@ -56,7 +57,7 @@ def _digest(values: Sequence[float]) -> str:
 def read_rows(path: Union[str, "os.PathLike[str]"]) -> list[dict[str, Any]]:
     """The inputs of a build among the findings of a file (`--with`) that are given, guessed or assumed.
 
-    Measured ones are left out: they are measured again. FormatError for another file, and for a row without a name or
+    Measured ones are left out: they are measured again, with a warning if they were edited. FormatError for another file, and for a row without a name or
     one written by hand that is no input.
     """
     try:
@@ -73,7 +74,22 @@ def read_rows(path: Union[str, "os.PathLike[str]"]) -> list[dict[str, Any]]:
         if row["name"] not in INPUTS and "unedited" not in row:  # written by hand: those of a build have a digest
             raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" is no input of a build; inputs are "
                                   f"{', '.join(INPUTS)}", row["name"])
-    return [row for row in rows if row["name"] in INPUTS and row.get("source") != "measured"]
+    used = [row for row in rows if row["name"] in INPUTS and row.get("source") != "measured"]
+    for row in rows:
+        if row not in used and _is_edited(row):
+            why = ('it was measured, and is measured again; change its source to "given" if it is known'
+                   if row["name"] in INPUTS else "it is a result of the build and no input")
+            warnings.warn(f"{os.fspath(path)}: the edited value of \"{row['name']}\" is not used: {why}",
+                          mvs.ValveWarning, stacklevel=2)
+    return used
+
+
+def _is_edited(row: dict[str, Any]) -> bool:
+    """Whether the values of a finding that a build wrote are others now."""
+    try:
+        return "unedited" in row and row["unedited"] != _digest(row.get("values", ()))
+    except (TypeError, ValueError):  # no numbers
+        return True
 
 
 def read_known(path: Union[str, "os.PathLike[str]"]) -> dict[str, Any]:

@@ -1,0 +1,81 @@
+"""Inputs of `mvs import`: units, landmarks, edited findings, options, and outputs that are inputs."""
+import json
+import pathlib
+import tempfile
+import unittest
+
+from test_surface_import import mvs, read_obj, write_markups, write_ply, write_stl
+
+
+class ImportInputs(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.dir = pathlib.Path(folder.name)
+        assert mvs("generate", "-o", cls.dir / "made.obj").returncode == 0
+        cls.points, cls.triangles = read_obj(cls.dir / "made.obj")
+        write_stl(cls.dir / "open.stl", cls.points, cls.triangles)
+        cls.first = cls.run_import("first.h5")
+        rows = json.loads((cls.dir / "first.import.json").read_text())["findings"]
+        cls.found = {row["name"]: row for row in rows}
+
+    @classmethod
+    def run_import(cls, out, *arguments, surface="open.stl"):
+        return mvs("import", cls.dir / surface, "-o", cls.dir / out, "--edge", "3.2", "--no-leak", *arguments)
+
+    def points_of(self, name):
+        values = self.found[name]["values"]
+        return [values[k:k + 3] for k in range(0, len(values), 3)]
+
+    def refused(self, words, *arguments, code=1):
+        done = self.run_import("refused.h5", *arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(words, done.stderr)
+        self.assertFalse((self.dir / "refused.h5").exists())
+
+    def test_the_leak_is_left_out_if_it_is_not_wanted(self):
+        self.assertEqual(self.first.returncode, 0, self.first.stderr)
+        self.assertIn("chordae", self.found)
+        for name in ("leak", "leak_interval", "leak_limits"):
+            self.assertNotIn(name, self.found)
+
+    def test_an_output_that_is_an_input_is_refused(self):
+        for name in ("same.obj", "same2.obj"):
+            path = self.dir / name
+            path.write_bytes((self.dir / "made.obj").read_bytes())
+        (self.dir / "link.obj").symlink_to(self.dir / "same.obj")
+        for out in ("same.obj", "link.obj"):
+            done = self.run_import(out, surface="same.obj")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("is the input", done.stderr)
+        self.assertEqual((self.dir / "same.obj").read_bytes(), (self.dir / "made.obj").read_bytes())
+        tips = self.dir / "marks.mrk.json"
+        write_markups(tips, self.points_of("papillary_tips"), "LPS")
+        done = self.run_import("tips.h5", "--frame", "LPS", "--tips", tips, "--findings", tips)
+        self.assertIn("is the input", done.stderr)
+
+    def test_edited_values_that_are_not_used_are_named(self):
+        edited = self.dir / "edited.json"
+        rows = json.loads((self.dir / "first.import.json").read_text())
+        for row in rows["findings"]:
+            if row["name"] in ("surface", "thickness"):
+                row["values"] = [row["values"][0] * 1.5]
+        edited.write_text(json.dumps(rows))
+        done = self.run_import("edited.h5", "--with", edited)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn('the edited value of "surface" is not used', done.stderr)
+        self.assertNotIn("thickness", done.stderr)
+        self.assertEqual(done.stderr.count("is not used"), 1)
+
+    def test_ranges_of_options_are_in_mm(self):
+        for option, value, range_ in (("--thickness", "30", "0.1 to 5 mm"), ("--chords", "500", "20 to 400"),
+                                      ("--coaptation-length", "nan", "1 to 20 mm"), ("--edge-lost", "0", "0.001 to 5 mm")):
+            self.refused(f"a number from {range_} is needed, not {value}", option, value, code=2)
+        done = mvs("import", self.dir / "open.stl", "-o", self.dir / "wide.h5", "--edge", "20")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("0.2 to 5 mm is needed, not 20", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
