@@ -44,6 +44,7 @@ SurfaceFile read_surface_file(std::string_view bytes, std::string_view name,
   const std::string small = in_small_letters(name);
   for (const SurfaceReader &reader : surface_readers) {
     if (!small.ends_with(reader.ending)) continue;
+    MVS_MUST(!bytes.empty(), MVS_E_FORMAT, "path", "the file is empty");
     MVS_MUST(bytes.size() <= reader.most_bytes, MVS_E_MEMORY, "path",
              "the file has %zu bytes, the limit of this format is %zu", bytes.size(),
              reader.most_bytes);

@@ -40,6 +40,35 @@ class ImportInputs(unittest.TestCase):
         for name in ("leak", "leak_interval", "leak_limits"):
             self.assertNotIn(name, self.found)
 
+    def test_markups_without_a_unit_have_that_of_the_option_and_a_stated_unit_counts(self):
+        tips = self.points_of("papillary_tips")
+        path = self.dir / "tips.mrk.json"
+        write_markups(path, tips, "LPS")
+        stated = json.loads(path.read_text())
+        del stated["markups"][0]["coordinateUnits"]
+        path.write_text(json.dumps(stated))
+        done = self.run_import("mm.h5", "--tips", path, "--frame", "LPS")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        write_ply(self.dir / "mm.ply", self.points, self.triangles, "LPS")
+        text = (self.dir / "mm.ply").read_text().replace("comment SPACE=LPS", "comment SPACE=LPS\ncomment units=mm")
+        (self.dir / "mm.ply").write_text(text)
+        done = self.run_import("stated.h5", "--unit", "m", surface="mm.ply")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = self.run_import("refused.h5", "--unit", "m", "--tips", path, surface="mm.ply")
+        self.assertIn("are both in one frame (LPS or RAS)", done.stderr)
+
+    def test_landmarks_that_are_a_surface_or_no_points_of_a_valve_are_refused(self):
+        self.refused("is a surface of triangles", "--annulus", self.dir / "open.stl")
+        table = self.dir / "far.csv"
+        table.write_text("x,y,z\n1e300,5,0\n-10,5,0\n")
+        self.refused("row 0 of commissures", "--commissures", table)
+        self.refused("row 0 of annulus", "--annulus", table)
+        table.write_text("x,y,z\n0,5,0\n1,5,0\n")
+        self.refused("anterior has 2 points: give one point", "--anterior", table)
+        (self.dir / "empty.stl").write_bytes(b"")
+        done = self.run_import("refused.h5", surface="empty.stl")
+        self.assertIn("empty.stl: the file is empty", done.stderr)
+
     def test_an_output_that_is_an_input_is_refused(self):
         for name in ("same.obj", "same2.obj"):
             path = self.dir / name

@@ -15,6 +15,20 @@ mvs_patient_frame frame_number(const std::string &frame) {
   return frame == "RAS" ? MVS_PATIENT_FRAME_RAS : MVS_PATIENT_FRAME_UNKNOWN;
 }
 
+// Opens a file with the unit that it states, else with that of the user.
+mvs::SurfaceFile opened(const std::string &path, const FileOptions &options) {
+  mvs_surface_file_options how = {};
+  how.unit = unit_number(options.unit);
+  how.frame = MVS_PATIENT_FRAME_LPS;
+  try {
+    return mvs::SurfaceFile(path, how);
+  } catch (const mvs::Error &error) {
+    if (error.part() != "options.unit") throw;
+    how.unit = 0;
+    return mvs::SurfaceFile(path, how);
+  }
+}
+
 bool is_of_slicer(const std::string &path) {
   return path.ends_with(".json") || path.ends_with(".fcsv");
 }
@@ -22,7 +36,7 @@ bool is_of_slicer(const std::string &path) {
 }  // namespace
 
 void add_file_options(CLI::App &command, FileOptions &options) {
-  command.add_option("--unit", options.unit, "lengths of all files: mm, cm or m")
+  command.add_option("--unit", options.unit, "lengths of files that state no unit: mm, cm or m")
       ->capture_default_str()
       ->check(one_of({"mm", "cm", "m"}));
   command
@@ -40,10 +54,7 @@ PatientFiles::PatientFiles(const FileOptions &options, const std::string &surfac
 
 void PatientFiles::add_surface(const std::string &path) {
   if (path.empty() || files_.contains(path)) return;
-  mvs_surface_file_options how = {};
-  how.unit = unit_number(options_.unit);
-  how.frame = MVS_PATIENT_FRAME_LPS;
-  mvs::SurfaceFile file(path, how);
+  mvs::SurfaceFile file = opened(path, options_);
   if (file.info().triangles.count == 0) {
     fail(MVS_E_FORMAT, path, path + ": has points and no triangles: a surface is needed here");
   }
@@ -51,12 +62,12 @@ void PatientFiles::add_surface(const std::string &path) {
 }
 
 void PatientFiles::add_landmarks(const std::string &path) {
-  if (path.empty() || files_.contains(path)) return;
-  mvs_surface_file_options how = {};
-  const bool states_unit = path.ends_with(".json");
-  how.unit = states_unit ? 0 : unit_number(options_.unit);
-  how.frame = MVS_PATIENT_FRAME_LPS;
-  files_.emplace(path, mvs::SurfaceFile(path, how));
+  if (path.empty()) return;
+  if (!files_.contains(path)) files_.emplace(path, opened(path, options_));
+  if (file(path).info().triangles.count > 0) {
+    fail(MVS_E_FORMAT, path,
+         path + ": is a surface of triangles: landmarks are needed here, as points or a curve");
+  }
 }
 
 void PatientFiles::settle_frames() {

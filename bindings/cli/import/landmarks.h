@@ -11,8 +11,8 @@ namespace cli {
 
 // How files state their unit and frame.
 struct FileOptions {
-  std::string unit = "mm";
-  std::string frame;  // of files that state none; empty: that of the others
+  std::string unit = "mm";  // of files that state none
+  std::string frame;        // of files that state none; empty: that of the others
 };
 void add_file_options(CLI::App &command, FileOptions &options);
 
