@@ -36,7 +36,8 @@ typedef struct mvs_surface_desc {
   mvs_array points;           /* F64 or F32, n x 3, required */
   mvs_array triangles;        /* U32, m x 3 [each three points in turn are a triangle] */
   mvs_array triangle_leaflet; /* U32, m: MVS_LEAFLET_LABEL_* [split between the commissures] */
-  mvs_array point_thickness;  /* F64, n, m: of the tissue [of a skin its own, else the option] */
+  mvs_array point_thickness;  /* F64, n, m: of the tissue, 1e-4 to 5e-3 [of a skin its own, else the
+                                 option] */
   mvs_array annulus;          /* k x 3, points along the annulus in any order; tissue beyond a curve
                                  through six or more of them all around it is cut off as wall of
                                  the atrium [guessed: the boundary that is farther from the
@@ -64,11 +65,11 @@ typedef struct mvs_build_options {
                                   "tissue", whose value is the law] */
   double edge;                 /* m, length of the triangles' sides, 2e-4 to 5e-3 [as for 1,000
                                   vertices] */
-  double thickness;            /* m, where it is not known per point [0.8e-3] */
+  double thickness;            /* m, where it is not known per point, 1e-4 to 5e-3 [0.8e-3] */
   double chord_factor;         /* on all rest lengths [1] */
   double coaptation_length;    /* m, overlap of both leaflets in the middle for which rest lengths
                                   are chosen if no closed surface is given [8e-3] */
-  uint32_t chords;             /* about this number of chord segments, 20 to 1000 [100] */
+  uint32_t chords;             /* about this number of chord segments, 20 to 400 [100] */
   uint32_t reserved;
   double edge_error;      /* m, up to 5e-3: how far the free edge may lie farther out or in than
                              in the surface; widens the interval of leaks [0] */

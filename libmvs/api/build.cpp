@@ -108,9 +108,9 @@ BuildSettings read_options(const mvs_build_options *given) {
   settings.edge_lost = options.edge_lost;
   must_be_in(options.thickness_error, 1e-6, 2e-3, "options.thickness_error");
   settings.thickness_error = options.thickness_error;
-  MVS_MUST(options.chords == 0 || (options.chords >= 20 && options.chords <= 1000), MVS_E_ARGUMENT,
-           "options.chords",
-           "options.chords is %u: it has to be 0 (the default, 100) or 20 to 1000", options.chords);
+  MVS_MUST(options.chords == 0 || (options.chords >= 20 && options.chords <= 400), MVS_E_ARGUMENT,
+           "options.chords", "options.chords is %u: it has to be 0 (the default, 100) or 20 to 400",
+           options.chords);
   if (options.chords != 0) settings.chords = options.chords;
   return settings;
 }

@@ -29,8 +29,8 @@ constexpr double seam_share = 0.1;
 // m: the largest extent of a mitral valve. The smallest annulus of an infant is 10 mm wide; a
 // dilated annulus is 60 mm wide, with papillary muscles and a margin 150 mm.
 constexpr double least_extent = 10e-3, most_extent = 150e-3;
-// m: tissue of leaflets has 0.5 to 5 mm.
-constexpr double least_tissue = 0.05e-3, most_tissue = 10e-3;
+// m: the range of mvs_build_options.thickness.
+constexpr double least_tissue = 0.1e-3, most_tissue = 5e-3;
 
 void check_arrays(const std::vector<Vec3> &points, const std::vector<Tri> &triangles,
                   const std::vector<LeafletLabel> &label, const std::vector<double> &thickness) {
@@ -47,7 +47,7 @@ void check_arrays(const std::vector<Vec3> &points, const std::vector<Tri> &trian
   for (size_t i = 0; i < thickness.size(); ++i) {
     MVS_MUST(
         thickness[i] >= least_tissue && thickness[i] <= most_tissue, MVS_E_OP, "point_thickness",
-        "the thickness at point %zu is %g m: tissue has 0.0005 to 0.005 m; %s", i, thickness[i],
+        "the thickness at point %zu is %g m: it has to be 0.0001 to 0.005 m; %s", i, thickness[i],
         thickness[i] > 0 && thickness[i] < least_tissue
             ? "multiply by 1000 if it is in m and taken for mm"
             : "divide by 1000 if it is in mm");

@@ -1285,7 +1285,7 @@ export interface SurfaceDesc {
   triangles?: ArrayInput;
   /** U32, m: MVS_LEAFLET_LABEL_* [split between the commissures] */
   triangle_leaflet?: ArrayInput;
-  /** F64, n, m: of the tissue [of a skin its own, else the option] */
+  /** F64, n, m: of the tissue, 1e-4 to 5e-3 [of a skin its own, else the option] */
   point_thickness?: ArrayInput;
   /**
    * k x 3, points along the annulus in any order; tissue beyond a curve through six or more of them
@@ -1331,7 +1331,7 @@ export interface BuildOptions {
   leaflet_law?: LeafletLaw | number;
   /** m, length of the triangles' sides, 2e-4 to 5e-3 [as for 1,000 vertices] */
   edge?: number;
-  /** m, where it is not known per point [0.8e-3] */
+  /** m, where it is not known per point, 1e-4 to 5e-3 [0.8e-3] */
   thickness?: number;
   /** on all rest lengths [1] */
   chord_factor?: number;
@@ -1340,7 +1340,7 @@ export interface BuildOptions {
    * surface is given [8e-3]
    */
   coaptation_length?: number;
-  /** about this number of chord segments, 20 to 1000 [100] */
+  /** about this number of chord segments, 20 to 400 [100] */
   chords?: number;
   /**
    * m, up to 5e-3: how far the free edge may lie farther out or in than in the surface; widens the
