@@ -215,7 +215,7 @@ def test_chords_get_lengths_with_which_the_valve_closes_to_a_given_surface(surfa
     assert found["tissue"].source == mvs.FindingSource.GUESSED
     assert list(found["tissue"].values) == [mvs.LeafletLaw.BILINEAR]
     # the interval of leaks counts the distance that the fit leaves
-    assert "mm (RMS) from the given surface: with edges" in found["leak_interval"].sentence
+    assert "faces) from the given surface: with edges" in found["leak_interval"].sentence
     assert list(found["leak_limits"].values) == [0.5e-6, 20e-6]
     with mvs.Simulator() as sim:
         sim.build_valve(**surface)

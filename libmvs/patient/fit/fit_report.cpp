@@ -23,8 +23,8 @@ void report_distance(const ChordFit &fit, const FitSettings &s, double confidenc
       {"closed_fit",
        FindingSource::measured,
        confidence,
-       format("chordae fitted in %u rounds: the closed valve is %.2f mm (RMS) from the given "
-              "surface, %.2f mm before%s%s%s",
+       format("chordae fitted in %u rounds: the closed valve is %.2f mm (RMS, between tissue that "
+              "faces the same way) from the given surface, %.2f mm before%s%s%s",
               fit.rounds, fit.rms * 1e3, fit.rms_before * 1e3,
               fit.at_rest ? "" : "; it did not come to rest",
               bound.empty() ? "" : "; factors at their limit, are tips and rest shape right? ",

@@ -20,7 +20,8 @@ std::string area_words(double leak) {
 
 std::string shape_words(const ShapeLeaks &shape) {
   return format(
-      "; the closed valve lies %.2f mm (RMS) from the given surface: with edges %.2f mm short of "
+      "; the closed valve lies %.2f mm (RMS, to the nearest tissue, whichever way it faces) from "
+      "the given surface: with edges %.2f mm short of "
       "where they are it leaks %s, and %s through gaps as much narrower on both sides",
       shape.distance * 1e3, shape.error * 1e3, area_words(shape.most).c_str(),
       area_words(shape.least).c_str());
