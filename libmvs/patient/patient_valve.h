@@ -2,7 +2,7 @@
 #pragma once
 
 #include "model/model.h"
-#include "patient/annulus_motion.h"
+#include "patient/annulus/annulus_motion.h"
 #include "patient/chordae/papillary_tips.h"
 #include "patient/findings.h"
 #include "patient/mesh/remesh_sheet.h"

@@ -1,5 +1,5 @@
 // The loaded annulus: by rims of a closed surface, by a given curve, refused.
-#include "patient/annulus_motion.h"
+#include "patient/annulus/annulus_motion.h"
 
 #include <doctest/doctest.h>
 

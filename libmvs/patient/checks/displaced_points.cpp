@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "patient/closed_curve.h"
+#include "patient/annulus/closed_curve.h"
 #include "patient/findings.h"
 #include "patient/surface/weld.h"
 

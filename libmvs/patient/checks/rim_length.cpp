@@ -1,13 +1,9 @@
-// Fourier coefficients by the trapezoidal rule, and the length of their curve.
 #include "patient/checks/rim_length.h"
 
 #include <algorithm>
-#include <array>
-#include <numbers>
 
 #include "base/error.h"
-#include "base/math.h"
-#include "patient/closed_curve.h"
+#include "patient/annulus/curve_waves.h"
 #include "patient/findings.h"
 
 namespace mvs::core {
@@ -21,26 +17,9 @@ constexpr double rough = 1.08;
 }  // namespace
 
 double smooth_length(const std::vector<Vec3> &polygon) {
-  const ClosedCurve curve(polygon);
-  constexpr double step = 2 * std::numbers::pi / samples;
-  std::array<Vec3, waves> by_cos, by_sin;
-  for (size_t k = 0; k < waves; ++k) {
-    by_cos[k] = by_sin[k] = Vec3::Zero();
-    for (size_t j = 0; j < samples; ++j) {
-      const auto share = static_cast<double>(j) / samples;
-      const double angle = static_cast<double>((k + 1) * j % samples) * step;
-      const Vec3 p = 2.0 / samples * curve.at(share * curve.length());
-      by_cos[k] += math::cos(angle) * p;
-      by_sin[k] += math::sin(angle) * p;
-    }
-  }
+  const CurveWaves smooth(ClosedCurve(polygon), polygon, waves);
   const auto point = [&](size_t j) {
-    Vec3 sum = Vec3::Zero();
-    for (size_t k = 0; k < waves; ++k) {
-      const double angle = static_cast<double>((k + 1) * j % samples) * step;
-      sum += math::cos(angle) * by_cos[k] + math::sin(angle) * by_sin[k];
-    }
-    return sum;
+    return smooth.at(static_cast<double>(j) / samples * smooth.length());
   };
   double length = 0;
   Vec3 last = point(samples - 1);

@@ -9,7 +9,7 @@
 #include "geometry/triangle_bvh.h"
 #include "model/compressed_rows.h"
 #include "model/sides.h"
-#include "patient/closed_curve.h"
+#include "patient/annulus/closed_curve.h"
 
 namespace mvs::core {
 namespace {

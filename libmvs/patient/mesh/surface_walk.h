@@ -3,7 +3,7 @@
 #pragma once
 
 #include "model/compressed_rows.h"
-#include "patient/closed_curve.h"
+#include "patient/annulus/closed_curve.h"
 #include "patient/leaflet_sheet.h"
 
 namespace mvs::core {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "patient/closed_curve.h"
+#include "patient/annulus/closed_curve.h"
 #include "patient/doubtful.h"
 #include "patient/mid_sheet.h"
 #include "tests/about.h"

@@ -1,5 +1,5 @@
 // Nearest points, unwrapped, and their smooth difference from even places.
-#include "patient/closed_curve.h"
+#include "patient/annulus/closed_curve.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "measure/comparison/register.h"
-#include "patient/annulus_waves.h"
+#include "patient/annulus/curve_waves.h"
 #include "patient/fit/surface_match.h"
 #include "patient/leaflet_sheet.h"
 
@@ -34,7 +34,7 @@ class AnnulusMotion {
   bool moves_ = false;
   Vec3 centre_ = Vec3::Zero(), shift_ = Vec3::Zero();
   Mat3 stretch_ = Mat3::Zero();
-  std::optional<AnnulusWaves> waves_;  // towards a given curve
+  std::optional<CurveWaves> waves_;  // towards a given curve
 };
 
 // `annulus`: points along it at rest. `given`: points along the loaded annulus in any order; empty:

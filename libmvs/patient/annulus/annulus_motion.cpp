@@ -1,54 +1,34 @@
-// Closest points on curves, and the affine motion towards them by least squares.
-#include "patient/annulus_motion.h"
+#include "patient/annulus/annulus_motion.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/median.h"
-#include "geometry/distance.h"
 #include "model/sides.h"
+#include "patient/annulus/affine_meeting.h"
 #include "patient/findings.h"
 #include "patient/fit/closed_pieces.h"
-#include "patient/fit/normal_equations.h"
 #include "patient/surface/annulus_through.h"
 #include "patient/surface/rims.h"
 
 namespace mvs::core {
 namespace {
 
-using CurveSide = std::array<Vec3, 2>;
-
 // m: a point of the annulus moves at most so far to a rim of the leaflets: free edges, and the far
 // sides of gaps in a rim, are 8 mm away and more but beside the commissures.
 constexpr double farthest_rim = 6e-3;
-// A point counts if it is at most 2.5 times as far from the rims as the median (normal errors: 91 %
-// of them), or a millimetre, a voxel and a half of ultrasound.
-constexpr double usual_rim_share = 2.5, usual_rim = 1e-3;
-// Share of the annulus that has to lie on rims.
-constexpr double least_seen = 0.65;
-// m: spread of the points along an axis from which on their stretch along it counts. In its plane
-// the annulus spreads five times as far (RMS), so that a stretch is found to 4 %; across it, by the
-// height of the saddle, a stretch would follow the errors of the rims.
-constexpr double least_spread = 2e-3;
-constexpr double constant_term = 1e-2;  // m, of the affine motion: about as large as coordinates
-constexpr int most_motion_rounds = 30;
-constexpr double least_motion_step = 1e-6;  // m
 // m, RMS: errors of rims from images make as much.
 constexpr double no_motion = 0.25e-3;
 // Norm of the stretch: normal annuli change their diameters by 5 to 15 % in a beat, and 0.4 is 28 %
 // of both.
 constexpr double most_stretch = 0.4;
 constexpr double curve_spacing = 1e-3;  // m, of the points of a given curve
+// Curves that an observer places at two phases differ by the motion and by the errors of both, half
+// a millimetre and more in each point. The motion of an annulus is long-waved: size, place and tilt
+// are one wave a lap, the height of the saddle is two, and a radial change of a D shape up to four.
+// Shorter ones would be errors that wrinkle the annulus and stretch the leaflets at it.
+constexpr size_t most_waves = 4;
 constexpr double confidence_of_rims = 0.6;
-
-std::vector<CurveSide> sides_of(const std::vector<Vec3> &curve) {
-  std::vector<CurveSide> sides;
-  for (size_t k = 0; k < curve.size(); ++k)
-    sides.push_back({curve[k], curve[(k + 1) % curve.size()]});
-  return sides;
-}
 
 // Sides that have one triangle.
 std::vector<CurveSide> rims_of(const ClosedSurface &closed) {
@@ -63,95 +43,6 @@ std::vector<CurveSide> rims_of(const ClosedSurface &closed) {
     if (last == first + 1 && a != b) rims.push_back({closed.points[a], closed.points[b]});
   });
   return rims;
-}
-
-Vec3 nearest_on_sides(const std::vector<CurveSide> &sides, const Vec3 &p) {
-  Vec3 best = p;
-  double least = HUGE_VAL;
-  for (const CurveSide &side : sides) {
-    const SegmentPoint at = closest_on_segment(p, side[0], side[1]);
-    const Vec3 q = side[0] + at.s * (side[1] - side[0]);
-    const double distance2 = (q - p).squaredNorm();
-    if (distance2 >= least) continue;
-    least = distance2;
-    best = q;
-  }
-  return best;
-}
-
-struct Affine {
-  Mat3 stretch = Mat3::Zero();
-  Vec3 shift = Vec3::Zero();
-};
-
-// The motion of points `from`, relative to their centre, by `step`, by least squares.
-Affine affine_of(const std::vector<Vec3> &from, const std::vector<Vec3> &step) {
-  DenseMatrix h(4);
-  std::array<std::vector<double>, 3> right;
-  right.fill(std::vector<double>(4, 0));
-  for (size_t k = 0; k < from.size(); ++k) {
-    const std::array<double, 4> terms = {from[k].x(), from[k].y(), from[k].z(), constant_term};
-    for (size_t i = 0; i < 4; ++i) {
-      for (size_t j = 0; j < 4; ++j) h.at(i, j) += terms[i] * terms[j];
-      for (size_t axis = 0; axis < 3; ++axis)
-        right[axis][i] += terms[i] * step[k][static_cast<Eigen::Index>(axis)];
-    }
-  }
-  for (size_t i = 0; i < 3; ++i)
-    h.at(i, i) += static_cast<double>(from.size()) * least_spread * least_spread;
-  Affine found;
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const std::vector<double> row = solve_dense(h, right[static_cast<size_t>(axis)]);
-    for (Eigen::Index k = 0; k < 3; ++k) found.stretch(axis, k) = row[static_cast<size_t>(k)];
-    found.shift[axis] = constant_term * row[3];
-  }
-  return found;
-}
-
-struct Meeting {
-  Affine motion;
-  double seen = 0;  // share of the points that lie on the curve
-  double rms = 0;   // m, of these from it
-};
-
-// Iterative closest points.
-Meeting meet(const std::vector<Vec3> &annulus, const Vec3 &centre,
-             const std::vector<CurveSide> &sides, double reach) {
-  std::vector<Vec3> around;  // relative to the centre
-  around.reserve(annulus.size());
-  for (const Vec3 &p : annulus) around.push_back(p - centre);
-  Meeting found;
-  for (int round = 0; round < most_motion_rounds; ++round) {
-    std::vector<Vec3> to;
-    std::vector<double> away;
-    for (const Vec3 &p : around) {
-      const Vec3 here = centre + p + found.motion.stretch * p + found.motion.shift;
-      to.push_back(nearest_on_sides(sides, here));
-      away.push_back((to.back() - here).norm());
-    }
-    const double most = std::min(reach, std::max(usual_rim, usual_rim_share * median_of(away)));
-    std::vector<Vec3> from, step;
-    double sum = 0;
-    for (size_t k = 0; k < around.size(); ++k) {
-      if (away[k] > most) continue;
-      from.push_back(around[k]);
-      step.push_back(to[k] - centre - around[k]);
-      sum += away[k] * away[k];
-    }
-    found.seen = static_cast<double>(from.size()) / static_cast<double>(around.size());
-    found.rms = std::sqrt(sum / static_cast<double>(std::max<size_t>(1, from.size())));
-    if (found.seen < least_seen) break;
-    const Affine next = affine_of(from, step);
-    double largest = 0;
-    for (const Vec3 &p : around) {
-      const Vec3 change =
-          (next.stretch - found.motion.stretch) * p + next.shift - found.motion.shift;
-      largest = std::max(largest, change.norm());
-    }
-    found.motion = next;
-    if (largest < least_motion_step) break;
-  }
-  return found;
 }
 
 std::string words_of(const std::vector<Vec3> &annulus, const AnnulusMotion &motion) {
@@ -220,7 +111,7 @@ double rms_of(const std::vector<Vec3> &annulus, const AnnulusMotion &motion) {
 
 // Whether a motion is that of one annulus between two phases.
 bool is_plausible(const Meeting &met) {
-  return met.seen >= least_seen && met.motion.stretch.norm() <= most_stretch &&
+  return met.seen >= least_on_curve && met.motion.stretch.norm() <= most_stretch &&
          met.motion.shift.norm() <= farthest_annulus;
 }
 
@@ -228,7 +119,7 @@ bool is_plausible(const Meeting &met) {
 
 Vec3 AnnulusMotion::operator()(const Vec3 &p) const {
   if (!moves_) return p;
-  return waves_ ? p + (*waves_)(p) : affine(p);
+  return waves_ ? p + waves_->near(p) : affine(p);
 }
 
 bool AnnulusMotion::move_to(const std::vector<Vec3> &annulus, const std::vector<Vec3> &curve) {
@@ -245,7 +136,7 @@ bool AnnulusMotion::move_to(const std::vector<Vec3> &annulus, const std::vector<
   std::vector<Vec3> displacement;
   displacement.reserve(annulus.size());
   for (size_t k = 0; k < annulus.size(); ++k) displacement.push_back(to.at(place[k]) - annulus[k]);
-  waves_.emplace(ClosedCurve(annulus), displacement);
+  waves_.emplace(ClosedCurve(annulus), displacement, most_waves);
   return true;
 }
 
