@@ -1,3 +1,4 @@
+// Sentences and remedies of system errors; folders that are synced.
 #include "formats/file/posix_file.h"
 
 #include <fcntl.h>

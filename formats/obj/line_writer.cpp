@@ -1,3 +1,4 @@
+// Words and numbers, each after a space.
 #include "formats/obj/line_writer.h"
 
 #include <charconv>

@@ -51,7 +51,8 @@ typedef struct mvs_surface_desc {
   mvs_array closed_triangles; /* U32 [as triangles] */
   mvs_array closed_annulus;   /* k x 3, k >= 6, points along the loaded annulus in any order
                                  [measured: an affine motion of the annulus onto rims of the closed
-                                 surface; without one, or without rims there, it stays] */
+                                 surface; without a closed surface, or if it has no rims near the
+                                 annulus, the annulus stays] */
   mvs_array closed_tips;      /* k x 3, each of papillary_tips in their order, under load [all
                                  follow the rigid part of the annulus' motion] */
 } mvs_surface_desc;
@@ -66,17 +67,17 @@ typedef struct mvs_build_options {
   double edge;                 /* m, length of the triangles' sides, 2e-4 to 5e-3 [as for 1,000
                                   vertices] */
   double thickness;            /* m, where it is not known per point, 1e-4 to 5e-3 [0.8e-3] */
-  double chord_factor;         /* on all rest lengths [1] */
+  double chord_factor;         /* on all rest lengths, 0.5 to 2 [1] */
   double coaptation_length;    /* m, overlap of both leaflets in the middle for which rest lengths
-                                  are chosen if no closed surface is given [8e-3] */
+                                  are chosen if no closed surface is given, 1e-3 to 20e-3 [8e-3] */
   uint32_t chords;             /* about this number of chord segments, 20 to 400 [100] */
   uint32_t reserved;
-  double edge_error;      /* m, up to 5e-3: how far the free edge may lie farther out or in than
+  double edge_error;      /* m, 1e-6 to 5e-3: how far the free edge may lie farther out or in than
                              in the surface; widens the interval of leaks [0] */
-  double edge_lost;       /* m, up to 5e-3: of tissue that may be missing at the free edge; widens
-                             the interval of leaks. 1e-6: none [half of the mean depth of the
+  double edge_lost;       /* m, 1e-6 to 5e-3: of tissue that may be missing at the free edge; widens
+                             the interval of leaks; 1e-6 adds nothing [half of the mean depth of the
                              notches that were filled] */
-  double thickness_error; /* m, up to 2e-3: by how much the leaflets may be thicker or thinner
+  double thickness_error; /* m, 1e-6 to 2e-3: by how much the leaflets may be thicker or thinner
                              than the thickness says; widens the interval of leaks [0] */
   uint32_t without_leak;  /* 1: no closures and no findings on the leak, for a caller who replaces
                              the chordae; mvs_find_leak_interval gives them later [0] */
@@ -90,7 +91,7 @@ typedef struct mvs_leak_errors {
   double lengths;   /* 1e-3 to 0.5: share of the rest lengths, of all chordae and of a group
                        together [0.1] */
   double single;    /* 1e-3 to 0.5: share, of a chord beside its group [0.03] */
-  double thickness; /* m, up to 2e-3: of the leaflets, thicker or thinner [0] */
+  double thickness; /* m, 1e-6 to 2e-3: of the leaflets, thicker or thinner [0] */
 } mvs_leak_errors;
 
 /* Where a finding comes from. */
@@ -123,17 +124,17 @@ typedef struct mvs_build mvs_build;
 /* Replaces the valve of a simulator by one that is built from a surface, open and without load, and
  * begins a history, like mvs_generate_valve. `options` is nullable. `build` is nullable, else
  * release it with mvs_build_release. Faults of the surface that no rule mends give MVS_E_OP and a
- * sentence; the simulator is unchanged then. MVS_E_CANCELLED if the
- * progress callback of the simulator cancelled. */
+ * sentence; the simulator is unchanged then. MVS_E_CANCELLED if the progress callback of the
+ * simulator cancelled. */
 MVS_API mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
                                    const mvs_build_options *options, mvs_build **build);
 
 /* Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other lengths
- * and leaflets of other thicknesses, up to `errors`: up to 11 closures, 3 if the valve is sealed
- * with the first ones. `errors` is nullable. `found` gets findings as those of a build: "leak",
- * "leak_interval", without values if no closure came to rest, and "leak_limits", m2; release it
- * with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED if the progress callback of
- * the simulator cancelled. */
+ * and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an error
+ * of the thickness, if all of these are sealed. `errors` is nullable. `found` gets findings as
+ * those of a build: "leak", "leak_interval", without values if no closure came to rest, and
+ * "leak_limits", m2; release it with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED
+ * if the progress callback of the simulator cancelled. */
 MVS_API mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors,
                                           mvs_build **found);
 

@@ -23,9 +23,12 @@
  * are clamped to the limits of user, device and motor temperature, and limited in their rate of
  * change; they start with a ramp after a gate, fade when the simulation stalls, and push back at
  * the edge of the workspace. A dangerous condition latches forces off with a cause until
- * mvs_device_arm. A device whose read, write or loop fails is lost: libmvs writes zero and calls
- * the driver's stop() at once. One that does not answer for 0.1 s is switched off by its panic(),
- * and can be armed after mvs_device_stop and mvs_device_start. A new grasp or felt chord acts with
+ * mvs_device_arm. A device whose read, write or loop fails is lost: libmvs writes zero to a
+ * device that it polls, and calls the driver's stop(), at once. Whether a driver answers is seen by
+ * mvs_device_sync, mvs_device_arm and mvs_device_get_state: the first of them after 0.1 s without
+ * an answer calls its panic(), which switches the motors off. A host that waits longer between two
+ * syncs calls mvs_device_get_state from another thread. Both can be armed again after
+ * mvs_device_stop and mvs_device_start. A new grasp or felt chord acts with
  * a ramp of 50 ms. A passivity observer measures energy that the sampled loop generates, and
  * damping removes it. These measures do not make a device a medical one.
  *
@@ -53,8 +56,8 @@ MVS_API mvs_result mvs_get_driver_count(uint32_t *count);
 MVS_API mvs_result mvs_get_driver(uint32_t index, const char **name, const char **path);
 
 /* Loads a driver and reports the devices that it finds. `driver` is a name in that folder or an
- * absolute path; a file that others may write is refused. `options` are "key=value" lines,
- * nullable. */
+ * absolute path; a file that everybody may write, or that belongs to neither root nor the caller,
+ * is refused. `options` are "key=value" lines, nullable. */
 MVS_API mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_found found,
                                    void *user);
 
@@ -186,7 +189,7 @@ typedef struct mvs_device_hand {
   double length;               /* m, of the rod [40e-3] */
   double stiffness;            /* N/m, of the spring between hand and tool, in the scene [200] */
   double max_force;            /* N, of that spring, in the scene [5] */
-  double gain;                 /* factor on the tension of a felt chord [1] */
+  double gain;                 /* factor on the tension of a felt chord, 1e-3 to 1e3 [1] */
   const mvs_body_desc *bodies; /* as those of mvs_tool_desc; null when it is read */
   uint32_t body_count;
   uint32_t body_stride; /* sizeof(mvs_body_desc) */
@@ -195,20 +198,24 @@ typedef struct mvs_device_hand {
 MVS_API mvs_result mvs_device_set_hand(mvs_device *device, const mvs_device_hand *hand);
 MVS_API mvs_result mvs_device_get_hand(const mvs_device *device, mvs_device_hand *hand);
 
-/* Starts the servo: positions are read, forces stay off until mvs_device_arm. */
+/* Starts the servo: positions are read, forces stay off until mvs_device_arm. MVS_E_STATE if it is
+ * started, MVS_E_DEVICE with the sentence of the driver, MVS_E_MEMORY if the system has no thread
+ * for it. */
 MVS_API mvs_result mvs_device_start(mvs_device *device);
 
-/* Stops the servo: zero force, motors off. */
+/* Stops the servo: zero force, motors off. MVS_E_DEVICE if the driver does not come back from its
+ * loop within 2 s. */
 MVS_API mvs_result mvs_device_stop(mvs_device *device);
 
 /* Enables forces through gate and ramp, also after a latch whose cause has ended; MVS_E_DEVICE
- * names a cause that persists. */
+ * names a cause that persists, MVS_E_STATE if it is not started. */
 MVS_API mvs_result mvs_device_arm(mvs_device *device);
 
 /* Switches forces off at once with cause MVS_CAUSE_SOFTWARE. From any thread. */
 MVS_API mvs_result mvs_device_cut(mvs_device *device);
 
-/* Virtual clock: runs the servo for `seconds` at its rate. */
+/* Virtual clock: runs the servo for `seconds`, 0 to 3600, at its rate. MVS_E_STATE if it is not
+ * started, or has a real clock. */
 MVS_API mvs_result mvs_device_advance(mvs_device *device, double seconds);
 
 /* Events of mvs_device_sync: bits of mvs_device_report.events. */

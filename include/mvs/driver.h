@@ -67,7 +67,7 @@ enum mvs_cause_e {
   MVS_CAUSE_UNPLUGGED = 5,  /* the device was disconnected */
   MVS_CAUSE_DEADMAN = 6,    /* the dead-man's switch is released */
   MVS_CAUSE_NOT_FINITE = 7, /* a number was not finite */
-  MVS_CAUSE_THERMAL = 8,    /* the motors are too warm */
+  MVS_CAUSE_THERMAL = 8,    /* the motors are too warm, or the driver reports a fault */
   MVS_CAUSE_CALIBRATION = 9 /* its position is not reliable */
 };
 typedef uint32_t mvs_cause;
@@ -91,7 +91,8 @@ typedef struct mvs_driver_info {
   double max_speed;                          /* m/s */
   double rate;                               /* Hz, nominal rate of its servo */
   /* Row by row: rotation and offset (m) from the device's axes to those of libmvs, x to the right,
-   * y up, z towards the user: p = frame[:, :3] p_device + frame[:, 3]. All zero: identity. */
+   * y up, z towards the user: p = frame[:, :3] p_device + frame[:, 3]. All zero: identity. With a
+   * workspace the offset does not count: the centre of the workspace becomes 0. */
   double frame[12];
   char model[64], serial[64], firmware[64];
   /* Limits of the torque of a device with freedoms_out 6; 0 is unknown, as above. Unknown values

@@ -1,8 +1,10 @@
 /* The simulator: create it, set a valve and a load, settle or step it, read statistics.
  *
  * Different simulators are independent. One simulator is used by one thread at a time: a second
- * call during a call, from another thread or from a callback, gives MVS_E_STATE. mvs_get_snapshot
- * and all functions of a const mvs_snapshot * may be called from any thread at any time. */
+ * call during a call, from another thread or from a callback, gives MVS_E_STATE. A callback may
+ * call mvs_get_stats and mvs_get_profile, which give the figures before the call. mvs_get_snapshot,
+ * all functions of a const mvs_snapshot *, mvs_move_tool, mvs_move_tool_pose and mvs_get_tool may
+ * be called from any thread at any time. */
 #ifndef MVS_SIM_H
 #define MVS_SIM_H
 
@@ -62,7 +64,7 @@ typedef struct mvs_sim_desc {
   /* A thread pool of the host instead of `workers`, which is 0 then: both callbacks or none. They
    * are called on the thread of the call, and do not call the simulator. `pool_width` returns how
    * many tasks the pool can run at the same time, the calling thread included: 1 to
-   * MVS_MAX_WORKERS; it is asked at the begin of each call. Nullable. */
+   * MVS_MAX_WORKERS; it is asked at the start of each call. Nullable. */
   uint32_t (*pool_width)(void *user);
   /* Calls task(context, index) for each index below `count`, in any order, on any threads, and
    * returns when all have returned. A loop takes tens of microseconds or more. A pool that runs
@@ -86,9 +88,9 @@ MVS_API void mvs_destroy(mvs_sim *sim);
  * checks of the mesh, the coarser meshes of mvs_settle. A variant has the same nodes, triangles,
  * leaflets, fibres, annulus and heads, and chordae of the same kinds between the same nodes; rest
  * lengths, laws, constants, thickness, names and the load may differ (other thickness: no shared
- * coarser meshes). So thousands of variants are closed fastest in simulators that were restored
- * (mvs_restore) to a snapshot of one of them first, one after the other or in several threads.
- * mvs_load_file, mvs_set_leaflet and operations share in the same way. It changes no bit.
+ * coarser meshes). To close many variants fast, restore each simulator (mvs_restore) to a snapshot
+ * of one of them first; it may be one simulator, or several in threads. mvs_load_file,
+ * mvs_set_leaflet and operations share in the same way. It changes no bit.
  *
  * Suspicious input is logged as MVS_LOG_WARNING, also by mvs_load_file and mvs_set_leaflet:
  * needle-shaped triangles, tissue that crosses or touches itself at rest, and numbers that look
@@ -115,7 +117,8 @@ MVS_API mvs_result mvs_check_valve(const mvs_valve_desc *valve, mvs_fault_fn fau
  * another thickness scales that of each triangle. Constants of 0 take the law's defaults, -0.0 is
  * zero; MVS_LEAFLET_LAW_BILINEAR without constants, on a leaflet of springs, becomes the membrane
  * that follows the curve of those springs. Shape, chordae and load do not change; the history is
- * emptied, because operations cannot be undone into another tissue, and an open journal ends. */
+ * emptied, because operations cannot be undone into another tissue, and an open journal ends.
+ * MVS_E_ID if the leaflet does not exist, MVS_E_OP for constants that the law cannot have. */
 MVS_API mvs_result mvs_set_leaflet(mvs_sim *sim, mvs_id leaflet, const mvs_leaflet_desc *tissue);
 
 /* Load on the valve. */
@@ -139,7 +142,7 @@ MVS_API mvs_result mvs_get_load(const mvs_sim *sim, mvs_load_case *load);
 
 /* Solvers. */
 enum mvs_solver_e {
-  MVS_SOLVER_NEWTON = 1,   /* static equilibrium: projected Newton on the potential (mvs_settle) */
+  MVS_SOLVER_NEWTON = 1,   /* static equilibrium: Newton's method in a trust region (mvs_settle) */
   MVS_SOLVER_IMPLICIT = 2, /* backward Euler, a bounded amount of work a step */
   MVS_SOLVER_EXPLICIT = 3  /* symplectic Euler with penalty contact: the founding paper's method */
 };
@@ -147,8 +150,8 @@ typedef uint32_t mvs_solver;
 
 /* Parts of a settle that may be left out; the valve at its end has the same bits. */
 enum mvs_settle_flags_e {
-  /* The margins of the stable equilibrium, a tenth of the time of a settle after an operation:
-   * those of mvs_stats are 0, mvs_snapshot_get_stability computes them. */
+  /* Leaves out the stability margins, which take a tenth of the time of a settle after an
+   * operation. They are 0 in mvs_stats; mvs_snapshot_get_stability computes them. */
   MVS_SETTLE_NO_MARGINS = 1 << 0
 };
 typedef uint32_t mvs_settle_flags;
@@ -159,10 +162,11 @@ typedef struct mvs_settle_options {
   mvs_solver solver;       /* MVS_SOLVER_* [newton] */
   uint32_t max_iterations; /* [1000 for newton, 20000 implicit, 2000000 explicit] */
   mvs_settle_flags flags;  /* MVS_SETTLE_* */
-  double residual;         /* N, largest out-of-balance force on a node at rest [1e-5] */
+  double residual;         /* N, largest out-of-balance force on a node at rest, 1e-12 to 1e3
+                              [1e-5] */
   double dt; /* s, time step of the dynamic solvers [implicit 1e-3; explicit: stable on this valve,
-                at most 8e-6] */
-  double damping; /* 1/s, mass-proportional, of the dynamic solvers [explicit 500] */
+                at most 8e-6]; 1e-9 to 1 */
+  double damping; /* 1/s, mass-proportional, of the dynamic solvers, 1e-6 to 1e6 [explicit 500] */
 } mvs_settle_options;
 
 /* Accuracy that a step gave up, in this order: bits of mvs_stats.lowered.
@@ -177,9 +181,10 @@ typedef uint32_t mvs_lowered_flags;
 /* Outcome of a settle or step (fields: MVS_STRUCT_STATS). */
 typedef struct mvs_stats {
   uint32_t struct_size;
-  uint32_t converged;        /* 1: the residual is reached, and nothing has changed since */
-  uint32_t iterations;       /* Newton iterations, or time steps */
-  uint32_t contact_pairs;    /* active contact pairs at the end */
+  uint32_t converged;     /* 1: at rest, as the last settle, or a step that found nothing to move,
+                             decided, and nothing has changed since */
+  uint32_t iterations;    /* Newton iterations, or time steps */
+  uint32_t contact_pairs; /* active contact pairs at the end */
   mvs_lowered_flags lowered; /* MVS_LOWERED_*: accuracy that a step gave up */
   uint32_t
       stable; /* 1: the last settle found a stable equilibrium, and nothing has changed since */
@@ -226,10 +231,11 @@ typedef struct mvs_step_options {
   mvs_solver solver; /* MVS_SOLVER_IMPLICIT [default] or MVS_SOLVER_EXPLICIT */
   double dt;         /* s [as for mvs_settle]; 1e-9 to 1 */
   double damping;    /* 1/s, mass-proportional [0 implicit, 500 explicit] */
-  /* Largest number of energy passes and solutions with the factor in an implicit step, 4 to 10000
-   * [64]. A count, not a time, so that the same calls give the same bits on any machine;
-   * mvs_stats.lowered reports the accuracy that a short budget costs. Searches for contact are not
-   * counted: on thousands of vertices they may take most of a step beside a tool that moves. */
+  /* Largest amount of work of an implicit step, 4 to 10000 [64]: energy passes, assemblies,
+   * iterations of conjugate gradients, factorisations or parts of one. A count, not a time, so that
+   * the same calls give the same bits on any machine; mvs_stats.lowered reports the accuracy that a
+   * short budget costs. Searches for contact are not counted: on thousands of vertices they may
+   * take most of a step beside a tool that moves. */
   uint32_t budget;
   uint32_t reserved;
 } mvs_step_options;
@@ -238,12 +244,13 @@ typedef struct mvs_step_options {
  * it makes no allocation and no system call while no snapshot of the valve is held and no hand has
  * moved. An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing a
  * tool prepares the next step of a valve that is being stepped within its own call. MVS_E_DIVERGED
- * if numbers left their range: use a smaller dt. `options` is nullable. */
+ * if numbers left their range: use a smaller dt; MVS_E_UNSUPPORTED for the explicit solver with a
+ * tool that pushes, as of mvs_settle. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
 /* Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.
  * `converged` is 1 while the valve is at rest: an operation, a load or a tool makes it 0 until the
- * next settle; so does a time step that moves the valve. */
+ * next settle, or a step that finds nothing to move; so does a step that moves the valve. */
 MVS_API mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats);
 
 #ifdef __cplusplus

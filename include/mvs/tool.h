@@ -2,9 +2,9 @@
  *
  * A tool belongs to the state, not to the valve: it is part of snapshots, their hash and HDF5
  * files; plans replay its motion. Undo, restore and checkpoints return to the tools of that state,
- * with their hands where they were then: undo of an operation brings back a tool that was removed
- * after it, which pulls again until it is removed again, and takes away one that was added after
- * it. Tools that a device made are tidied by mvs_device_sync. A spring couples the hand to the tool
+ * with their hands where they were then. A tool that was removed since then returns, and pulls
+ * again until it is removed again. A tool that was added since then disappears. mvs_device_sync
+ * removes tools of its device that returned without a hand. A spring couples the hand to the tool
  * and saturates at `max_force`: the tissue acts on the hand with the force of this spring, at most
  * `max_force` at any distance of the hand.
  *
@@ -20,9 +20,9 @@
  * degrees in a step and lags behind a hand that turns fast, by half a step at 10 rad/s; a hand
  * that turns by more than 90 degrees between two steps may leave it turned the other way.
  *
- * libmvs computes its distances from tissue itself; the tests compare them with those of libccd
- * in the source tree. Forces act by a distance without kinks, 0.8 to 1.34 times the least
- * one; the least one limits motions and refuses tools in tissue. The stitches of a clip touch it as
+ * libmvs computes the distances of a convex tool itself; the tests of the source tree compare them
+ * with those of libccd. Forces use a smoothed distance, 0.8 to 1.34 times the true one. The true
+ * one limits motion and refuses tools inside tissue. The stitches of a clip touch it as
  * chordae of the suture's thickness; a ring has no thickness, and a tool meets the annulus that
  * lies on it. */
 #ifndef MVS_TOOL_H
@@ -93,7 +93,7 @@ typedef struct mvs_tool_desc {
                          convex tool a quarter at each point of its frame */
   double reach;       /* m; a grasp takes the nearest free vertex of a leaflet within it [2e-3] */
   uint32_t by_node; /* 1: a grasp takes `node`, a leaflet vertex or branch point, at any distance */
-  uint32_t node;
+  uint32_t node;    /* with by_node */
   const mvs_body_desc *bodies; /* of a convex tool, 1 to MVS_MAX_BODIES */
   uint32_t body_count;
   uint32_t body_stride;  /* sizeof(mvs_body_desc) */
@@ -129,7 +129,7 @@ MVS_API mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double positio
 MVS_API mvs_result mvs_move_tool_pose(mvs_sim *sim, mvs_id tool, const double position[3],
                                       const double orientation[4]);
 
-/* Removes a tool from the state; a grasp releases its node. */
+/* Removes a tool from the state; a grasp releases its node. MVS_E_ID if it does not exist. */
 MVS_API mvs_result mvs_remove_tool(mvs_sim *sim, mvs_id tool);
 
 /* A tool in a snapshot. */
@@ -147,7 +147,7 @@ typedef struct mvs_tool_state {
                             nearest leaflet, of a convex tool also to the surface of a chord;
                             infinity without leaflets, 0 for a grasp */
   double radius, length; /* m; length of a convex tool: the arm of its frame */
-  double stiffness, max_force;
+  double stiffness, max_force; /* N/m, N: of the spring between hand and tool */
   uint32_t node;               /* held by a grasp; UINT32_MAX for others */
   uint32_t touching;           /* 1: tissue acts on it; always 1 for a grasp */
   double orientation[4];       /* of the hand of a convex tool, w x y z of length 1; 0 for others */

@@ -1,3 +1,4 @@
+// Adds two leaflets and six scallops to a valve.
 #include "anatomy/leaflet_names.h"
 
 #include "model/law.h"

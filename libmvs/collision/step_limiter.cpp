@@ -10,11 +10,11 @@
 namespace mvs::core {
 namespace {
 
-// Least distance of two parts of the sheet, as a share of their barrier's range (0.2 mm or less),
-// and in m. A barrier without room to push back never comes to balance: where edges are 1 mm long
-// it bears 1 N at a share of 5e-3, and 100 N, ten times the systolic force on a valve, at this one.
-// A crease under a clip or of a needle presses with more than 1 N. Both are far above the rounding
-// of positions, 1e-17 m.
+// Least distance of two parts of the sheet, as a share of their barrier's range (0.2 contact
+// thicknesses or less), and in m. A barrier without room to push back never comes to balance: where
+// edges are 1 mm long it bears 1 N at a share of 5e-3, and 100 N, ten times the systolic force on a
+// valve, at this one. A crease under a clip or of a needle presses with more than 1 N. Both are far
+// above the rounding of positions, 1e-17 m.
 constexpr double least_barrier_share = 5e-5;
 constexpr double least_distance_of_all = 1e-11;
 // Passes in which one side may use what the other leaves; then each keeps to its half.

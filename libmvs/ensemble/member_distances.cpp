@@ -1,3 +1,4 @@
+// Distances of pairs of members, and groups of near ones.
 #include "ensemble/member_distances.h"
 
 #include <algorithm>

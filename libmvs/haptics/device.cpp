@@ -29,7 +29,7 @@ const char *sentence_of(Cause cause) {
     case Cause::deadman:
       return "its grip is not held: take it into the hand";
     case Cause::not_finite:
-      return "it reports positions that are not finite: restart it";
+      return "it reports impossible samples (mvs_device_state.sample_faults): restart it";
     case Cause::thermal:
       return "its motors are too warm, or it is broken: let it cool";
     case Cause::calibration:
@@ -50,7 +50,7 @@ Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
   const auto &core = core_;
   DriverPlugin &plugin = *core_->plugin;
   MVS_MUST(core_->clock == DeviceClock::real || plugin.api().read, MVS_E_UNSUPPORTED, plugin.name(),
-           "the driver %s has a clock of its own: it cannot be turned by hand",
+           "the driver %s has a clock of its own: open it with MVS_CLOCK_REAL",
            plugin.name().c_str());
   const auto info = std::make_shared<mvs_driver_info>();
   info->struct_size = sizeof(mvs_driver_info);
@@ -155,7 +155,7 @@ void Device::stop() {
 // Returns false if the servo thread does not end.
 bool Device::end_servo() noexcept {
   core_->stopping = true;
-  if (core_->clock == DeviceClock::manual && !core_->is_lost()) core_->write_zero();
+  if (core_->clock == DeviceClock::virtual_time && !core_->is_lost()) core_->write_zero();
   core_->plugin->run(std::exchange(core_->stop_call, {}));
   unregister_device(core_->handle);
   std::unique_lock<std::mutex> lock(core_->mutex);
@@ -172,8 +172,8 @@ void Device::arm() {
   {
     const std::lock_guard<std::mutex> lock(core_->mutex);
     MVS_MUST(!core_->is_lost(), MVS_E_DEVICE, core_->plugin->name(),
-             "%s is lost (%s): close it, and open it again", core_->plugin->name().c_str(),
-             core_->lost);
+             "%s is lost (%s): stop it and start it again, or close it and open it again",
+             core_->plugin->name().c_str(), core_->lost);
   }
   MVS_MUST(!core_->panicked, MVS_E_DEVICE, core_->plugin->name(),
            "%s did not answer for %g s and was switched off: stop it, and start it again",
@@ -189,7 +189,7 @@ void Device::cut() {
 
 void Device::advance(double seconds) {
   must_be_started("advance");
-  MVS_MUST(core_->clock == DeviceClock::manual, MVS_E_STATE, core_->plugin->name(),
+  MVS_MUST(core_->clock == DeviceClock::virtual_time, MVS_E_STATE, core_->plugin->name(),
            "advance: this device has a real clock; open it with MVS_CLOCK_VIRTUAL");
   MVS_MUST(seconds >= 0 && seconds <= 3600, MVS_E_ARGUMENT, "seconds",
            "seconds is %g: it has to be 0 to 3600", seconds);
@@ -209,7 +209,7 @@ ServoStatus Device::status() {
   core_->links->status.refresh();
   ServoStatus now = core_->links->status.get();
   if (!started_) now.phase = DevicePhase::stopped;
-  if (!started_ || core_->clock == DeviceClock::manual) return now;
+  if (!started_ || core_->clock == DeviceClock::virtual_time) return now;
   const double quiet =
       1e-9 * static_cast<double>(static_cast<int64_t>(clock_ns()) - core_->last_tick_ns.load());
   if (quiet > tick_timeout && now.device_cause == Cause::nothing) {

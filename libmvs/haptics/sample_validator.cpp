@@ -38,7 +38,7 @@ void SampleValidator::take(const mvs_driver_state &sample, const mvs_device_limi
   cause_ = Cause::nothing;
   flags_ = sample.flags;
   find_faults(sample);
-  if (!is_finite(sample)) {
+  if (!is_usable(sample)) {
     dt_ = passed_ = 0;
     return latch_cause(Cause::not_finite);
   }
@@ -68,7 +68,7 @@ void SampleValidator::find_faults(const mvs_driver_state &sample) {
 }
 
 // After find_faults, which has looked at orientation and velocity.
-bool SampleValidator::is_finite(const mvs_driver_state &sample) const {
+bool SampleValidator::is_usable(const mvs_driver_state &sample) const {
   bool good = (faults_ & (MVS_SAMPLE_FAULT_NUMBER | MVS_SAMPLE_FAULT_ORIENTATION)) == 0;
   for (const double p : sample.position) good = good && is_number(p, max_coordinate);
   return good;

@@ -30,7 +30,7 @@ class SampleValidator {
 
  private:
   void find_faults(const mvs_driver_state &sample);
-  bool is_finite(const mvs_driver_state &sample) const;
+  bool is_usable(const mvs_driver_state &sample) const;
   void take_time(const mvs_driver_state &sample);
   void take_pose(const mvs_driver_state &sample, const mvs_device_limits &limits);
   void take_velocity(const mvs_driver_state &sample, const Vec3 &step);

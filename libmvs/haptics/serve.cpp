@@ -85,7 +85,7 @@ int32_t Device::Core::write_zero() {
 }
 
 bool Device::Core::is_polled() const {
-  return clock == DeviceClock::manual || !plugin->api().run;
+  return clock == DeviceClock::virtual_time || !plugin->api().run;
 }
 
 bool Device::Core::is_running() {
@@ -150,7 +150,7 @@ void Device::Core::poll(uint64_t now) {
 
 // On a virtual clock the duration of a tick is not measured.
 void Device::Core::tick(const mvs_driver_state &state, mvs_driver_force &force) {
-  if (clock == DeviceClock::manual) return servo->tick(state, force);
+  if (clock == DeviceClock::virtual_time) return servo->tick(state, force);
   const uint64_t begin = clock_ns();
   last_tick_ns.store(static_cast<int64_t>(begin), std::memory_order_relaxed);
   servo->tick(state, force);

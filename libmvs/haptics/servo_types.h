@@ -33,7 +33,7 @@ enum class DevicePhase : uint32_t {
   latched = MVS_DEVICE_PHASE_LATCHED
 };
 
-enum class DeviceClock : uint32_t { real = MVS_CLOCK_REAL, manual = MVS_CLOCK_VIRTUAL };
+enum class DeviceClock : uint32_t { real = MVS_CLOCK_REAL, virtual_time = MVS_CLOCK_VIRTUAL };
 
 // A device as its driver describes it, checked and completed; m, N, s, in the frame of the device.
 struct DeviceTraits {

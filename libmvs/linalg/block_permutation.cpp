@@ -1,3 +1,4 @@
+// Sorted columns of the permuted lower triangle.
 #include "linalg/block_permutation.h"
 
 namespace mvs::core {

@@ -1,3 +1,4 @@
+// Recursive halves, and their separators.
 #include "linalg/nested_dissection.h"
 
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,5 @@
 // The measures of mvs_snapshot_measure and of the derived arrays of a snapshot. Each group has one
-// header and one source file; DEFINITIONS.md has the definitions.
+// header that others include; DEFINITIONS.md has the definitions.
 #pragma once
 
 #include "measure/annulus/annulus.h"

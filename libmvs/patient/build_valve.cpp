@@ -18,7 +18,8 @@ namespace {
 
 constexpr double default_vertices = 1000;
 
-void find_leaflets_of(const PatientSurface &surface, const MidSheet &mid, Findings &findings) {
+// Findings on the given surface; patient_geometry() finds the leaflets again on the new mesh.
+void report_leaflets(const PatientSurface &surface, const MidSheet &mid, Findings &findings) {
   const SheetCoordinates coordinates = sheet_coordinates(mid.sheet, mid.rims);
   const LeafletArcs arcs =
       find_leaflets(mid.sheet, mid.rims, coordinates,
@@ -52,7 +53,7 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   check_landmarks(surface);
   const MidSheet mid = find_mid_sheet(surface, settings, findings);
   begin_stage(settings, "leaflets");
-  find_leaflets_of(surface, mid, findings);
+  report_leaflets(surface, mid, findings);
   begin_stage(settings, "remesh");
   PatientGeometry g = patient_geometry(
       mid, settings.edge > 0 ? settings.edge : edge_for(mid.sheet, default_vertices), findings);

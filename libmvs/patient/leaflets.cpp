@@ -20,7 +20,7 @@ namespace {
 
 // Samples of the annulus: about 1 mm apart.
 constexpr size_t samples = 120;
-// The same for a guess, which must not take both ends of one notch.
+// As least_share of given commissures, for a guess: it must not take both ends of one notch.
 constexpr double least_guessed_share = 0.28;
 // Odds of the leaflet that is said to be the anterior one, below which this is doubted.
 constexpr double doubtful_odds = 0.1;

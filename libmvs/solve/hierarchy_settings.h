@@ -27,20 +27,20 @@ inline constexpr Extent bilinear = {400, 110, 0.25};
 inline constexpr Extent other_laws = {1200, 425, 2};
 inline constexpr uint32_t max_coarse_iterations = 200;
 // Rest forces at which the bilinear surrogate of exponential tissue is left. Nine valves of 1,300
-// to 1,900 vertices (script of the session: annulus, thickness, slack, coaptation depth, founding
-// shape) under May-Newman and Yin's law and Fung's: 2,453 iterations on the mesh itself for 3,290,
-// 0.80 of the CPU time (loaded machine), 13 of 18 at a lower energy, two at one 13 and 21 % higher.
-// The valve with deep coaptation under May-Newman and Yin's law took 1.6 times as long. A
-// neo-Hookean surrogate took more. Prot's law, five valves: 0.5 of the time, but four of them ended
-// at energies that are 12 to 51 % higher.
+// to 1,900 vertices (other annulus, thickness, slack, coaptation depth, the founding shape;
+// measured once, by no command of the repository) under May-Newman and Yin's law and Fung's: 2,453
+// iterations on the mesh itself for 3,290, 0.80 of the CPU time (loaded machine), 13 of 18 at a
+// lower energy, two at one 13 and 21 % higher. The valve with deep coaptation under May-Newman and
+// Yin's law took 1.6 times as long. A neo-Hookean surrogate took more. Prot's law, five valves: 0.5
+// of the time, but four of them ended at energies that are 12 to 51 % higher.
 inline constexpr double surrogate_residual = 1;
 // Rest forces at the start above which a valve of any size has the surrogate first, although few
 // of its nodes may be far from rest, and those at which it is left: before the rest of the valve
-// follows the other law. Valves of 425 vertices under May-Newman and Yin's law and Fung's (script
-// of the session: 374 settles of 96 random valves, each after a random operation; sums over those
-// that differ): 13,911 iterations for 16,927, CPU time 0.97; clips 0.70 of the iterations,
-// resections, then made on the closed valve, 0.63. Left at 1, transferred chordae took up to 875
-// iterations for 50, and one clip did not come to rest.
+// follows the other law. Valves of 425 vertices under May-Newman and Yin's law and Fung's (measured
+// once, by no command of the repository: 374 settles of 96 random valves, each after a random
+// operation; sums over those that differ): 13,911 iterations for 16,927, CPU time 0.97; clips 0.70
+// of the iterations, resections, then made on the closed valve, 0.63. Left at 1, transferred
+// chordae took up to 875 iterations for 50, and one clip did not come to rest.
 inline constexpr double overstretched = 1000, overstretched_residual = 30;
 // Share of the reported progress that the coarse meshes take: about their share of the time.
 inline constexpr double coarse_progress = 0.25;

@@ -185,14 +185,14 @@ inline constexpr double damping = 500;
 // Rounding makes rates of about 1e-5 where a mode has no stiffness.
 inline constexpr double max_rate = 1e-3;
 // N/m, of a branch point: below it the point is left out. It is that of a chord of 10 mm under
-// 1e-5 N, a tenth of the force at which a valve counts as at rest. Leaflets have 0.05 and more.
+// 1e-5 N, the default residual of a settle. Leaflets have 0.05 and more.
 inline constexpr double loose_stiffness = 1e-3;
 // Relative residual of eigenpairs, and their iterations at most. The error of a lone eigenvalue is
 // of second order in it, of one among others as large as it: with 1e-2 a margin was 1.01 % off.
 inline constexpr double error = 5e-3;
 // The same of the rightmost eigenvalue where the factorisation has proved stability, so that it
 // decides nothing: 0.2 % off at most in 68 closures with a removed chord (300 to 1,700 vertices,
-// both shapes; script of the session), 3.6 % with twice this residual.
+// both shapes; measured once, by no command of the repository), 3.6 % with twice this residual.
 inline constexpr double rate_error = 0.05;
 inline constexpr uint32_t most_iterations = 60;
 // N/m, added to an indefinite matrix: first, growing by, at most. A later check of the same settle
@@ -237,9 +237,10 @@ inline constexpr double residual = 0.2;  // rest forces: its rim is as far from 
 }  // namespace local_subproblem
 
 // Nonlinear elimination: the local subproblem around the nodes with the largest forces that is
-// settled after an iteration of the whole valve. Springs of 27,000 vertices (script of the session,
-// finest mesh, load x 0.996) take 30 iterations without it and 10 with these values; 13 with a
-// force share of 0.1, 12 with 0.05 of the nodes. On 1,700 vertices the same are 12, 9, 10 and 8.
+// settled after an iteration of the whole valve. Springs of 27,000 vertices (finest mesh, load x
+// 0.996; measured once, by no command of the repository) take 30 iterations without it and 10 with
+// these values; 13 with a force share of 0.1, 12 with 0.05 of the nodes. On 1,700 vertices the same
+// are 12, 9, 10 and 8.
 namespace elimination {
 
 inline constexpr double force_share = 0.03;  // of the residual: above it a node is disturbed

@@ -45,7 +45,7 @@ StepOptions settle_options(const SolveOptions &options) {
   return how;
 }
 
-// The bits of mvs_stats.skipped that follow from the counts of a whole run.
+// The bits of mvs_profile.skipped that follow from the counts of a whole run.
 uint32_t skipped_in_run(const Profile &work) {
   uint32_t skipped = 0;
   if (work.broad_phases == 0) skipped |= MVS_SKIPPED_BROAD;
@@ -234,7 +234,7 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
     }
   }
   const bool stands = (stats.skipped & MVS_SKIPPED_STEP) != 0;
-  state.rest_tolerance = stands ? rest_force(state.load) : 0;
+  state.rest_tolerance = stands ? rest_tolerance_of(state.load) : 0;
   stats.converged = stands;
   state.time += how.dt;
   ++state.steps;

@@ -1,3 +1,4 @@
+// Cuts of triangles by a plane, joined from the annulus on.
 #include "measure/cost/central_profile.h"
 
 #include <cmath>

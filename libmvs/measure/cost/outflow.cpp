@@ -1,3 +1,5 @@
+// Heights of the leaflets in section planes, the distance to the septum, the pressure drop of a
+// flow.
 #include "measure/cost/outflow.h"
 
 #include <algorithm>

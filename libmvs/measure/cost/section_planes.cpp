@@ -1,3 +1,4 @@
+// Planes beside the central one where that runs along a seam.
 #include "measure/cost/section_planes.h"
 
 #include <algorithm>

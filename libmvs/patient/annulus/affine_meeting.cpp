@@ -1,3 +1,4 @@
+// Nearest points of the sides, and the affine motion to them by least squares.
 #include "patient/annulus/affine_meeting.h"
 
 #include <algorithm>

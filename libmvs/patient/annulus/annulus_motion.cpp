@@ -1,3 +1,4 @@
+// The affine motion onto rims, the waves towards a given curve, and their findings.
 #include "patient/annulus/annulus_motion.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Least squares at the corners of the curve.
 #include "patient/annulus/curve_waves.h"
 
 #include <array>

@@ -1,3 +1,4 @@
+// The length of the waves of the annulus beside that of the annulus.
 #include "patient/checks/rim_length.h"
 
 #include <algorithm>

@@ -30,7 +30,7 @@ bool are_pushing(const std::vector<Tool> &tools, const std::vector<Tool> &pushin
 
 }  // namespace
 
-double rest_force(const Load &load) {
+double rest_tolerance_of(const Load &load) {
   namespace set = settings::implicit;
   return std::min(
       set::max_rest_residual,
@@ -88,7 +88,7 @@ void StepStart::add_hands(const Model &model, TotalEnergy &total_energy) {
 }
 
 bool StepStart::is_at_rest(const Model &model, double dt) const {
-  const double most = rest_force(load);
+  const double most = rest_tolerance_of(load);
   if (residual > most) return false;
   for (size_t i = 0; i < v.size(); ++i) {
     if (model.topology.fixed[i] || v[i].isZero(0)) continue;

@@ -49,6 +49,6 @@ struct StepStart {
 
 // Out-of-balance force up to which a valve under a load counts as at rest, N: the default residual
 // of mvs_settle at systolic pressure, less in proportion to the pressure.
-double rest_force(const Load &load);
+double rest_tolerance_of(const Load &load);
 
 }  // namespace mvs::core

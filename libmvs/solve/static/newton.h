@@ -49,7 +49,7 @@ struct NewtonStep {
 struct StoppedNode {
   size_t row;
   Vec3 direction;
-  double share;  // its Newton step over the limited one
+  double times;  // its Newton step over the limited one
 };
 
 // How the settle of a local subproblem begins; as it is: that of a whole valve.

@@ -91,7 +91,7 @@ std::vector<StoppedNode> Newton::stopped_nodes(const NewtonStep &step) const {
 // other nodes take into account how far these go. Lambda, which a few of them would raise until no
 // node moves, may then stay. Returns false if no node is stopped.
 bool Newton::hold(const std::vector<StoppedNode> &stopped) {
-  for (const StoppedNode &s : stopped) system_.hold(s.row, s.direction, s.share);
+  for (const StoppedNode &s : stopped) system_.hold(s.row, s.direction, s.times);
   return !stopped.empty();
 }
 

@@ -242,7 +242,7 @@ export type Backend = keyof typeof Backend;
 
 /** Solvers. */
 export const Solver = {
-  /** static equilibrium: projected Newton on the potential (mvs_settle) */
+  /** static equilibrium: Newton's method in a trust region (mvs_settle) */
   newton: 1,
   /** backward Euler, a bounded amount of work a step */
   implicit: 2,
@@ -254,8 +254,8 @@ export type Solver = keyof typeof Solver;
 /** Parts of a settle that may be left out; the valve at its end has the same bits. */
 export const SettleFlags = {
   /**
-   * The margins of the stable equilibrium, a tenth of the time of a settle after an operation:
-   * those of mvs_stats are 0, mvs_snapshot_get_stability computes them.
+   * Leaves out the stability margins, which take a tenth of the time of a settle after an
+   * operation. They are 0 in mvs_stats; mvs_snapshot_get_stability computes them.
    */
   no_margins: 1,
 } as const;

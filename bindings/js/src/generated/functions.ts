@@ -1050,12 +1050,12 @@ export class Functions extends Calls {
    * checks of the mesh, the coarser meshes of mvs_settle. A variant has the same nodes, triangles,
    * leaflets, fibres, annulus and heads, and chordae of the same kinds between the same nodes; rest
    * lengths, laws, constants, thickness, names and the load may differ (other thickness: no shared
-   * coarser meshes). So thousands of variants are closed fastest in simulators that were restored
-   * (mvs_restore) to a snapshot of one of them first, one after the other or in several threads.
-   * mvs_load_file, mvs_set_leaflet and operations share in the same way. It changes no bit.
-   * Suspicious input is logged as MVS_LOG_WARNING, also by mvs_load_file and mvs_set_leaflet:
-   * needle-shaped triangles, tissue that crosses or touches itself at rest, and numbers that look
-   * like those of another unit.
+   * coarser meshes). To close many variants fast, restore each simulator (mvs_restore) to a
+   * snapshot of one of them first; it may be one simulator, or several in threads. mvs_load_file,
+   * mvs_set_leaflet and operations share in the same way. It changes no bit. Suspicious input is
+   * logged as MVS_LOG_WARNING, also by mvs_load_file and mvs_set_leaflet: needle-shaped triangles,
+   * tissue that crosses or touches itself at rest, and numbers that look like those of another
+   * unit.
    */
   mvs_set_valve(sim: SimHandle, valve: ValveDesc): void {
     return this.invoke(signatures.mvs_set_valve!, [sim, valve]) as never;
@@ -1087,7 +1087,8 @@ export class Functions extends Calls {
    * -0.0 is zero; MVS_LEAFLET_LAW_BILINEAR without constants, on a leaflet of springs, becomes the
    * membrane that follows the curve of those springs. Shape, chordae and load do not change; the
    * history is emptied, because operations cannot be undone into another tissue, and an open
-   * journal ends.
+   * journal ends. MVS_E_ID if the leaflet does not exist, MVS_E_OP for constants that the law
+   * cannot have.
    */
   mvs_set_leaflet(sim: SimHandle, leaflet: bigint | number, tissue: LeafletDesc): void {
     return this.invoke(signatures.mvs_set_leaflet!, [sim, leaflet, tissue]) as never;
@@ -1149,7 +1150,8 @@ export class Functions extends Calls {
    * steps it makes no allocation and no system call while no snapshot of the valve is held and no
    * hand has moved. An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or
    * removing a tool prepares the next step of a valve that is being stepped within its own call.
-   * MVS_E_DIVERGED if numbers left their range: use a smaller dt. `options` is nullable.
+   * MVS_E_DIVERGED if numbers left their range: use a smaller dt; MVS_E_UNSUPPORTED for the
+   * explicit solver with a tool that pushes, as of mvs_settle. `options` is nullable.
    */
   mvs_step(sim: SimHandle, options?: StepOptions | null): void {
     return this.invoke(signatures.mvs_step!, [sim, options]) as never;
@@ -1158,7 +1160,7 @@ export class Functions extends Calls {
   /**
    * Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.
    * `converged` is 1 while the valve is at rest: an operation, a load or a tool makes it 0 until
-   * the next settle; so does a time step that moves the valve.
+   * the next settle, or a step that finds nothing to move; so does a step that moves the valve.
    */
   mvs_get_stats(sim: SimHandle): Stats {
     return this.invoke(signatures.mvs_get_stats!, [sim]) as never;
@@ -1486,7 +1488,7 @@ export class Functions extends Calls {
     return this.invoke(signatures.mvs_move_tool_pose!, [sim, tool, position, orientation]) as never;
   }
 
-  /** Removes a tool from the state; a grasp releases its node. */
+  /** Removes a tool from the state; a grasp releases its node. MVS_E_ID if it does not exist. */
   mvs_remove_tool(sim: SimHandle, tool: bigint | number): void {
     return this.invoke(signatures.mvs_remove_tool!, [sim, tool]) as never;
   }
@@ -1706,11 +1708,11 @@ export class Functions extends Calls {
 
   /**
    * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
-   * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures, 3 if the valve is
-   * sealed with the first ones. `errors` is nullable. `found` gets findings as those of a build:
-   * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2;
-   * release it with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED if the progress
-   * callback of the simulator cancelled.
+   * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an
+   * error of the thickness, if all of these are sealed. `errors` is nullable. `found` gets findings
+   * as those of a build: "leak", "leak_interval", without values if no closure came to rest, and
+   * "leak_limits", m2; release it with mvs_build_release. The simulator is unchanged.
+   * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
    */
   mvs_find_leak_interval(sim: SimHandle, errors?: LeakErrors | null): BuildHandle {
     return this.invoke(signatures.mvs_find_leak_interval!, [sim, errors]) as never;

@@ -312,20 +312,23 @@ export interface SettleOptions {
   max_iterations?: number;
   /** MVS_SETTLE_* */
   flags?: number;
-  /** N, largest out-of-balance force on a node at rest [1e-5] */
+  /** N, largest out-of-balance force on a node at rest, 1e-12 to 1e3 [1e-5] */
   residual?: number;
   /**
    * s, time step of the dynamic solvers [implicit 1e-3; explicit: stable on this valve, at most
-   * 8e-6]
+   * 8e-6]; 1e-9 to 1
    */
   dt?: number;
-  /** 1/s, mass-proportional, of the dynamic solvers [explicit 500] */
+  /** 1/s, mass-proportional, of the dynamic solvers, 1e-6 to 1e6 [explicit 500] */
   damping?: number;
 }
 
 /** Outcome of a settle or step (fields: MVS_STRUCT_STATS). */
 export interface Stats {
-  /** 1: the residual is reached, and nothing has changed since */
+  /**
+   * 1: at rest, as the last settle, or a step that found nothing to move, decided, and nothing has
+   * changed since
+   */
   converged: number;
   /** Newton iterations, or time steps */
   iterations: number;
@@ -362,10 +365,11 @@ export interface StepOptions {
   /** 1/s, mass-proportional [0 implicit, 500 explicit] */
   damping?: number;
   /**
-   * Largest number of energy passes and solutions with the factor in an implicit step, 4 to 10000
-   * [64]. A count, not a time, so that the same calls give the same bits on any machine;
-   * mvs_stats.lowered reports the accuracy that a short budget costs. Searches for contact are not
-   * counted: on thousands of vertices they may take most of a step beside a tool that moves.
+   * Largest amount of work of an implicit step, 4 to 10000 [64]: energy passes, assemblies,
+   * iterations of conjugate gradients, factorisations or parts of one. A count, not a time, so that
+   * the same calls give the same bits on any machine; mvs_stats.lowered reports the accuracy that a
+   * short budget costs. Searches for contact are not counted: on thousands of vertices they may
+   * take most of a step beside a tool that moves.
    */
   budget?: number;
 }
@@ -975,6 +979,7 @@ export interface ToolDesc {
   reach?: number;
   /** 1: a grasp takes `node`, a leaflet vertex or branch point, at any distance */
   by_node?: number;
+  /** with by_node */
   node?: number;
   /** of a convex tool, 1 to MVS_MAX_BODIES */
   bodies?: readonly BodyDesc[];
@@ -1009,7 +1014,9 @@ export interface ToolState {
   radius: number;
   /** m; length of a convex tool: the arm of its frame */
   length: number;
+  /** N/m, N: of the spring between hand and tool */
   stiffness: number;
+  /** N/m, N: of the spring between hand and tool */
   max_force: number;
   /** held by a grasp; UINT32_MAX for others */
   node: number;
@@ -1311,7 +1318,8 @@ export interface SurfaceDesc {
   closed_triangles?: ArrayInput;
   /**
    * k x 3, k >= 6, points along the loaded annulus in any order [measured: an affine motion of the
-   * annulus onto rims of the closed surface; without one, or without rims there, it stays]
+   * annulus onto rims of the closed surface; without a closed surface, or if it has no rims near
+   * the annulus, the annulus stays]
    */
   closed_annulus?: ArrayInput;
   /**
@@ -1333,27 +1341,27 @@ export interface BuildOptions {
   edge?: number;
   /** m, where it is not known per point, 1e-4 to 5e-3 [0.8e-3] */
   thickness?: number;
-  /** on all rest lengths [1] */
+  /** on all rest lengths, 0.5 to 2 [1] */
   chord_factor?: number;
   /**
    * m, overlap of both leaflets in the middle for which rest lengths are chosen if no closed
-   * surface is given [8e-3]
+   * surface is given, 1e-3 to 20e-3 [8e-3]
    */
   coaptation_length?: number;
   /** about this number of chord segments, 20 to 400 [100] */
   chords?: number;
   /**
-   * m, up to 5e-3: how far the free edge may lie farther out or in than in the surface; widens the
-   * interval of leaks [0]
+   * m, 1e-6 to 5e-3: how far the free edge may lie farther out or in than in the surface; widens
+   * the interval of leaks [0]
    */
   edge_error?: number;
   /**
-   * m, up to 5e-3: of tissue that may be missing at the free edge; widens the interval of leaks.
-   * 1e-6: none [half of the mean depth of the notches that were filled]
+   * m, 1e-6 to 5e-3: of tissue that may be missing at the free edge; widens the interval of leaks;
+   * 1e-6 adds nothing [half of the mean depth of the notches that were filled]
    */
   edge_lost?: number;
   /**
-   * m, up to 2e-3: by how much the leaflets may be thicker or thinner than the thickness says;
+   * m, 1e-6 to 2e-3: by how much the leaflets may be thicker or thinner than the thickness says;
    * widens the interval of leaks [0]
    */
   thickness_error?: number;
@@ -1371,7 +1379,7 @@ export interface LeakErrors {
   lengths?: number;
   /** 1e-3 to 0.5: share, of a chord beside its group [0.03] */
   single?: number;
-  /** m, up to 2e-3: of the leaflets, thicker or thinner [0] */
+  /** m, 1e-6 to 2e-3: of the leaflets, thicker or thinner [0] */
   thickness?: number;
 }
 
