@@ -5,10 +5,10 @@
 
 #include "base/error.h"
 #include "geometry/intersect.h"
+#include "patient/annulus/closed_curve.h"
 #include "patient/checks/displaced_points.h"
 #include "patient/checks/rim_length.h"
 #include "patient/checks/rough_surface.h"
-#include "patient/annulus/closed_curve.h"
 #include "patient/findings.h"
 #include "patient/skin/mid_surface.h"
 #include "patient/skin/skin_holes.h"
