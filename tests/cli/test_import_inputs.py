@@ -1,21 +1,14 @@
 """Inputs of `mvs import`: units, landmarks, edited findings, options, and outputs that are inputs."""
 import json
-import pathlib
-import tempfile
 import unittest
 
-from test_surface_import import mvs, read_obj, write_markups, write_ply, write_stl
+from test_surface_import import OpenSurface, mvs, write_markups, write_ply
 
 
-class ImportInputs(unittest.TestCase):
+class ImportInputs(OpenSurface):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(folder.cleanup)
-        cls.dir = pathlib.Path(folder.name)
-        assert mvs("generate", "-o", cls.dir / "made.obj").returncode == 0
-        cls.points, cls.triangles = read_obj(cls.dir / "made.obj")
-        write_stl(cls.dir / "open.stl", cls.points, cls.triangles)
+        super().setUpClass()
         cls.first = cls.run_import("first.h5")
         rows = json.loads((cls.dir / "first.import.json").read_text())["findings"]
         cls.found = {row["name"]: row for row in rows}

@@ -57,7 +57,9 @@ def write_markups(path, points, frame):
          "controlPoints": controls}]}), encoding="utf-8")
 
 
-class SurfaceImport(unittest.TestCase):
+class OpenSurface(unittest.TestCase):
+    """The leaflets of a generated valve as `open.stl` in a folder of their own."""
+
     @classmethod
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory()
@@ -67,6 +69,8 @@ class SurfaceImport(unittest.TestCase):
         cls.points, cls.triangles = read_obj(cls.dir / "made.obj")
         write_stl(cls.dir / "open.stl", cls.points, cls.triangles)
 
+
+class SurfaceImport(OpenSurface):
     def ok(self, *arguments):
         done = mvs(*arguments)
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -1,4 +1,4 @@
-// What a driver of tests/haptics/liars was asked for.
+// The calls that a driver of tests/haptics/liars has received.
 #pragma once
 
 #include <dlfcn.h>
