@@ -61,6 +61,8 @@ export class Calls {
   private depth = 0;
   /** Handles that are not released yet, by the function that releases them. */
   readonly held = new Map<string, number>();
+  /** The same by their addresses: what they are of, and how many references are held. */
+  private readonly handles = new Map<number, { of: string; count: number }>();
 
   constructor(readonly module: EmscriptenModule) {
     this.heap = new Heap(module);
@@ -147,7 +149,7 @@ export class Calls {
     }
     switch (step.how) {
       case "handle":
-        values.push(whole(value, step.name, 1));
+        values.push(this.heldHandle(step, value));
         return;
       case "inStruct":
         values.push(call.writer.make(step.of!, value, step.name));
@@ -244,7 +246,23 @@ export class Calls {
     return fill.asNumbers ? new Float64Array(bytes.buffer) : bytes;
   }
 
+  private heldHandle(step: Step, value: unknown): number {
+    if (typeof value !== "number" || this.handles.get(value)?.of !== step.of) {
+      const kind = step.of!.replace("mvs_", "").replace(/_/g, " ");
+      const found = typeof value === "object" ? "an object" : String(value);
+      return refuse(step.name, `${step.name} is ${found}: it has to be the handle of a ${kind} that this module still holds`);
+    }
+    return value;
+  }
+
+  private retain(handle: number, of: string): void {
+    const known = this.handles.get(handle);
+    if (known) ++known.count;
+    else this.handles.set(handle, { of, count: 1 });
+  }
+
   private newHandle(step: Step, handle: number): number {
+    this.retain(handle, step.of!);
     const by = step.freedBy ?? "";
     this.held.set(by, (this.held.get(by) ?? 0) + 1);
     return handle;
@@ -256,9 +274,12 @@ export class Calls {
     const name = call.signature.name;
     if (name === "mvs_snapshot_retain") {
       this.held.set("mvs_snapshot_release", (this.held.get("mvs_snapshot_release") ?? 0) + 1);
+      this.retain(first, "mvs_snapshot");
     }
     if (first !== 0 && /(_release|_destroy)$/.test(name)) {
       this.held.set(name, (this.held.get(name) ?? 0) - 1);
+      const known = this.handles.get(first);
+      if (known && --known.count === 0) this.handles.delete(first);
       if (name === "mvs_destroy") {
         this.callbacks.delete(this.callbacksOf.get(first) ?? 0);
         this.callbacksOf.delete(first);

@@ -19,6 +19,7 @@ export abstract class Owned {
 
   /** `release` must not refer to this object, or it is never collected. */
   protected constructor(
+    /** "snapshot" */
     private readonly what: string,
     private readonly address: number,
     release: Release,
@@ -31,6 +32,12 @@ export abstract class Owned {
   get handle(): number {
     if (!this.release) throw new MvsError("MVS_E_STATE", this.what, `this ${this.what} was disposed of`);
     return this.address;
+  }
+
+  /** Words for an object in a sentence: "a snapshot of another module". */
+  static describe(value: unknown): string {
+    if (value instanceof Owned) return `a ${value.what}`;
+    return typeof value === "object" && value !== null ? "another object" : String(value);
   }
 
   get isDisposed(): boolean {

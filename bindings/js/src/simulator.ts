@@ -9,7 +9,7 @@ import type {
 import { Owned } from "./handles.js";
 import type { Mvs } from "./library.js";
 import { OperationWriter, type OperationFields, type PartRef } from "./operations.js";
-import { Snapshot } from "./snapshot.js";
+import { Snapshot, snapshotHandle } from "./snapshot.js";
 
 /** 120 mmHg in Pa: the default systolic load. */
 export const SYSTOLE_PA = 15998.64;
@@ -33,6 +33,12 @@ export interface SliceOptions extends SettleOptions {
   signal?: AbortSignal;
 }
 
+/** A settle in slices that is under way. */
+interface Slices {
+  /** Why it ended before its time. */
+  ended?: string;
+}
+
 /** A finding of a build: `values` is a copy. */
 export type Finding = Omit<BuildFinding, "values"> & { values: Float64Array };
 
@@ -52,7 +58,11 @@ function breathe(): Promise<void> {
   });
 }
 
+const cancelled = (why: string): MvsError => new MvsError("MVS_E_CANCELLED", "settle", `the settle was cancelled: ${why}`);
+
 export class Simulator extends Owned {
+  private slices: Slices | undefined;
+
   constructor(readonly mvs: Mvs, options: SimulatorOptions = {}) {
     const { c } = mvs;
     const handle = c.mvs_create(options);
@@ -108,41 +118,68 @@ export class Simulator extends Owned {
     return this.mvs.c.mvs_settle(this.handle, options);
   }
 
-  /** Begins a settle in slices (mvs_begin_settle). */
+  /** Begins a settle in slices; one that is under way is replaced: the promise of its settleInSlices() is rejected. */
   beginSettle(options?: SettleOptions): void {
     this.mvs.c.mvs_begin_settle(this.handle, options);
+    this.endSlices("replaced by a new settle");
   }
 
-  /** Advances it for `seconds`; `share` is 1 at the end, and `stats` are those of the settle then. */
+  /** Advances it for `seconds`, and at least by one iteration; `share` is 1 at the end, and `stats` are those of the settle then. */
   advanceSettle(seconds: number): { share: number; stats: Stats } {
     return this.mvs.c.mvs_advance_settle(this.handle, seconds);
   }
 
+  /** Cancels the settle in slices that is under way, if there is one: its promise is rejected with MVS_E_CANCELLED. */
   cancelSettle(): void {
     this.mvs.c.mvs_cancel_settle(this.handle);
+    this.endSlices("by cancelSettle(); it has changed nothing");
+  }
+
+  private endSlices(why: string): void {
+    if (this.slices) this.slices.ended = why;
+    this.slices = undefined;
   }
 
   /**
    * Settles in slices with the event loop running in between; the result has the same bits as that of
-   * settle(). Throws MVS_E_CANCELLED if the signal aborts it: the valve is then as before.
+   * settle(). A slice lasts at least one iteration of Newton's method: hundreds of milliseconds with 3,000
+   * vertices. The promise is rejected with MVS_E_CANCELLED if the signal aborts, after cancelSettle(), when
+   * another settle begins, and when another call changes the valve in between.
    */
   async settleInSlices(options: SliceOptions = {}): Promise<Stats> {
     const { slice = 0.02, onProgress, signal, ...settle } = options;
-    const stop = (): never => {
-      throw new MvsError("MVS_E_CANCELLED", "settle", "the settle was cancelled; the valve is as before");
-    };
-    if (signal?.aborted) stop();
+    const aborted = "by its signal; it has changed nothing";
+    if (signal?.aborted) throw cancelled(aborted);
     this.beginSettle(settle);
+    const mine: Slices = {};
+    this.slices = mine;
     try {
       for (;;) {
-        const { share, stats } = this.advanceSettle(slice);
+        const { share, stats } = this.advance(slice);
+        if (share >= 1) this.slices = undefined;
         onProgress?.(share);
         if (share >= 1) return stats;
         await breathe();
-        if (signal?.aborted) stop();
+        if (signal?.aborted) throw cancelled(mine.ended ?? aborted);
+        if (mine.ended) throw cancelled(mine.ended);
       }
     } catch (error) {
-      if (!this.isDisposed) this.cancelSettle();
+      // another settle may be under way by now: it is not this one's to cancel
+      if (this.slices === mine) {
+        if (!this.isDisposed) this.mvs.c.mvs_cancel_settle(this.handle);
+        this.slices = undefined;
+      }
+      throw error;
+    }
+  }
+
+  // A slice of settleInSlices: without a settle under way, another call has changed the valve.
+  private advance(seconds: number): { share: number; stats: Stats } {
+    const { handle } = this;
+    try {
+      return this.mvs.c.mvs_advance_settle(handle, seconds);
+    } catch (error) {
+      if (error instanceof MvsError && error.code === "MVS_E_STATE") throw cancelled("another call has changed the valve");
       throw error;
     }
   }
@@ -177,7 +214,7 @@ export class Simulator extends Owned {
   }
 
   restore(snapshot: Snapshot): void {
-    this.mvs.c.mvs_restore(this.handle, snapshot.handle);
+    this.mvs.c.mvs_restore(this.handle, snapshotHandle(this.mvs, snapshot, "snapshot"));
   }
 
   /** Throws what apply() would throw; nothing changes. */
@@ -275,7 +312,7 @@ export class Simulator extends Owned {
   }
 
   transferState(from: Snapshot): void {
-    this.mvs.c.mvs_transfer_state(this.handle, from.handle);
+    this.mvs.c.mvs_transfer_state(this.handle, snapshotHandle(this.mvs, from, "from"));
   }
 
   private operation(name: string, fields: OperationFields): ReturnType<OperationWriter["make"]> {

@@ -143,7 +143,7 @@ export class Snapshot extends Owned {
   }
 
   compare(other: Snapshot): Comparison {
-    return this.mvs.c.mvs_snapshot_compare(this.handle, other.handle);
+    return this.mvs.c.mvs_snapshot_compare(this.handle, snapshotHandle(this.mvs, other, "other"));
   }
 
   /** Intersection with a plane: segments as pairs of points, 6 numbers each, m. */
@@ -199,4 +199,11 @@ export class Snapshot extends Owned {
   pick(ray: Ray): Picked | undefined {
     return pick(this, ray);
   }
+}
+
+/** The handle of a snapshot that was passed as an argument; another object, or one of another module, is refused. */
+export function snapshotHandle(mvs: Mvs, value: Snapshot, what: string): number {
+  if (!(value instanceof Snapshot)) return refuse(what, `${what} is ${Owned.describe(value)}: it has to be a Snapshot`);
+  if (value.mvs !== mvs) return refuse(what, `${what} belongs to another module: save() it there and load() the bytes here`);
+  return value.handle;
 }

@@ -93,6 +93,45 @@ export const life = {
     ok(sim.isDisposed, "isDisposed");
   },
 
+  async only_snapshots_of_the_same_module_are_taken({ mvs, load }) {
+    const sim = closed(mvs);
+    const snapshot = sim.snapshot();
+    const other = closed(await load({}));
+    const foreign = other.snapshot();
+    const before = snapshot.hash;
+    for (const wrong of [sim, null, undefined, 5, "x", {}, [], { handle: snapshot.handle }, { handle: 16 }]) {
+      await fails(() => sim.restore(wrong), "MVS_E_ARGUMENT", /has to be a Snapshot/, "snapshot");
+      await fails(() => sim.transferState(wrong), "MVS_E_ARGUMENT", /has to be a Snapshot/, "from");
+      await fails(() => snapshot.compare(wrong), "MVS_E_ARGUMENT", /has to be a Snapshot/, "other");
+    }
+    await fails(() => sim.restore(sim), "MVS_E_ARGUMENT", /snapshot is a simulator/, "snapshot");
+    await fails(() => sim.restore(foreign), "MVS_E_ARGUMENT", /another module/, "snapshot");
+    await fails(() => sim.transferState(foreign), "MVS_E_ARGUMENT", /another module/, "from");
+    await fails(() => snapshot.compare(foreign), "MVS_E_ARGUMENT", /another module/, "other");
+    equal(hashOf(sim), before, "hash");
+    equal(foreign.measure().at_rest, 1, "the other module works");
+    for (const owned of [foreign, other, snapshot, sim]) owned.dispose();
+  },
+
+  async only_handles_that_are_held_are_taken({ mvs }) {
+    const { c } = mvs;
+    const sim = c.mvs_create();
+    c.mvs_generate_valve(sim);
+    const snapshot = c.mvs_get_snapshot(sim);
+    const again = c.mvs_snapshot_retain(snapshot) ?? snapshot;
+    for (const wrong of [sim, 16, snapshot + 8, "x", { handle: snapshot }, true]) {
+      await fails(() => c.mvs_restore(sim, wrong), "MVS_E_ARGUMENT", /handle of a snapshot/, "snapshot");
+    }
+    await fails(() => c.mvs_undo(snapshot), "MVS_E_ARGUMENT", /handle of a sim/, "sim");
+    c.mvs_snapshot_release(snapshot);
+    c.mvs_restore(sim, again);
+    c.mvs_snapshot_release(again);
+    await fails(() => c.mvs_restore(sim, snapshot), "MVS_E_ARGUMENT", /still holds/, "snapshot");
+    await fails(() => c.mvs_snapshot_release(snapshot), "MVS_E_ARGUMENT", /still holds/, "snapshot");
+    c.mvs_destroy(sim);
+    await fails(() => c.mvs_undo(sim), "MVS_E_ARGUMENT", /still holds/, "sim");
+  },
+
   a_snapshot_outlives_its_simulator({ mvs }) {
     const sim = closed(mvs);
     const snapshot = sim.snapshot();

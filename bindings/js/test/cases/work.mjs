@@ -66,6 +66,60 @@ export const work = {
     sim.dispose();
   },
 
+  a_settle_in_slices_ends_for_one_caller: async ({ mvs }) => {
+    const sim = mvs.simulator();
+    sim.generateValve();
+    sim.setLoad();
+    const open = sim.snapshot();
+    const begin = (options) => {
+      const promise = sim.settleInSlices({ slice: 0.001, ...options });
+      promise.catch(() => {});
+      return promise;
+    };
+    // aborted, changed, begun anew: the new one comes to rest
+    const controller = new AbortController();
+    const first = begin({ signal: controller.signal });
+    controller.abort();
+    sim.apply("chord_length", { chord: "A2/7", factor: 0.9 });
+    const second = begin();
+    await fails(() => first, "MVS_E_CANCELLED", /cancelled/, "settle");
+    equal((await second).converged, 1, "converged");
+    // two at the same time: only the second has a result
+    sim.restore(open);
+    const loose = begin({ residual: 1e-1 });
+    const fine = begin({ residual: 1e-6 });
+    await fails(() => loose, "MVS_E_CANCELLED", /replaced by a new settle/, "settle");
+    equal((await fine).converged, 1, "converged");
+    equal(sim.read((s) => s.rest.tolerance), 1e-6, "tolerance");
+    // a failed begin ends nothing
+    sim.restore(open);
+    const kept = begin();
+    await fails(() => sim.settleInSlices({ solver: "fast" }), "MVS_E_ARGUMENT", /one of newton/);
+    equal((await kept).converged, 1, "converged");
+    sim.restore(open);
+    const ended = [
+      [() => sim.apply("chord_length", { chord: "A2/7", factor: 0.9 }), /another call has changed the valve/],
+      [() => sim.restore(open), /another call has changed the valve/],
+      [() => sim.cancelSettle(), /cancelSettle/],
+      [() => sim.beginSettle(), /replaced by a new settle/],
+    ];
+    for (const [change, sentence] of ended) {
+      const promise = begin();
+      change();
+      await fails(() => promise, "MVS_E_CANCELLED", sentence, "settle");
+    }
+    sim.advanceSettle(0); // the settle that beginSettle() began goes on
+    sim.cancelSettle();
+    // a failure of the caller's function ends its own settle
+    await fails(() => sim.settleInSlices({ slice: 0.001, onProgress: () => sim.undo() }), "MVS_E_STATE", /undo/);
+    await fails(() => sim.advanceSettle(0), "MVS_E_STATE", /settle/);
+    sim.restore(open);
+    const lost = begin();
+    sim.dispose();
+    await fails(() => lost, "MVS_E_STATE", /disposed/, "simulator");
+    open.dispose();
+  },
+
   progress_and_log_reach_javascript: async ({ mvs }) => {
     const lines = [];
     let calls = 0;
