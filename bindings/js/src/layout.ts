@@ -1,7 +1,7 @@
 // Reads and writes structs of the C interface by their layouts on wasm32.
 import { ArrayView, typed, type ArrayInput } from "./arrays.js";
 import { MvsError, refuse } from "./error.js";
-import { enums } from "./generated/enums.js";
+import { enums, Solver, ValveFlags } from "./generated/enums.js";
 import { layouts } from "./generated/structs.js";
 import type { Arena, Heap } from "./heap.js";
 
@@ -16,12 +16,19 @@ export interface Field {
   components?: number;
   element?: string;
   user?: number;
+  /** C takes a 0 for the default: always, or with the explicit solver. */
+  zero?: string;
+  /** 0 or 1: false and true do as well. */
+  flag?: boolean;
 }
 export interface Layout {
   size: number;
   sized: boolean;
   fields: Field[];
 }
+
+/** Kinds of fields that null leaves out. */
+const nullable = new Set(["text", "callback"]);
 
 /** Stores a callback of a struct and returns the address of its C function and the user pointer. */
 export type KeepCallback = (kind: string, callback: unknown) => { address: number; user: number };
@@ -53,7 +60,6 @@ export function real(value: unknown, what: string): number {
 }
 
 export function whole(value: unknown, what: string, low = 0, high = 0xffffffff): number {
-  if (typeof value === "boolean") return value ? 1 : 0;
   const number = real(value, what);
   if (!Number.isInteger(number) || number < low || number > high) {
     refuse(what, `${what} is ${number}: it has to be a whole number from ${low} to ${high}`);
@@ -145,8 +151,25 @@ export class StructWriter {
     if (layout.sized) this.arena.heap.view.setUint32(at, layout.size, true);
     for (const field of layout.fields) {
       const given = (value as Record<string, unknown>)[field.name];
-      if (given !== undefined && given !== null) this.field(field, at, given, `${what}.${field.name}`);
+      if (given === undefined) continue;
+      const name = `${what}.${field.name}`;
+      if (given === null) {
+        if (!nullable.has(field.kind)) refuse(name, `${name} is null: leave it out for its default`);
+        continue;
+      }
+      if (given === 0 && field.zero) this.zero(field, value as Record<string, unknown>, name);
+      this.field(field, at, given, name);
     }
+  }
+
+  // A 0 that C would silently replace by the default.
+  private zero(field: Field, value: Record<string, unknown>, name: string): void {
+    const { solver, flags } = value;
+    const isBending = field.name === "bending_scale";
+    if (isBending && typeof flags === "number" && flags & ValveFlags.flag_no_bending) return;
+    if (field.zero === "explicit" && solver !== "explicit" && solver !== Solver.explicit) return;
+    const remedy = isBending ? ", or give flags: ValveFlags.flag_no_bending for leaflets that do not bend" : "";
+    refuse(name, `${name} is 0, which would be taken for its default: leave it out for the default${remedy}`);
   }
 
   private field(field: Field, base: number, value: unknown, what: string): void {
@@ -192,7 +215,8 @@ export class StructWriter {
         return;
       }
       default:
-        if (field.length) writeNumbers(heap, field, at, value, what);
+        if (field.flag && typeof value === "boolean") writeScalar(heap, field.kind, at, 0, Number(value), what);
+        else if (field.length) writeNumbers(heap, field, at, value, what);
         else writeScalar(heap, field.kind, at, 0, value, what);
     }
   }

@@ -54,6 +54,15 @@ export function readSchema(c: Functions): OperationInfo[] {
   });
 }
 
+// Fields that state what 0 means although it is outside of their range.
+const zeroCounts = new Set(["resect.base_width"]);
+
+// In operations 0 stands for a value that is not given, unless 0 is within the range of the field.
+function replacesZero(operation: string, field: OperationField): boolean {
+  if (zeroCounts.has(`${operation}.${field.name}`)) return false;
+  return (field.type === "number" || field.type === "count") && !(field.low <= 0 && field.high >= 0);
+}
+
 /** Writes operations with the parts of one valve. */
 export class OperationWriter {
   constructor(
@@ -77,6 +86,9 @@ export class OperationWriter {
         arena.heap.view.setUint32(at + 4, info.number, true);
         for (const field of info.fields) {
           const value = values[field.name];
+          if (value === 0 && replacesZero(name, field)) {
+            refuse(`${name}.${field.name}`, `${name}.${field.name} is 0, which would be taken for its default: leave it out for the default`);
+          }
           if (value !== undefined && value !== null) this.field(arena, field, at + field.offset, value, `${name}.${field.name}`);
         }
         return at;

@@ -9,10 +9,9 @@ import type {
 import { Owned } from "./handles.js";
 import type { Mvs } from "./library.js";
 import { OperationWriter, type OperationFields, type PartRef } from "./operations.js";
-import { Snapshot, snapshotHandle } from "./snapshot.js";
+import { loadWithDefaults, Snapshot, snapshotHandle, SYSTOLE_PA } from "./snapshot.js";
 
-/** 120 mmHg in Pa: the default systolic load. */
-export const SYSTOLE_PA = 15998.64;
+export { SYSTOLE_PA };
 /** 5 mmHg in Pa: the default pressure difference that opens the valve in diastole. */
 export const DIASTOLE_PA = 666.61;
 
@@ -104,9 +103,12 @@ export class Simulator extends Owned {
     this.mvs.c.mvs_load_memory(this.handle, data, format);
   }
 
-  /** Sets the load for the next settle or step [systole]. Nothing moves yet. */
-  setLoad(load: LoadCaseInput = { pressure: SYSTOLE_PA, boundary_fraction: 1 }): void {
-    this.mvs.c.mvs_set_load(this.handle, load);
+  /**
+   * Sets the load for the next settle or step: `pressure` [SYSTOLE_PA], and `boundary_fraction`, the position of annulus and heads
+   * from 0, open, to 1, loaded [1]. Nothing moves yet.
+   */
+  setLoad(load: LoadCaseInput = {}): void {
+    this.mvs.c.mvs_set_load(this.handle, loadWithDefaults(load));
   }
 
   get loadCase(): LoadCase {

@@ -12,6 +12,16 @@ import { enumNumber } from "./layout.js";
 import type { Mvs } from "./library.js";
 import { pick, type Picked, type Ray } from "./pick.js";
 
+/** 120 mmHg in Pa: the default systolic load. */
+export const SYSTOLE_PA = 15998.64;
+
+/** A load whose fields are all given: in C, those that are left out are 0. */
+export function loadWithDefaults(load: LoadCaseInput): LoadCaseInput {
+  if (typeof load !== "object" || load === null) return load; // refused where it is written
+  const { pressure = SYSTOLE_PA, boundary_fraction = 1 } = load;
+  return { ...load, pressure, boundary_fraction };
+}
+
 /** Names of the arrays of a snapshot, "node_position". */
 export type ArrayName = ArrayKind;
 
@@ -190,9 +200,9 @@ export class Snapshot extends Owned {
     return new TextDecoder().decode(this.mvs.c.mvs_write_plan(this.handle, options));
   }
 
-  /** Closes the valve along several loading paths: the spread of the results. */
-  ensemble(load: LoadCaseInput, options?: EnsembleOptions, settle?: SettleOptions): Ensemble {
-    return new Ensemble(this.mvs, this.mvs.c.mvs_ensemble_run(this.handle, load, settle, options));
+  /** Closes the valve along several loading paths: the spread of the results. `load` as in Simulator.setLoad(). */
+  ensemble(load: LoadCaseInput = {}, options?: EnsembleOptions, settle?: SettleOptions): Ensemble {
+    return new Ensemble(this.mvs, this.mvs.c.mvs_ensemble_run(this.handle, loadWithDefaults(load), settle, options));
   }
 
   /** The nearest leaflet, chord or papillary head that a ray meets; undefined where it meets none. */

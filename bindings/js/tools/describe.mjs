@@ -10,6 +10,18 @@ const camel = (text) => text.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpp
 // mvs_settle_options -> SettleOptions
 export const typeName = (name) => camel(`_${name.replace(/^mvs_/, "")}`);
 
+// Numbers without a stated default that C replaces by one where they are 0, and others where 0 has its own meaning.
+const withDefault = (struct, field) => struct === "mvs_parametric_desc" && field.kind === "f64";
+const zeroCounts = new Set(["mvs_body_desc.radius"]);
+
+// What C makes of a 0 in a field: "default" replaces it, "explicit" does so with the explicit solver, undefined keeps it.
+function meaningOfZero(struct, field) {
+  if (!["f64", "u32"].includes(field.kind) || field.length || zeroCounts.has(`${struct}.${field.name}`)) return undefined;
+  const stated = field.default ?? "";
+  if (/explicit 500/.test(stated)) return "explicit";
+  return withDefault(struct, field) || (stated && !/^0\b(?![.])/.test(stated)) ? "default" : undefined;
+}
+
 // The words of an enumeration: its values without their common prefix, in lower case.
 function words(entry) {
   const names = entry.values.map((value) => value.name);
@@ -72,6 +84,9 @@ class Describer {
       if (codec.kind === "structs") [`${one}_count`, `${one}_stride`].forEach((name) => hidden.add(name));
       if (field.name === "scallops") hidden.add("scallop_count");
       if (codec.kind === "user") hidden.add(field.name);
+      const zero = meaningOfZero(struct.name, field);
+      if (zero) codec.zero = zero;
+      if (codec.kind === "u32" && !field.length && /^1: /.test(field.doc ?? "")) codec.flag = true;
       shown.push({ ...field, codec });
     }
     return shown.filter((field) => !hidden.has(field.name));

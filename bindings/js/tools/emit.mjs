@@ -83,6 +83,7 @@ function fieldType(field, input) {
     case "callback":
       return codec.of === "log" ? "LogCallback | null" : "ProgressCallback | null";
     default:
+      if (input && codec.flag) return "number | boolean";
       if (!codec.length) return "number";
       return input ? "ArrayLike<number>" : "number[]";
   }

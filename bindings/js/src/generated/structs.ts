@@ -661,7 +661,7 @@ export interface Point {
   /** m */
   at?: ArrayLike<number>;
   /** 1: `at` is given; 0: left out */
-  given?: number;
+  given?: number | boolean;
 }
 
 /** A place on a leaflet. */
@@ -912,7 +912,7 @@ export interface OpInfo {
 /** Optional contents of a plan besides the operations. */
 export interface PlanOptions {
   /** 1: the measures before and after each operation */
-  measures?: number;
+  measures?: number | boolean;
   /** nullable */
   author?: string | null;
   /** nullable */
@@ -978,7 +978,7 @@ export interface ToolDesc {
   /** m; a grasp takes the nearest free vertex of a leaflet within it [2e-3] */
   reach?: number;
   /** 1: a grasp takes `node`, a leaflet vertex or branch point, at any distance */
-  by_node?: number;
+  by_node?: number | boolean;
   /** with by_node */
   node?: number;
   /** of a convex tool, 1 to MVS_MAX_BODIES */
@@ -986,7 +986,7 @@ export interface ToolDesc {
   /** of a convex tool, w x y z of a quaternion of any length [1 0 0 0] */
   orientation?: ArrayLike<number>;
   /** 1: refuses a hull with vertices that are no corners of it; 0: drops them and logs a warning */
-  strict_hulls?: number;
+  strict_hulls?: number | boolean;
 }
 
 /** A tool in a snapshot. */
@@ -1369,7 +1369,7 @@ export interface BuildOptions {
    * 1: no closures and no findings on the leak, for a caller who replaces the chordae;
    * mvs_find_leak_interval gives them later [0]
    */
-  without_leak?: number;
+  without_leak?: number | boolean;
   reserved2?: number;
 }
 
@@ -1446,7 +1446,7 @@ export const layouts: Record<string, Layout> = {
     fields: [
       { name: "type", kind: "enum", of: "mvs_field_type", at: 4 },
       { name: "offset", kind: "u32", at: 8 },
-      { name: "required", kind: "u32", at: 12 },
+      { name: "required", kind: "u32", at: 12, flag: true },
       { name: "low", kind: "f64", at: 16 },
       { name: "high", kind: "f64", at: 24 },
       { name: "name", kind: "text", at: 32 },
@@ -1489,7 +1489,7 @@ export const layouts: Record<string, Layout> = {
       { name: "name", kind: "text", at: 0 },
       { name: "id", kind: "u64", at: 8 },
       { name: "law", kind: "enum", of: "mvs_leaflet_law", at: 16 },
-      { name: "thickness", kind: "f64", at: 24 },
+      { name: "thickness", kind: "f64", at: 24, zero: "default" },
       { name: "constants", kind: "f64", at: 32, length: 8 },
     ],
   },
@@ -1510,9 +1510,9 @@ export const layouts: Record<string, Layout> = {
       { name: "node_b", kind: "u32", at: 4 },
       { name: "kind", kind: "enum", of: "mvs_chord_kind", at: 8 },
       { name: "law", kind: "enum", of: "mvs_chord_law", at: 12 },
-      { name: "rest_length", kind: "f64", at: 16 },
-      { name: "young", kind: "f64", at: 24 },
-      { name: "area", kind: "f64", at: 32 },
+      { name: "rest_length", kind: "f64", at: 16, zero: "default" },
+      { name: "young", kind: "f64", at: 24, zero: "default" },
+      { name: "area", kind: "f64", at: 32, zero: "default" },
       { name: "constants", kind: "f64", at: 40, length: 6 },
       { name: "id", kind: "u64", at: 88 },
       { name: "name", kind: "text", at: 96 },
@@ -1561,33 +1561,33 @@ export const layouts: Record<string, Layout> = {
       { name: "curves", kind: "structs", of: "mvs_curve_desc", at: 384, count: 420, stride: 424 },
       { name: "scallops", kind: "texts", at: 428, count: 436 },
       { name: "scallop_ids", kind: "ids", at: 432 },
-      { name: "density", kind: "f64", at: 448 },
-      { name: "contact_thickness", kind: "f64", at: 456 },
-      { name: "contact_stiffness", kind: "f64", at: 464 },
-      { name: "bending_scale", kind: "f64", at: 472 },
+      { name: "density", kind: "f64", at: 448, zero: "default" },
+      { name: "contact_thickness", kind: "f64", at: 456, zero: "default" },
+      { name: "contact_stiffness", kind: "f64", at: 464, zero: "default" },
+      { name: "bending_scale", kind: "f64", at: 472, zero: "default" },
     ],
   },
   mvs_parametric_desc: {
     size: 136,
     sized: true,
     fields: [
-      { name: "vertices", kind: "u32", at: 4 },
-      { name: "chords", kind: "u32", at: 8 },
+      { name: "vertices", kind: "u32", at: 4, zero: "default" },
+      { name: "chords", kind: "u32", at: 8, zero: "default" },
       { name: "branching", kind: "enum", of: "mvs_branching", at: 12 },
-      { name: "annulus_ap", kind: "f64", at: 16 },
-      { name: "annulus_cc", kind: "f64", at: 24 },
-      { name: "saddle_height", kind: "f64", at: 32 },
-      { name: "anterior_height", kind: "f64", at: 40 },
-      { name: "posterior_height", kind: "f64", at: 48 },
-      { name: "commissure_height", kind: "f64", at: 56 },
-      { name: "thickness", kind: "f64", at: 64 },
-      { name: "papillary_depth", kind: "f64", at: 72 },
-      { name: "papillary_separation", kind: "f64", at: 80 },
-      { name: "annulus_contraction", kind: "f64", at: 88 },
-      { name: "annulus_scale", kind: "f64", at: 96 },
-      { name: "chord_slack", kind: "f64", at: 104 },
-      { name: "indentation_depth", kind: "f64", at: 112 },
-      { name: "coaptation_depth", kind: "f64", at: 120 },
+      { name: "annulus_ap", kind: "f64", at: 16, zero: "default" },
+      { name: "annulus_cc", kind: "f64", at: 24, zero: "default" },
+      { name: "saddle_height", kind: "f64", at: 32, zero: "default" },
+      { name: "anterior_height", kind: "f64", at: 40, zero: "default" },
+      { name: "posterior_height", kind: "f64", at: 48, zero: "default" },
+      { name: "commissure_height", kind: "f64", at: 56, zero: "default" },
+      { name: "thickness", kind: "f64", at: 64, zero: "default" },
+      { name: "papillary_depth", kind: "f64", at: 72, zero: "default" },
+      { name: "papillary_separation", kind: "f64", at: 80, zero: "default" },
+      { name: "annulus_contraction", kind: "f64", at: 88, zero: "default" },
+      { name: "annulus_scale", kind: "f64", at: 96, zero: "default" },
+      { name: "chord_slack", kind: "f64", at: 104, zero: "default" },
+      { name: "indentation_depth", kind: "f64", at: 112, zero: "default" },
+      { name: "coaptation_depth", kind: "f64", at: 120, zero: "default" },
       { name: "shape", kind: "enum", of: "mvs_shape", at: 128 },
       { name: "leaflet_law", kind: "enum", of: "mvs_leaflet_law", at: 132 },
     ],
@@ -1614,22 +1614,22 @@ export const layouts: Record<string, Layout> = {
     sized: true,
     fields: [
       { name: "solver", kind: "enum", of: "mvs_solver", at: 4 },
-      { name: "max_iterations", kind: "u32", at: 8 },
+      { name: "max_iterations", kind: "u32", at: 8, zero: "default" },
       { name: "flags", kind: "u32", of: "mvs_settle_flags", at: 12 },
-      { name: "residual", kind: "f64", at: 16 },
-      { name: "dt", kind: "f64", at: 24 },
-      { name: "damping", kind: "f64", at: 32 },
+      { name: "residual", kind: "f64", at: 16, zero: "default" },
+      { name: "dt", kind: "f64", at: 24, zero: "default" },
+      { name: "damping", kind: "f64", at: 32, zero: "explicit" },
     ],
   },
   mvs_stats: {
     size: 72,
     sized: true,
     fields: [
-      { name: "converged", kind: "u32", at: 4 },
+      { name: "converged", kind: "u32", at: 4, flag: true },
       { name: "iterations", kind: "u32", at: 8 },
       { name: "contact_pairs", kind: "u32", at: 12 },
       { name: "lowered", kind: "u32", of: "mvs_lowered_flags", at: 16 },
-      { name: "stable", kind: "u32", at: 20 },
+      { name: "stable", kind: "u32", at: 20, flag: true },
       { name: "residual", kind: "f64", at: 24 },
       { name: "energy", kind: "f64", at: 32 },
       { name: "kinetic", kind: "f64", at: 40 },
@@ -1643,9 +1643,9 @@ export const layouts: Record<string, Layout> = {
     sized: true,
     fields: [
       { name: "solver", kind: "enum", of: "mvs_solver", at: 4 },
-      { name: "dt", kind: "f64", at: 8 },
+      { name: "dt", kind: "f64", at: 8, zero: "default" },
       { name: "damping", kind: "f64", at: 16 },
-      { name: "budget", kind: "u32", at: 24 },
+      { name: "budget", kind: "u32", at: 24, zero: "default" },
     ],
   },
   mvs_part: {
@@ -1678,7 +1678,7 @@ export const layouts: Record<string, Layout> = {
     size: 16,
     sized: true,
     fields: [
-      { name: "at_rest", kind: "u32", at: 4 },
+      { name: "at_rest", kind: "u32", at: 4, flag: true },
       { name: "tolerance", kind: "f64", at: 8 },
     ],
   },
@@ -1686,7 +1686,7 @@ export const layouts: Record<string, Layout> = {
     size: 24,
     sized: true,
     fields: [
-      { name: "stable", kind: "u32", at: 4 },
+      { name: "stable", kind: "u32", at: 4, flag: true },
       { name: "stiffness_margin", kind: "f64", at: 8 },
       { name: "growth_rate", kind: "f64", at: 16 },
     ],
@@ -1722,8 +1722,8 @@ export const layouts: Record<string, Layout> = {
       { name: "leaflet_area", kind: "f64", at: 192 },
       { name: "chords_over_strain", kind: "u32", at: 200 },
       { name: "chords_over_tension", kind: "u32", at: 204 },
-      { name: "at_rest", kind: "u32", at: 208 },
-      { name: "under_load", kind: "u32", at: 212 },
+      { name: "at_rest", kind: "u32", at: 208, flag: true },
+      { name: "under_load", kind: "u32", at: 212, flag: true },
       { name: "leaflet_strain_p50", kind: "f64", at: 216 },
       { name: "leaflet_strain_p95", kind: "f64", at: 224 },
       { name: "leaflet_strain_p99", kind: "f64", at: 232 },
@@ -1767,7 +1767,7 @@ export const layouts: Record<string, Layout> = {
     size: 168,
     sized: true,
     fields: [
-      { name: "same_mesh", kind: "u32", at: 4 },
+      { name: "same_mesh", kind: "u32", at: 4, flag: true },
       { name: "node_rms", kind: "f64", at: 8 },
       { name: "node_max", kind: "f64", at: 16 },
       { name: "surface_rms", kind: "f64", at: 24 },
@@ -1784,11 +1784,11 @@ export const layouts: Record<string, Layout> = {
     sized: true,
     fields: [
       { name: "backend", kind: "enum", of: "mvs_backend", at: 4 },
-      { name: "pressure", kind: "f64", at: 8 },
-      { name: "residual", kind: "f64", at: 16 },
-      { name: "flow", kind: "f64", at: 24 },
-      { name: "density", kind: "f64", at: 32 },
-      { name: "discharge", kind: "f64", at: 40 },
+      { name: "pressure", kind: "f64", at: 8, zero: "default" },
+      { name: "residual", kind: "f64", at: 16, zero: "default" },
+      { name: "flow", kind: "f64", at: 24, zero: "default" },
+      { name: "density", kind: "f64", at: 32, zero: "default" },
+      { name: "discharge", kind: "f64", at: 40, zero: "default" },
       { name: "septum", kind: "array", at: 48, components: 3, element: "F64" },
       { name: "progress", kind: "callback", of: "progress", at: 80, user: 84 },
     ],
@@ -1797,7 +1797,7 @@ export const layouts: Record<string, Layout> = {
     size: 104,
     sized: true,
     fields: [
-      { name: "opened", kind: "u32", at: 4 },
+      { name: "opened", kind: "u32", at: 4, flag: true },
       { name: "open_area", kind: "f64", at: 8 },
       { name: "gradient", kind: "f64", at: 16 },
       { name: "anterior_height", kind: "f64", at: 24 },
@@ -1826,7 +1826,7 @@ export const layouts: Record<string, Layout> = {
     sized: false,
     fields: [
       { name: "at", kind: "f64", at: 0, length: 3 },
-      { name: "given", kind: "u32", at: 24 },
+      { name: "given", kind: "u32", at: 24, flag: true },
     ],
   },
   mvs_site: {
@@ -1865,9 +1865,9 @@ export const layouts: Record<string, Layout> = {
       { name: "op", kind: "struct", of: "mvs_op", at: 0 },
       { name: "head", kind: "u64", at: 8 },
       { name: "site", kind: "struct", of: "mvs_site", at: 16 },
-      { name: "length", kind: "f64", at: 56 },
-      { name: "young", kind: "f64", at: 64 },
-      { name: "area", kind: "f64", at: 72 },
+      { name: "length", kind: "f64", at: 56, zero: "default" },
+      { name: "young", kind: "f64", at: 64, zero: "default" },
+      { name: "area", kind: "f64", at: 72, zero: "default" },
       { name: "type", kind: "enum", of: "mvs_chord_kind", at: 80 },
       { name: "name", kind: "text", at: 88 },
     ],
@@ -1881,7 +1881,7 @@ export const layouts: Record<string, Layout> = {
       { name: "end", kind: "enum", of: "mvs_chord_end", at: 16 },
       { name: "site", kind: "struct", of: "mvs_site", at: 24 },
       { name: "head", kind: "u64", at: 64 },
-      { name: "length", kind: "f64", at: 72 },
+      { name: "length", kind: "f64", at: 72, zero: "default" },
     ],
   },
   mvs_op_annulus_scale: {
@@ -1889,9 +1889,9 @@ export const layouts: Record<string, Layout> = {
     sized: false,
     fields: [
       { name: "op", kind: "struct", of: "mvs_op", at: 0 },
-      { name: "factor", kind: "f64", at: 8 },
-      { name: "ap", kind: "f64", at: 16 },
-      { name: "cc", kind: "f64", at: 24 },
+      { name: "factor", kind: "f64", at: 8, zero: "default" },
+      { name: "ap", kind: "f64", at: 16, zero: "default" },
+      { name: "cc", kind: "f64", at: 24, zero: "default" },
     ],
   },
   mvs_op_ring: {
@@ -1901,8 +1901,8 @@ export const layouts: Record<string, Layout> = {
       { name: "op", kind: "struct", of: "mvs_op", at: 0 },
       { name: "curve", kind: "array", at: 8, components: 3, element: "F64" },
       { name: "size", kind: "f64", at: 40 },
-      { name: "ap_ratio", kind: "f64", at: 48 },
-      { name: "saddle", kind: "f64", at: 56 },
+      { name: "ap_ratio", kind: "f64", at: 48, zero: "default" },
+      { name: "saddle", kind: "f64", at: 56, zero: "default" },
       { name: "landmarks", kind: "array", at: 64, components: 3, element: "F64" },
       { name: "landmarks_at", kind: "array", at: 96, components: 3, element: "F64" },
       { name: "name", kind: "text", at: 128 },
@@ -1925,10 +1925,10 @@ export const layouts: Record<string, Layout> = {
       { name: "op", kind: "struct", of: "mvs_op", at: 0 },
       { name: "head", kind: "u64", at: 8 },
       { name: "site", kind: "struct", of: "mvs_site", at: 16 },
-      { name: "length", kind: "f64", at: 56 },
-      { name: "strands", kind: "u32", at: 64 },
-      { name: "young", kind: "f64", at: 72 },
-      { name: "diameter", kind: "f64", at: 80 },
+      { name: "length", kind: "f64", at: 56, zero: "default" },
+      { name: "strands", kind: "u32", at: 64, zero: "default" },
+      { name: "young", kind: "f64", at: 72, zero: "default" },
+      { name: "diameter", kind: "f64", at: 80, zero: "default" },
       { name: "name", kind: "text", at: 88 },
     ],
   },
@@ -1950,8 +1950,8 @@ export const layouts: Record<string, Layout> = {
       { name: "anterior", kind: "u64", at: 8 },
       { name: "posterior", kind: "u64", at: 16 },
       { name: "position", kind: "f64", at: 24 },
-      { name: "width", kind: "f64", at: 32 },
-      { name: "reach", kind: "f64", at: 40 },
+      { name: "width", kind: "f64", at: 32, zero: "default" },
+      { name: "reach", kind: "f64", at: 40, zero: "default" },
       { name: "name", kind: "text", at: 48 },
       { name: "angle", kind: "f64", at: 56 },
     ],
@@ -1963,9 +1963,9 @@ export const layouts: Record<string, Layout> = {
       { name: "op", kind: "struct", of: "mvs_op", at: 0 },
       { name: "scallop", kind: "u64", at: 8 },
       { name: "position", kind: "f64", at: 16 },
-      { name: "width", kind: "f64", at: 24 },
+      { name: "width", kind: "f64", at: 24, zero: "default" },
       { name: "base_width", kind: "f64", at: 32 },
-      { name: "depth", kind: "f64", at: 40 },
+      { name: "depth", kind: "f64", at: 40, zero: "default" },
       { name: "outline", kind: "array", at: 48, components: 3, element: "F64" },
     ],
   },
@@ -1975,10 +1975,10 @@ export const layouts: Record<string, Layout> = {
     fields: [
       { name: "op", kind: "struct", of: "mvs_op", at: 0 },
       { name: "site", kind: "struct", of: "mvs_site", at: 8 },
-      { name: "width", kind: "f64", at: 48 },
-      { name: "height", kind: "f64", at: 56 },
-      { name: "area_factor", kind: "f64", at: 64 },
-      { name: "thickness", kind: "f64", at: 72 },
+      { name: "width", kind: "f64", at: 48, zero: "default" },
+      { name: "height", kind: "f64", at: 56, zero: "default" },
+      { name: "area_factor", kind: "f64", at: 64, zero: "default" },
+      { name: "thickness", kind: "f64", at: 72, zero: "default" },
     ],
   },
   mvs_history: {
@@ -2016,7 +2016,7 @@ export const layouts: Record<string, Layout> = {
     size: 16,
     sized: true,
     fields: [
-      { name: "measures", kind: "u32", at: 4 },
+      { name: "measures", kind: "u32", at: 4, flag: true },
       { name: "author", kind: "text", at: 8 },
       { name: "notes", kind: "text", at: 12 },
     ],
@@ -2026,8 +2026,8 @@ export const layouts: Record<string, Layout> = {
     sized: true,
     fields: [
       { name: "operations", kind: "u32", at: 4 },
-      { name: "same_valve", kind: "u32", at: 8 },
-      { name: "same_result", kind: "u32", at: 12 },
+      { name: "same_valve", kind: "u32", at: 8, flag: true },
+      { name: "same_result", kind: "u32", at: 12, flag: true },
     ],
   },
   mvs_body_desc: {
@@ -2050,16 +2050,16 @@ export const layouts: Record<string, Layout> = {
       { name: "kind", kind: "enum", of: "mvs_tool_kind", at: 4 },
       { name: "position", kind: "f64", at: 8, length: 3 },
       { name: "axis", kind: "f64", at: 32, length: 3 },
-      { name: "radius", kind: "f64", at: 56 },
-      { name: "length", kind: "f64", at: 64 },
-      { name: "stiffness", kind: "f64", at: 72 },
-      { name: "max_force", kind: "f64", at: 80 },
-      { name: "reach", kind: "f64", at: 88 },
-      { name: "by_node", kind: "u32", at: 96 },
+      { name: "radius", kind: "f64", at: 56, zero: "default" },
+      { name: "length", kind: "f64", at: 64, zero: "default" },
+      { name: "stiffness", kind: "f64", at: 72, zero: "default" },
+      { name: "max_force", kind: "f64", at: 80, zero: "default" },
+      { name: "reach", kind: "f64", at: 88, zero: "default" },
+      { name: "by_node", kind: "u32", at: 96, flag: true },
       { name: "node", kind: "u32", at: 100 },
       { name: "bodies", kind: "structs", of: "mvs_body_desc", at: 104, count: 108, stride: 112 },
       { name: "orientation", kind: "f64", at: 120, length: 4 },
-      { name: "strict_hulls", kind: "u32", at: 152 },
+      { name: "strict_hulls", kind: "u32", at: 152, flag: true },
     ],
   },
   mvs_tool_state: {
@@ -2080,7 +2080,7 @@ export const layouts: Record<string, Layout> = {
       { name: "stiffness", kind: "f64", at: 184 },
       { name: "max_force", kind: "f64", at: 192 },
       { name: "node", kind: "u32", at: 200 },
-      { name: "touching", kind: "u32", at: 204 },
+      { name: "touching", kind: "u32", at: 204, flag: true },
       { name: "orientation", kind: "f64", at: 208, length: 4 },
       { name: "proxy_orientation", kind: "f64", at: 240, length: 4 },
       { name: "body_count", kind: "u32", at: 272 },
@@ -2139,14 +2139,14 @@ export const layouts: Record<string, Layout> = {
     size: 64,
     sized: true,
     fields: [
-      { name: "members", kind: "u32", at: 4 },
+      { name: "members", kind: "u32", at: 4, zero: "default" },
       { name: "start", kind: "enum", of: "mvs_ensemble_start", at: 8 },
       { name: "backend", kind: "enum", of: "mvs_backend", at: 12 },
       { name: "flags", kind: "u32", of: "mvs_ensemble_flags", at: 16 },
       { name: "seed", kind: "u64", at: 24 },
-      { name: "perturbation", kind: "f64", at: 32 },
-      { name: "wavelength", kind: "f64", at: 40 },
-      { name: "tolerance", kind: "f64", at: 48 },
+      { name: "perturbation", kind: "f64", at: 32, zero: "default" },
+      { name: "wavelength", kind: "f64", at: 40, zero: "default" },
+      { name: "tolerance", kind: "f64", at: 48, zero: "default" },
       { name: "progress", kind: "callback", of: "progress", at: 56, user: 60 },
     ],
   },
@@ -2168,11 +2168,11 @@ export const layouts: Record<string, Layout> = {
     size: 72,
     sized: true,
     fields: [
-      { name: "converged", kind: "u32", at: 4 },
+      { name: "converged", kind: "u32", at: 4, flag: true },
       { name: "increments", kind: "u32", at: 8 },
       { name: "order", kind: "enum", of: "mvs_ensemble_order", at: 12 },
       { name: "equilibrium", kind: "u32", at: 16 },
-      { name: "diverged", kind: "u32", at: 20 },
+      { name: "diverged", kind: "u32", at: 20, flag: true },
       { name: "perturbation", kind: "f64", at: 24 },
       { name: "node_rms", kind: "f64", at: 32 },
       { name: "node_max", kind: "f64", at: 40 },
@@ -2208,7 +2208,7 @@ export const layouts: Record<string, Layout> = {
     sized: true,
     fields: [
       { name: "flags", kind: "u32", of: "mvs_sensitivity_flags", at: 4 },
-      { name: "slack", kind: "f64", at: 8 },
+      { name: "slack", kind: "f64", at: 8, zero: "default" },
     ],
   },
   mvs_sensitivity_summary: {
@@ -2217,7 +2217,7 @@ export const layouts: Record<string, Layout> = {
     fields: [
       { name: "quantities", kind: "u32", at: 4 },
       { name: "parameters", kind: "u32", at: 8 },
-      { name: "smooth", kind: "u32", at: 12 },
+      { name: "smooth", kind: "u32", at: 12, flag: true },
       { name: "adjoint_solves", kind: "u32", at: 16 },
       { name: "direct_solves", kind: "u32", at: 20 },
       { name: "weak_chords", kind: "u32", at: 24 },
@@ -2281,15 +2281,15 @@ export const layouts: Record<string, Layout> = {
     sized: true,
     fields: [
       { name: "leaflet_law", kind: "enum", of: "mvs_leaflet_law", at: 4 },
-      { name: "edge", kind: "f64", at: 8 },
-      { name: "thickness", kind: "f64", at: 16 },
-      { name: "chord_factor", kind: "f64", at: 24 },
-      { name: "coaptation_length", kind: "f64", at: 32 },
-      { name: "chords", kind: "u32", at: 40 },
+      { name: "edge", kind: "f64", at: 8, zero: "default" },
+      { name: "thickness", kind: "f64", at: 16, zero: "default" },
+      { name: "chord_factor", kind: "f64", at: 24, zero: "default" },
+      { name: "coaptation_length", kind: "f64", at: 32, zero: "default" },
+      { name: "chords", kind: "u32", at: 40, zero: "default" },
       { name: "edge_error", kind: "f64", at: 48 },
-      { name: "edge_lost", kind: "f64", at: 56 },
+      { name: "edge_lost", kind: "f64", at: 56, zero: "default" },
       { name: "thickness_error", kind: "f64", at: 64 },
-      { name: "without_leak", kind: "u32", at: 72 },
+      { name: "without_leak", kind: "u32", at: 72, flag: true },
       { name: "reserved2", kind: "u32", at: 76 },
     ],
   },
@@ -2297,8 +2297,8 @@ export const layouts: Record<string, Layout> = {
     size: 32,
     sized: true,
     fields: [
-      { name: "lengths", kind: "f64", at: 8 },
-      { name: "single", kind: "f64", at: 16 },
+      { name: "lengths", kind: "f64", at: 8, zero: "default" },
+      { name: "single", kind: "f64", at: 16, zero: "default" },
       { name: "thickness", kind: "f64", at: 24 },
     ],
   },
@@ -2312,7 +2312,7 @@ export const layouts: Record<string, Layout> = {
       { name: "unit", kind: "text", at: 16 },
       { name: "confidence", kind: "f64", at: 24 },
       { name: "values", kind: "view", at: 32 },
-      { name: "doubtful", kind: "u32", at: 64 },
+      { name: "doubtful", kind: "u32", at: 64, flag: true },
     ],
   },
 };

@@ -38,6 +38,58 @@ export const work = {
     sim.dispose();
   },
 
+  a_zero_that_would_be_the_default_is_refused: async ({ mvs }) => {
+    const sim = closed(mvs);
+    const refused = (work, part) => fails(work, "MVS_E_ARGUMENT", /is 0, which would be taken for its default/, part);
+    for (const field of ["saddle_height", "indentation_depth", "coaptation_depth", "annulus_contraction", "annulus_scale", "chord_slack", "vertices"]) {
+      await refused(() => sim.generateValve({ [field]: 0 }), `desc.${field}`);
+      await refused(() => sim.generateValve({ [field]: -0 }), `desc.${field}`);
+    }
+    await refused(() => sim.setLeaflet("A", { law: "bilinear", thickness: 0 }), "tissue.thickness");
+    await refused(() => sim.setValve({ chords: [{ young: 0 }] }), "valve.chords[0].young");
+    await refused(() => sim.setValve({ density: 0 }), "valve.density");
+    await fails(() => sim.setValve({ bending_scale: 0 }), "MVS_E_ARGUMENT", /flag_no_bending/, "valve.bending_scale");
+    await fails(() => sim.setValve({ bending_scale: 0, flags: 2 }), "MVS_E_OP", /nodes/);
+    await refused(() => sim.settle({ residual: 0 }), "options.residual");
+    await refused(() => sim.settle({ solver: "explicit", damping: 0 }), "options.damping");
+    sim.step({ solver: "implicit", damping: 0 });
+    await refused(() => sim.step({ budget: 0 }), "options.budget");
+    await refused(() => sim.read((s) => s.cost({ pressure: 0 })), "options.pressure");
+    await refused(() => sim.read((s) => s.ensemble({}, { members: 0 })), "options.members");
+    await refused(() => sim.grasp(200, { max_force: 0 }), "desc.max_force");
+    await refused(() => sim.check("annulus_scale", { factor: 0.9, ap: 0 }), "annulus_scale.ap");
+    await refused(() => sim.check("neochord", { head: "PM1", site: { scallop: "P2", u: [0.3, 0.9] }, length: 0 }), "neochord.length");
+    await refused(() => sim.check("neochord", { head: "PM1", site: { scallop: "P2", u: [0.3, 0.9] }, strands: 0 }), "neochord.strands");
+    sim.check("resect", { base_width: 0 }); // a triangle
+    sim.check("clip", { position: 0, angle: 0 }); // within their ranges
+    sim.dispose();
+  },
+
+  a_load_that_is_given_in_part_has_the_defaults_of_systole: async ({ mvs }) => {
+    const sim = mvs.simulator();
+    sim.generateValve();
+    const loads = [[undefined, 15998.64, 1], [{}, 15998.64, 1], [{ pressure: 8000 }, 8000, 1], [{ boundary_fraction: 0.5 }, 15998.64, 0.5],
+      [{ pressure: 0, boundary_fraction: 0 }, 0, 0]];
+    for (const [load, pressure, fraction] of loads) {
+      sim.setLoad(load);
+      equal(sim.loadCase.pressure, pressure, "pressure");
+      equal(sim.loadCase.boundary_fraction, fraction, "boundary_fraction");
+    }
+    await fails(() => sim.setLoad({ presure: 8000 }), "MVS_E_ARGUMENT", /no field presure/, "load.presure");
+    await fails(() => sim.setLoad({ pressure: null }), "MVS_E_ARGUMENT", /null/, "load.pressure");
+    await fails(() => sim.setLoad(null), "MVS_E_ARGUMENT", /load/);
+    sim.setLoad();
+    sim.settle();
+    const ensembles = sim.read((s) => [undefined, {}, { pressure: 15998.64 }].map((load) => s.ensemble(load, { members: 1 })));
+    for (const ensemble of ensembles) {
+      const member = ensemble.snapshot(0);
+      equal(member.load.boundary_fraction, 1, "boundary_fraction of a member");
+      member.dispose();
+      ensemble.dispose();
+    }
+    sim.dispose();
+  },
+
   a_settle_in_slices_has_the_same_bits: async ({ mvs }) => {
     const sim = mvs.simulator();
     sim.generateValve();
