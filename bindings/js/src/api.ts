@@ -1,6 +1,6 @@
 // Exports of every entry of the package, besides loadMvs.
 export { ArrayView } from "./arrays.js";
-export type { ArrayInput, FaultCallback, LogCallback, ProgressCallback, TypedArray } from "./arrays.js";
+export type { ArrayInput, FaultCallback, LogCallback, ProgressCallback, ReadonlyArrayOf, TypedArray } from "./arrays.js";
 export { Ensemble } from "./ensemble.js";
 export { MvsError } from "./error.js";
 export * from "./generated/enums.js";

@@ -3,8 +3,18 @@ import { refuse, MvsError } from "./error.js";
 import type { Heap } from "./heap.js";
 
 export type TypedArray = Float64Array | Float32Array | Uint32Array | BigUint64Array | Uint8Array;
+/**
+ * A typed array that must not be written to: it is memory that the snapshot shares with its simulator. `slice()` makes an
+ * array of one's own.
+ */
+export type ReadonlyArrayOf<T extends TypedArray> = T extends TypedArray
+  ? Omit<T, number | "copyWithin" | "fill" | "reverse" | "set" | "sort" | "subarray"> & {
+      readonly [index: number]: T[number];
+      subarray(begin?: number, end?: number): ReadonlyArrayOf<T>;
+    }
+  : never;
 /** Numbers in rows one after the other, or rows of numbers. */
-export type ArrayInput = ArrayLike<number> | readonly (readonly number[])[];
+export type ArrayInput = ArrayLike<number> | ArrayLike<ArrayLike<number>>;
 
 /** Receives one line of the log. */
 export type LogCallback = (level: "error" | "warning" | "info" | "debug", text: string) => void;
@@ -23,14 +33,28 @@ const kinds = [
   { make: Uint8Array, type: 5 },
 ] as const;
 
+// The owner of each array that was handed out, so that the garbage collector does not release it before the array.
+const owners = new WeakMap<object, object>();
+
 /**
  * A read-only array of the library, without a copy: `values` looks into the memory of the module, and
- * is made anew after that has grown. Do not keep `values` across calls; keep this object.
+ * is made anew after that has grown. Do not keep `values` across calls; keep this object. Never write to `values`:
+ * the simulator has the same memory.
  */
 export class ArrayView {
   private made: TypedArray | undefined;
+  private owner: { readonly isDisposed: boolean } | undefined;
+
+  /** The object whose memory this is: it is kept while this view or its values are. */
+  ownedBy(owner: { readonly isDisposed: boolean }): this {
+    this.owner = owner;
+    return this;
+  }
+
   /** Whether the owner of the array is still held. */
-  isValid: () => boolean = () => true;
+  isValid(): boolean {
+    return !this.owner?.isDisposed;
+  }
 
   constructor(
     private readonly heap: Heap,
@@ -43,19 +67,20 @@ export class ArrayView {
     private readonly stride: number,
   ) {}
 
-  get values(): TypedArray {
+  get values(): ReadonlyArrayOf<TypedArray> {
     if (!this.isValid()) {
       throw new MvsError("MVS_E_STATE", "array", "the owner of this array was disposed of: copy what is needed longer");
     }
     if (!this.made || (this.made.buffer !== this.heap.buffer && this.made.length > 0) || this.made.byteLength === 0) {
       this.made = this.make();
+      if (this.owner) owners.set(this.made, this.owner);
     }
     return this.made;
   }
 
   /** A copy with a buffer of its own, which may be transferred to another thread. */
   copy(): TypedArray {
-    return this.values.slice();
+    return this.values.slice() as TypedArray;
   }
 
   private make(): TypedArray {

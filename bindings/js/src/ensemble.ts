@@ -35,8 +35,6 @@ export class Ensemble extends Owned {
   }
 
   view(which: EnsembleArray): ArrayView {
-    const view = this.mvs.c.mvs_ensemble_get_array(this.handle, which);
-    view.isValid = () => !this.isDisposed;
-    return view;
+    return this.mvs.c.mvs_ensemble_get_array(this.handle, which).ownedBy(this);
   }
 }

@@ -39,7 +39,7 @@ const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] *
 const minus = (a: Vector, b: Vector): Vector => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const plus = (a: Vector, b: Vector, t: number): Vector => [a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]];
 const cross = (a: Vector, b: Vector): Vector => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const row = (x: Float64Array, k: number): Vector => [x[3 * k]!, x[3 * k + 1]!, x[3 * k + 2]!];
+const row = (x: ArrayLike<number>, k: number): Vector => [x[3 * k]!, x[3 * k + 1]!, x[3 * k + 2]!];
 
 function meetTriangle(o: Vector, d: Vector, a: Vector, b: Vector, c: Vector): { t: number; u: Vector } | undefined {
   const ab = minus(b, a);
@@ -76,7 +76,7 @@ function nearest(o: Vector, d: Vector, a: Vector, b: Vector): { t: number; s: nu
 
 function pickLeaflet(snapshot: Snapshot, o: Vector, d: Vector): Found | undefined {
   const x = snapshot.array("node_position");
-  const triangles = snapshot.array<Uint32Array>("triangle_nodes");
+  const triangles = snapshot.array("triangle_nodes");
   let best: Found | undefined;
   for (let k = 0; k < triangles.length / 3; ++k) {
     const [i, j, l] = [triangles[3 * k]!, triangles[3 * k + 1]!, triangles[3 * k + 2]!];
@@ -110,8 +110,8 @@ export function pick(snapshot: Snapshot, ray: Ray): Picked | undefined {
   const leaflet = pickLeaflet(snapshot, o, d);
   const behind = leaflet && allowed.includes("leaflet") ? leaflet.distance : Infinity;
   const x = snapshot.array("node_position");
-  const heads = snapshot.array<Uint32Array>("head_nodes");
-  const chords = snapshot.array<Uint32Array>("chord_nodes");
+  const heads = snapshot.array("head_nodes");
+  const chords = snapshot.array("chord_nodes");
   const head = allowed.includes("head") ? pickThin(heads.length, (k) => [row(x, heads[k]!), row(x, heads[k]!)], o, d, ray, behind) : undefined;
   if (head) return named(snapshot, "head", head);
   const chord = allowed.includes("chord")
@@ -128,9 +128,9 @@ function named(snapshot: Snapshot, kind: "head" | "chord", found: Found): Picked
 
 function onLeaflet(snapshot: Snapshot, found: Found): Picked {
   const { distance, index, point, u } = found;
-  const scallop = snapshot.array<Uint32Array>("triangle_scallop")[index]!;
+  const scallop = snapshot.array("triangle_scallop")[index]!;
   const part = snapshot.mvs.c.mvs_snapshot_get_part(snapshot.handle, "scallop", scallop);
   const corner = u!.indexOf(Math.max(...u!));
-  const node = snapshot.array<Uint32Array>("triangle_nodes")[3 * index + corner]!;
+  const node = snapshot.array("triangle_nodes")[3 * index + corner]!;
   return { kind: "leaflet", distance, index, point, name: part.name, id: part.id, u: u!, node };
 }

@@ -205,7 +205,10 @@ export class Simulator extends Owned {
     return new Snapshot(this.mvs, this.mvs.c.mvs_get_snapshot(this.handle));
   }
 
-  /** Calls `read` with a snapshot, which is disposed of afterwards. */
+  /**
+   * Calls `read` with a snapshot, which is disposed of afterwards. Arrays of it are valid within the call only: return copies.
+   * The function has to end without waiting for a promise.
+   */
   read<T>(read: (snapshot: Snapshot) => T): T {
     const snapshot = this.snapshot();
     try {
@@ -273,7 +276,7 @@ export class Simulator extends Owned {
 
   /** Grasps a node, with the hand at its place or at `position`. */
   grasp(node: number, options: Omit<ToolDesc, "kind" | "by_node" | "node"> = {}): bigint {
-    const position = options.position ?? this.read((snapshot) => Array.from(snapshot.array("node_position").subarray(3 * node, 3 * node + 3)));
+    const position = options.position ?? this.read((snapshot) => Array.from(snapshot.array("node_position").slice(3 * node, 3 * node + 3)));
     return this.addTool({ ...options, kind: "grasp", by_node: 1, node, position });
   }
 

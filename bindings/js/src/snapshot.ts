@@ -1,8 +1,8 @@
 // A snapshot: an immutable valve with its state and history, to read, measure, compare and save.
-import { ArrayView, type ProgressCallback, type TypedArray } from "./arrays.js";
+import { ArrayView, type ProgressCallback, type ReadonlyArrayOf, type TypedArray } from "./arrays.js";
 import { Ensemble } from "./ensemble.js";
 import { refuse } from "./error.js";
-import { ArrayKind, MeasureGroupFlags, type Format, type PartKind } from "./generated/enums.js";
+import { ArrayKind, MeasureGroupFlags, type ArrayTypes, type Format, type PartKind } from "./generated/enums.js";
 import type {
   ChordInfo, Comparison, Cost, CostOptions, EnsembleOptions, HistoryEntry, LoadCase, LoadCaseInput, Measures, OrificePart,
   Part, PlanOptions, RegionMeasures, Rest, SettleOptions, Stability, ToolBody, ToolState,
@@ -52,26 +52,34 @@ export class Snapshot extends Owned {
     const number = enumNumber("mvs_array_kind", which, "array");
     let view = this.views.get(number);
     if (!view) {
-      view = this.mvs.c.mvs_snapshot_get_array(this.handle, number);
-      view.isValid = () => !this.isDisposed;
+      view = this.mvs.c.mvs_snapshot_get_array(this.handle, number).ownedBy(this);
       this.views.set(number, view);
     }
     return view;
   }
 
   /**
-   * The numbers of an array, without a copy, rows one after the other. Ask again after any call that
-   * may allocate: a view dies when the memory grows, and asking costs nothing.
+   * The numbers of an array, without a copy, rows one after the other.
+   *
+   * Read-only: writing to it changes the valve of the simulator and of other snapshots, and may stop the module. Change
+   * `array(name).slice()` or `copy(name)`. Ask again after any call that may allocate: a view dies when the memory grows, and
+   * asking costs nothing. The array keeps the snapshot from the garbage collector, unlike its `buffer` and `subarray()`; after
+   * dispose() it must not be used.
    */
-  array<T extends TypedArray = Float64Array>(which: ArrayName | number): T {
+  array<K extends ArrayName>(which: K): ReadonlyArrayOf<ArrayTypes[K]>;
+  /** The same with the type that the caller states, for a number or a computed name. */
+  array<T extends TypedArray = Float64Array>(which: ArrayName | number): T;
+  array(which: ArrayName | number): unknown {
     void this.handle;
-    return this.view(which).values as T;
+    return this.view(which).values;
   }
 
-  /** A copy of an array, which may be transferred to another thread. */
-  copy<T extends TypedArray = Float64Array>(which: ArrayName | number): T {
+  /** A copy of an array, which may be changed, and transferred to another thread. */
+  copy<K extends ArrayName>(which: K): ArrayTypes[K];
+  copy<T extends TypedArray = Float64Array>(which: ArrayName | number): T;
+  copy(which: ArrayName | number): unknown {
     void this.handle;
-    return this.view(which).copy() as T;
+    return this.view(which).copy();
   }
 
   /** The name of the valve. */
@@ -182,7 +190,11 @@ export class Snapshot extends Owned {
   toolBodies(index: number): ToolBody[] {
     const { c } = this.mvs;
     const count = c.mvs_snapshot_get_tool(this.handle, index).body_count;
-    return Array.from({ length: count }, (_, k) => c.mvs_snapshot_get_tool_body(this.handle, index, k));
+    return Array.from({ length: count }, (_, k) => {
+      const body = c.mvs_snapshot_get_tool_body(this.handle, index, k);
+      for (const value of Object.values(body)) if (value instanceof ArrayView) value.ownedBy(this);
+      return body;
+    });
   }
 
   /** The bytes of a file with this valve: "obj" is read back exactly; "vtp" and "feb" are for others. */

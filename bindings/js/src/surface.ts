@@ -1,5 +1,5 @@
 // Surfaces and landmarks of other programs, read from bytes.
-import type { TypedArray } from "./arrays.js";
+import type { ArrayView, TypedArray } from "./arrays.js";
 import { refuse } from "./error.js";
 import type { LengthUnit, PatientFrame, SurfacePlace } from "./generated/enums.js";
 import type { SurfaceFileOptions } from "./generated/structs.js";
@@ -38,17 +38,17 @@ export function readSurface(mvs: Mvs, data: Uint8Array | string, name: string, o
   }
   try {
     const info = c.mvs_surface_file_get_info(file);
-    const copy = <T extends TypedArray>(values: TypedArray): T => values.slice() as T;
+    const copy = <T extends TypedArray>(view: ArrayView): T => view.copy() as T;
     return {
       format: info.format,
       frame: info.frame,
       file_frame: info.file_frame,
       unit: info.unit,
-      points: copy<Float64Array>(info.points.values),
-      triangles: info.triangles.count > 0 ? copy<Uint32Array>(info.triangles.values) : new Uint32Array(0),
+      points: copy<Float64Array>(info.points),
+      triangles: info.triangles.count > 0 ? copy<Uint32Array>(info.triangles) : new Uint32Array(0),
       arrays: Array.from({ length: c.mvs_surface_file_get_array_count(file) }, (_, k) => {
         const { place, name: title, values } = c.mvs_surface_file_get_array(file, k);
-        return { place, name: title, components: values.components, values: copy<Float64Array>(values.values) };
+        return { place, name: title, components: values.components, values: copy<Float64Array>(values) };
       }),
       names: Array.from({ length: c.mvs_surface_file_get_name_count(file) }, (_, k) => c.mvs_surface_file_get_name(file, k)),
     };

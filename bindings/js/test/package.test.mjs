@@ -52,7 +52,19 @@ test("npm pack makes a package that works in an empty folder", async (t) => {
     await t.test("TypeScript finds the declarations", () => {
       file("types.mts", `import { loadMvs, MvsError, NodeKind, type Snapshot } from "libmvs";\n${use}
         const area: number = snapshot.measure().coaptation_area;
-        const x: Float64Array = snapshot.array("node_position");
+        const x: Float64Array = snapshot.array("node_position").slice();
+        const triangles: Uint32Array = snapshot.copy("triangle_nodes");
+        const ids: bigint = snapshot.array("chord_id")[0]!;
+        const kinds: number = snapshot.array("node_kind").subarray(1)[0]!;
+        const stated: Float64Array = snapshot.array<Float64Array>("node_force");
+        for (const value of snapshot.array("chord_tension")) console.log(value + 1);
+        Float32Array.from(snapshot.array("node_position"));
+        mvs.checkValve({ nodes: snapshot.array("node_rest"), triangles: [[0, 1, 2]] });
+        // @ts-expect-error arrays are read-only
+        snapshot.array("node_position")[0] = 1;
+        // @ts-expect-error arrays are read-only
+        snapshot.view("node_position").values.fill(0);
+        console.log(triangles, ids, kinds, stated);
         const made: bigint = sim.apply("ring", { size: 0.032 });
         // @ts-expect-error a word that is not an array
         snapshot.array("node_colour");

@@ -15,6 +15,8 @@ function doc(text, indent = "") {
   return `${indent}/**\n${lines.map((line) => `${indent} * ${line}\n`).join("")}${indent} */\n`;
 }
 
+const arrayTypes = { F64: "Float64Array", U32: "Uint32Array", U64: "BigUint64Array", U8: "Uint8Array" };
+
 export function enumsText(api) {
   let text = head("Enumerations: the number of each word, and the words as a type.");
   for (const entry of api.enums) {
@@ -25,6 +27,10 @@ export function enumsText(api) {
     text += "} as const;\n";
     text += `export type ${name} = keyof typeof ${name};\n\n`;
   }
+  const kinds = api.enums.find((entry) => entry.name === "mvs_array_kind");
+  text += "/** Types of the arrays of a snapshot, by their names. */\nexport interface ArrayTypes {\n";
+  for (const { doc: shape, word } of kinds.words) text += doc(shape, "  ") + `  ${word}: ${arrayTypes[shape.match(/^\w+/)[0]]};\n`;
+  text += "}\n\n";
   text += "/** All of them by their names in C. */\nexport const enums: Record<string, Record<string, number>> = {\n";
   for (const entry of api.enums) text += `  ${entry.name}: ${typeName(entry.name)},\n`;
   return text + "};\n";

@@ -894,6 +894,128 @@ export const FindingSource = {
 } as const;
 export type FindingSource = keyof typeof FindingSource;
 
+/** Types of the arrays of a snapshot, by their names. */
+export interface ArrayTypes {
+  /** F64 n x 3, m */
+  node_position: Float64Array;
+  /** F64 n x 3, m: the unloaded valve */
+  node_rest: Float64Array;
+  /** F64 n x 3, m: targets of prescribed nodes under load */
+  node_loaded: Float64Array;
+  /** F64 n x 3, m/s */
+  node_velocity: Float64Array;
+  /** U8 n: MVS_NODE_KIND_* */
+  node_kind: Uint8Array;
+  /**
+   * F64 n x 3, N: out-of-balance force; where prescribed the force of the valve on what holds it,
+   * the negative of a reaction force of FEBio or Abaqus
+   */
+  node_force: Float64Array;
+  /** F64 n x 3, N */
+  node_contact_force: Float64Array;
+  /** F64 n, m: distance to the facing leaflet, or infinity */
+  node_coaptation: Float64Array;
+  /** F64 n x 3, m: unloaded targets of prescribed nodes */
+  node_open: Float64Array;
+  /** U32 n: the node's index before operations, refinement and coarsening; UINT32_MAX for a new node */
+  node_origin: Uint32Array;
+  /** F64 n x 3: means of the triangles at a node by rest area */
+  node_strain_fibre: Float64Array;
+  /** F64 n x 3, Pa: the same */
+  node_stress_fibre: Float64Array;
+  /**
+   * F64 n x 3: mode of mvs_stability, the real part of the eigenvector; the longest displacement is
+   * 1
+   */
+  node_mode: Float64Array;
+  /** U32 m x 3 */
+  triangle_nodes: Uint32Array;
+  /** U32 m */
+  triangle_leaflet: Uint32Array;
+  /** U32 m */
+  triangle_scallop: Uint32Array;
+  /** F64 m, m */
+  triangle_thickness: Float64Array;
+  /** F64 m x 3, unit */
+  triangle_fibre: Float64Array;
+  /** F64 m x 2: principal stretches, larger first */
+  triangle_stretch: Float64Array;
+  /** F64 m x 2, Pa: principal Cauchy stresses, larger first */
+  triangle_stress: Float64Array;
+  /** F64 m: share of the triangle that faces another leaflet */
+  triangle_coapted: Float64Array;
+  /**
+   * F64 m x 3: Green-Lagrange strain along the fibre (circumferential), across it (radial), in
+   * shear
+   */
+  triangle_strain_fibre: Float64Array;
+  /** F64 m x 3, Pa: Cauchy stress, turned back by the rotation of the triangle, in the same order */
+  triangle_stress_fibre: Float64Array;
+  /** F64 m x 3: unit direction of the largest stretch */
+  triangle_direction: Float64Array;
+  /** U32 l, a row a leaflet: MVS_LEAFLET_LAW_* */
+  leaflet_law: Uint32Array;
+  /** F64 l x 9: thickness in m, then the constants of the law */
+  leaflet_constants: Float64Array;
+  /** U32 k, in order */
+  annulus_nodes: Uint32Array;
+  /** U32, in order */
+  free_edge_nodes: Uint32Array;
+  /** F64 k x 3, N: pull of tissue and pressure on each of them, which the sutures of a ring bear */
+  annulus_force: Float64Array;
+  /** U32 c x 2 */
+  chord_nodes: Uint32Array;
+  /** F64 c, m */
+  chord_rest_length: Float64Array;
+  /** U32 c: MVS_CHORD_KIND_* */
+  chord_kind: Uint32Array;
+  /** F64 c: (L - L0) / L0, negative when slack */
+  chord_strain: Float64Array;
+  /** F64 c, N */
+  chord_tension: Float64Array;
+  /** U64 c */
+  chord_id: BigUint64Array;
+  /** F64 c, Pa */
+  chord_young: Float64Array;
+  /** F64 c, m2 */
+  chord_area: Float64Array;
+  /** U8 c: MVS_CHORD_FLAG_OVER_* */
+  chord_flags: Uint8Array;
+  /** U32 c: MVS_CHORD_LAW_* */
+  chord_law: Uint32Array;
+  /** U32 h */
+  head_nodes: Uint32Array;
+  /** F64 h x 3, N: pull of the chordae on each head */
+  head_force: Float64Array;
+  /** F64 c x 6: of the law */
+  chord_constants: Float64Array;
+  /** F64 x 3, m: the points of all rings, one after the other */
+  ring_points: Float64Array;
+  /** U32 r + 1: first row of each ring's points, then their number */
+  ring_start: Uint32Array;
+  /** U32 r: MVS_RING_KIND_* */
+  ring_kind: Uint32Array;
+  /** U64 r */
+  ring_id: BigUint64Array;
+  /** F64 x 2: strain, nominal stress in Pa; of all curves in turn */
+  curve_points: Float64Array;
+  /** U32 k + 1: first row of each curve's points, then their number */
+  curve_start: Uint32Array;
+  /** F64 x 3, m: the smallest opening, as triangles */
+  orifice_vertices: Float64Array;
+  /** U32 x 3 into MVS_ARRAY_ORIFICE_VERTICES */
+  orifice_triangles: Uint32Array;
+  /** U32 per triangle of the orifice: index of its part, see mvs_snapshot_get_orifice_part */
+  orifice_part: Uint32Array;
+  /**
+   * F64 4: density, kg/m3; contact thickness, m; contact stiffness, Pa; bending scale, 0: no
+   * bending
+   */
+  valve_constants: Float64Array;
+  /** F64 1, s: simulated time since the valve was set */
+  state_time: Float64Array;
+}
+
 /** All of them by their names in C. */
 export const enums: Record<string, Record<string, number>> = {
   mvs_result: Result,

@@ -187,6 +187,47 @@ export const life = {
     sim.dispose();
   },
 
+  async an_array_keeps_its_snapshot({ mvs }) {
+    const sim = closed(mvs);
+    const count = () => mvs.usage.handles.mvs_snapshot_release ?? 0;
+    const before = count();
+    let arrays = (() => [sim.snapshot().array("node_position"), sim.snapshot().view("node_position")])();
+    const numbers = arrays[0].slice();
+    sim.generateValve({ vertices: 300 });
+    const collect = async () => {
+      for (let k = 0; k < 10; ++k) {
+        globalThis.gc();
+        await new Promise((resolve) => setTimeout(resolve, 10));
+      }
+    };
+    await collect();
+    equal(count(), before + 2, "snapshots held by the array and the view");
+    const other = closed(mvs);
+    ok(arrays[0].every((value, k) => Object.is(value, numbers[k])), "the same numbers");
+    ok(arrays[1].values.every((value, k) => Object.is(value, numbers[k])), "the same numbers of the view");
+    arrays = undefined;
+    for (let k = 0; k < 10 && count() > before; ++k) await collect();
+    equal(count(), before, "snapshots held without them");
+    for (const owned of [other, sim]) owned.dispose();
+  },
+
+  async bodies_of_tools_end_with_their_snapshot({ mvs }) {
+    const sim = closed(mvs);
+    sim.addTool({ kind: "convex", position: [0, 0, 0.05], bodies: [{ kind: "hull", vertices: [0, 0, 0, 0.01, 0, 0, 0, 0.01, 0, 0, 0, 0.01], radius: 0.001 }] });
+    const [body] = sim.read((s) => s.toolBodies(0));
+    await fails(() => body.vertices.values, "MVS_E_STATE", /disposed/, "array");
+    sim.dispose();
+  },
+
+  each_array_has_the_type_of_its_name({ libmvs, mvs }) {
+    const sim = closed(mvs);
+    sim.read((s) => {
+      const types = Object.keys(libmvs.ArrayKind).map((name) => `${name} ${s.array(name).constructor.name}`);
+      ok(types.includes("chord_id BigUint64Array") && types.includes("triangle_nodes Uint32Array") && types.includes("node_kind Uint8Array"), `${types}`);
+    });
+    sim.dispose();
+  },
+
   async memory_that_is_exhausted_is_a_failure({ load }) {
     const mvs = await load({ maxMemory: 32 << 20 });
     const sim = mvs.simulator();
