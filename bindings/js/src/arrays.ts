@@ -100,20 +100,31 @@ export class ArrayView {
   }
 }
 
+// Numbers of rows of `components` numbers each, or the numbers themselves.
+function flattened(input: ArrayInput, components: number, what: string): unknown[] {
+  const rows = Array.from(input as ArrayLike<number | ArrayLike<number>>);
+  if (!rows.some((row) => typeof row === "object" && row !== null)) return rows;
+  return rows.flatMap((row, k) => {
+    const length = typeof row === "object" && row !== null ? row.length : "no";
+    if (length !== components) refuse(what, `${what} has a row ${k} of ${length} numbers: each row has ${components}`);
+    return Array.from(row as ArrayLike<number>);
+  });
+}
+
 /** A typed array that the C interface can read, with the number of its type. */
-export function typed(input: ArrayInput, element: string, what: string): { data: TypedArray; type: number } {
+export function typed(input: ArrayInput, components: number, element: string, what: string): { data: TypedArray; type: number } {
   if (input instanceof Float64Array) return { data: input, type: 1 };
   if (input instanceof Float32Array) return { data: input, type: 2 };
   if (input instanceof Uint32Array) return { data: input, type: 3 };
   if (typeof input !== "object" || input === null || typeof input.length !== "number") {
     return refuse(what, `${what} is not an array of numbers`);
   }
-  const flat = Array.from(input as ArrayLike<number | readonly number[]>).flat() as number[];
+  const flat = flattened(input, components, what);
   for (const [k, value] of flat.entries()) {
     if (typeof value !== "number") refuse(what, `${what} has an element ${k} that is not a number`);
-    if (element === "U32" && !(Number.isInteger(value) && value >= 0 && value <= 0xffffffff)) {
+    if (element === "U32" && !(Number.isInteger(value) && (value as number) >= 0 && (value as number) <= 0xffffffff)) {
       refuse(what, `${what} has an element ${k} of ${value}: it has to be a whole number from 0`);
     }
   }
-  return element === "U32" ? { data: Uint32Array.from(flat), type: 3 } : { data: Float64Array.from(flat), type: 1 };
+  return element === "U32" ? { data: Uint32Array.from(flat as number[]), type: 3 } : { data: Float64Array.from(flat as number[]), type: 1 };
 }

@@ -1,15 +1,23 @@
 // Browsers through a bundler or a server: mvs.wasm is fetched from beside this file.
+import { knownOptions, MvsError } from "./error.js";
 import { instantiate, type LoadOptions, type Mvs } from "./library.js";
 
 export * from "./api.js";
 
 /** Loads the library: its own mvs.wasm, or the bytes given. */
 export async function loadMvs(options: LoadOptions = {}): Promise<Mvs> {
-  let { wasm } = options;
-  if (!wasm) {
-    const response = await fetch(new URL("./mvs.wasm", import.meta.url));
-    if (!response.ok) throw new Error(`mvs.wasm: ${response.status} ${response.statusText}`);
-    wasm = await response.arrayBuffer();
+  knownOptions(options, ["wasm", "maxMemory"], "options");
+  return instantiate({ ...options, wasm: options.wasm ?? (await fetched(new URL("./mvs.wasm", import.meta.url))) });
+}
+
+async function fetched(address: URL): Promise<ArrayBuffer> {
+  const failed = (why: string): never => {
+    throw new MvsError("MVS_E_IO", "wasm", `mvs.wasm could not be fetched from ${address.href}: ${why}`);
+  };
+  try {
+    const response = await fetch(address);
+    return response.ok ? await response.arrayBuffer() : failed(`${response.status} ${response.statusText}`.trim());
+  } catch (error) {
+    return error instanceof MvsError ? Promise.reject(error) : failed(String(error));
   }
-  return instantiate({ ...options, wasm });
 }

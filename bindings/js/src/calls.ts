@@ -144,7 +144,7 @@ export class Calls {
     const { values, arena } = call;
     if (value === null || value === undefined) {
       if (!step.nullable && step.how !== "callback") refuse(step.name, `${step.name} is missing`);
-      values.push(...(step.how === "callback" || step.how === "bytes" ? [0, 0] : [0]));
+      values.push(...(step.how === "inStructs" ? [0, 0, 0] : step.how === "callback" || step.how === "bytes" ? [0, 0] : [0]));
       return;
     }
     switch (step.how) {
@@ -153,6 +153,9 @@ export class Calls {
         return;
       case "inStruct":
         values.push(call.writer.make(step.of!, value, step.name));
+        return;
+      case "inStructs":
+        values.push(...call.writer.list(step.of!, value, step.name));
         return;
       case "operation":
         values.push((value as Operation).write(arena));

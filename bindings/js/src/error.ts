@@ -18,6 +18,14 @@ export class MvsError extends Error {
   }
 }
 
+/** Refuses options that are not an object, and those of other names. */
+export function knownOptions(options: unknown, names: readonly string[], what: string): void {
+  if (typeof options !== "object" || options === null) refuse(what, `${what} is ${String(options)}: it has to be an object`);
+  for (const key of Object.keys(options as object)) {
+    if (!names.includes(key)) refuse(`${what}.${key}`, `${what} has no field ${key}; its fields are ${names.join(", ")}`);
+  }
+}
+
 /** Throws MVS_E_ARGUMENT about a part with a sentence. */
 export function refuse(part: string, message: string): never {
   throw new MvsError("MVS_E_ARGUMENT", part, message);

@@ -1,3 +1,4 @@
+/// <reference lib="esnext.disposable" />
 // Objects of the library that JavaScript holds: released by dispose(), by `using`, or when the
 // garbage collector finds them unreachable.
 import { MvsError } from "./error.js";

@@ -2,6 +2,7 @@
 import { readFile } from "node:fs/promises";
 import { pathToFileURL } from "node:url";
 
+import { knownOptions, MvsError } from "./error.js";
 import { instantiate, type LoadOptions, type Mvs } from "./library.js";
 
 export * from "./api.js";
@@ -11,6 +12,15 @@ declare const MVS_HERE: string;
 
 /** Loads the library: its own mvs.wasm, or the bytes given. */
 export async function loadMvs(options: LoadOptions = {}): Promise<Mvs> {
+  knownOptions(options, ["wasm", "maxMemory"], "options");
   const here = MVS_HERE.startsWith("file:") ? MVS_HERE : pathToFileURL(MVS_HERE);
-  return instantiate({ ...options, wasm: options.wasm ?? (await readFile(new URL("./mvs.wasm", here))) });
+  return instantiate({ ...options, wasm: options.wasm ?? (await read(new URL("./mvs.wasm", here))) });
+}
+
+async function read(file: URL): Promise<Uint8Array> {
+  try {
+    return await readFile(file);
+  } catch (error) {
+    throw new MvsError("MVS_E_IO", "wasm", `mvs.wasm could not be read (${String(error)}): it lies beside this file in the package`);
+  }
 }

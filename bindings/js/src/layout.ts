@@ -106,7 +106,7 @@ export function readScalar(heap: Heap, kind: string, at: number, index = 0): num
 
 /** Writes an mvs_array that points to a copy of `input` in the arena. */
 export function writeArray(arena: Arena, at: number, input: ArrayInput, components: number, element: string, what: string): void {
-  const { data, type } = typed(input, element, what);
+  const { data, type } = typed(input, components, element, what);
   if (data.length % components !== 0) {
     refuse(what, `${what} has ${data.length} numbers: they have to form rows of ${components}`);
   }
@@ -191,7 +191,7 @@ export class StructWriter {
         this.write(field.of!, at, value, what);
         return;
       case "structs":
-        this.list(field, base, value, what);
+        this.list(field.of!, value, what).forEach((number, k) => heap.view.setUint32(base + [field.at, field.count!, field.stride!][k]!, number, true));
         return;
       case "texts": {
         const texts = this.must(value, what).map((text, k) => this.arena.text(text as string, `${what}[${k}]`));
@@ -225,16 +225,13 @@ export class StructWriter {
     return Array.isArray(value) ? (value as unknown[]) : refuse(what, `${what} is not an array`);
   }
 
-  // An array of structs with its count and stride.
-  private list(field: Field, base: number, value: unknown, what: string): void {
+  /** Writes an array of structs: its address, count and stride. */
+  list(name: string, value: unknown, what: string): [number, number, number] {
     const rows = this.must(value, what);
-    const { size } = layoutOf(field.of!);
+    const { size } = layoutOf(name);
     const address = this.arena.zeroed(size * rows.length);
-    rows.forEach((row, k) => this.write(field.of!, address + k * size, row, `${what}[${k}]`));
-    const { view } = this.arena.heap;
-    view.setUint32(base + field.at, address, true);
-    view.setUint32(base + field.count!, rows.length, true);
-    view.setUint32(base + field.stride!, size, true);
+    rows.forEach((row, k) => this.write(name, address + k * size, row, `${what}[${k}]`));
+    return [address, rows.length, size];
   }
 }
 

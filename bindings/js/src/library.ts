@@ -1,7 +1,7 @@
 // Loads the module: from bytes, on every platform alike. Nothing is fetched here.
 import { type FaultCallback } from "./arrays.js";
 import createMvs from "mvs-module";
-import { MvsError } from "./error.js";
+import { knownOptions, MvsError } from "./error.js";
 import { Struct } from "./generated/enums.js";
 import { Functions } from "./generated/functions.js";
 import type { FieldInfo, Law, SurfaceFileOptions, ValveDesc } from "./generated/structs.js";
@@ -91,10 +91,25 @@ export class Mvs {
   }
 }
 
+// Bytes that are those of a module, and not of the page that a server answers for a file that it does not have.
+function mustBeWasm(wasm: unknown): void {
+  const isBytes = ArrayBuffer.isView(wasm) || Object.prototype.toString.call(wasm) === "[object ArrayBuffer]";
+  if (!isBytes) {
+    throw new MvsError("MVS_E_ARGUMENT", "wasm", "wasm is neither bytes nor a WebAssembly.Module: give the ArrayBuffer of mvs.wasm, of a Response its arrayBuffer()");
+  }
+  const bytes = ArrayBuffer.isView(wasm) ? new Uint8Array(wasm.buffer, wasm.byteOffset, wasm.byteLength) : new Uint8Array(wasm as ArrayBuffer);
+  if (String(bytes.subarray(0, 4)) === "0,97,115,109") return;
+  const text = new TextDecoder().decode(bytes.slice(0, 256)).trimStart();
+  const what = bytes.length === 0 ? "nothing" : text.startsWith("<") ? "a page (HTML)" : "other bytes";
+  throw new MvsError("MVS_E_FORMAT", "wasm", `this is ${what} and not mvs.wasm: the server may not have the file at the address that was asked (of Vite's development server see the README of libmvs)`);
+}
+
 /** Makes the library from its bytes or its compiled module. */
 export async function instantiate(options: LoadOptions): Promise<Mvs> {
+  knownOptions(options, ["wasm", "maxMemory"], "options");
   const { wasm, maxMemory = largestMemory } = options;
   if (!wasm) throw new MvsError("MVS_E_ARGUMENT", "wasm", "wasm is missing: give the bytes of mvs.wasm, or the module compiled of them");
+  if (!(wasm instanceof WebAssembly.Module)) mustBeWasm(wasm);
   if (!(maxMemory >= initialMemory && maxMemory <= largestMemory)) {
     throw new MvsError("MVS_E_ARGUMENT", "maxMemory", `maxMemory is ${maxMemory}: it has to be ${initialMemory} to ${largestMemory} bytes`);
   }

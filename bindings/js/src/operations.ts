@@ -4,7 +4,7 @@ import type { ArrayInput } from "./arrays.js";
 import { refuse } from "./error.js";
 import { SiteKind } from "./generated/enums.js";
 import type { Functions } from "./generated/functions.js";
-import type { FieldInfo } from "./generated/structs.js";
+import type { FieldInfo, OperationValues } from "./generated/structs.js";
 import type { Arena } from "./heap.js";
 import { big, enumNumber, layoutOf, real, whole, writeArray } from "./layout.js";
 import type { Operation } from "./calls.js";
@@ -16,21 +16,27 @@ export type Site =
   | { node: number }
   | { triangle: number; u: ArrayLike<number> }
   | { scallop: PartRef; u: ArrayLike<number> };
+/** "chord_length" and the others. */
+export type OperationName = keyof OperationValues;
+/** The fields of an operation: those of its name, any where the name is not known before the program runs. */
+export type FieldsOf<N extends string> = N extends OperationName ? OperationValues[N] : OperationFields;
+/** A name of an operation, or a text that is not known before the program runs. */
+export type NameOf<N extends string> = N & (string extends N ? unknown : OperationName);
 /** Values of the fields of an operation, by their names; those left out take their defaults. */
 export type OperationFields = Record<string, number | string | bigint | PartRef | Site | ArrayInput | null | undefined>;
 
 /** A field of an operation, for forms. */
 export interface OperationField extends FieldInfo {
   /** The words of a choice. */
-  words: Record<string, number>;
+  words: Readonly<Record<string, number>>;
 }
 /** An operation, for forms. */
 export interface OperationInfo {
-  name: string;
-  help: string;
-  number: number;
-  size: number;
-  fields: OperationField[];
+  readonly name: string;
+  readonly help: string;
+  readonly number: number;
+  readonly size: number;
+  readonly fields: readonly Readonly<OperationField>[];
 }
 
 type FindPart = (kind: "chord" | "head" | "scallop", name: string) => bigint;
@@ -42,8 +48,8 @@ const wordsOf = (choices: string): Record<string, number> =>
   }));
 
 /** Reads all operations with their fields from the library. */
-export function readSchema(c: Functions): OperationInfo[] {
-  return Array.from({ length: c.mvs_get_op_count() }, (_, index) => {
+export function readSchema(c: Functions): readonly OperationInfo[] {
+  return frozen(Array.from({ length: c.mvs_get_op_count() }, (_, index) => {
     const info = c.mvs_get_op_info(index);
     const fields = Array.from({ length: info.fields }, (_, k) => {
       const field = c.mvs_get_op_field(index, k);
@@ -51,7 +57,13 @@ export function readSchema(c: Functions): OperationInfo[] {
     });
     const number = enumNumber("mvs_op_kind", info.kind, "kind");
     return { name: info.name, help: info.help, number, size: info.size, fields };
-  });
+  }));
+}
+
+// Operations are written by this table: what it holds must not change.
+function frozen<T extends object>(value: T): T {
+  for (const part of Object.values(value)) if (typeof part === "object" && part !== null) frozen(part as object);
+  return Object.freeze(value);
 }
 
 // Fields that state what 0 means although it is outside of their range.
@@ -71,9 +83,11 @@ export class OperationWriter {
   ) {}
 
   /** An operation for mvs_check_op and mvs_apply_op. */
-  make(name: string, values: OperationFields): Operation {
+  make(name: string, given: object): Operation {
+    const values = given as OperationFields;
     const info = this.schema.find((one) => one.name === name);
     if (!info) return refuse("operation", `no operation is called ${name}; there are ${this.schema.map((one) => one.name).join(", ")}`);
+    if (typeof values !== "object" || values === null) refuse("fields", `fields is ${String(values)}: it has to be an object with the fields of ${name}`);
     for (const key of Object.keys(values)) {
       if (!info.fields.some((field) => field.name === key)) {
         refuse(`${name}.${key}`, `${name} has no field ${key}; its fields are ${info.fields.map((field) => field.name).join(", ")}`);
@@ -160,6 +174,8 @@ export class OperationWriter {
     const { view } = arena.heap;
     const given = ["node", "triangle", "scallop"].filter((key) => key in site);
     if (given.length !== 1) refuse(what, `${what} has to be { node }, { triangle, u } or { scallop, u }`);
+    const wrong = Object.keys(site).find((key) => key !== given[0] && !(key === "u" && given[0] !== "node"));
+    if (wrong !== undefined) refuse(`${what}.${wrong}`, `${what} has no field ${wrong}: it has to be { node }, { triangle, u } or { scallop, u }`);
     const how = given[0] === "node" ? SiteKind.node : given[0] === "triangle" ? SiteKind.triangle : SiteKind.anatomical;
     view.setUint32(at, how, true);
     if (how === SiteKind.anatomical) view.setBigUint64(at + 8, this.part("scallop", site.scallop, `${what}.scallop`), true);

@@ -1,5 +1,6 @@
 // Picking: the part that a ray from the eye meets first. Leaflets by the intersection of a ray with triangles
 // (Moeller, Trumbore 1997); chordae and papillary heads, which are thin, by their distance from the ray.
+import { knownOptions, refuse } from "./error.js";
 import type { Snapshot } from "./snapshot.js";
 
 export interface Ray {
@@ -33,6 +34,7 @@ export interface Picked {
 }
 
 type Vector = [number, number, number];
+type Reach = { radius: number; spread: number };
 type Found = { distance: number; index: number; point: Vector; u?: Vector; along?: number };
 
 const dot = (a: Vector, b: Vector): number => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -87,35 +89,64 @@ function pickLeaflet(snapshot: Snapshot, o: Vector, d: Vector): Found | undefine
 }
 
 // The segment nearest to the ray, by the share of its radius, of those within reach.
-function pickThin(count: number, ends: (k: number) => [Vector, Vector], o: Vector, d: Vector, ray: Ray, behind: number): Found | undefined {
+function pickThin(count: number, ends: (k: number) => [Vector, Vector], o: Vector, d: Vector, reach: Reach, behind: number): Found | undefined {
   let best: (Found & { share: number }) | undefined;
   for (let k = 0; k < count; ++k) {
     const [a, b] = ends(k);
     const { t, s, gap } = nearest(o, d, a, b);
-    const radius = (ray.radius ?? 1e-3) + t * (ray.spread ?? 0);
-    const share = gap / radius;
+    const radius = reach.radius + t * reach.spread;
+    const share = radius > 0 ? gap / radius : gap === 0 ? 0 : Infinity;
     if (share > 1 || t - radius > behind || (best && share >= best.share)) continue;
     best = { distance: t, index: k, point: plus(a, minus(b, a), s), along: s, share };
   }
   return best;
 }
 
+const kinds = ["leaflet", "chord", "head"] as const;
+
+function vector(value: unknown, what: string): Vector {
+  const list = value as ArrayLike<number>;
+  if (typeof value !== "object" || value === null || list.length !== 3) return refuse(what, `${what} has to be an array of 3 numbers`);
+  const read: Vector = [list[0]!, list[1]!, list[2]!];
+  for (const x of read) if (!Number.isFinite(x)) refuse(what, `${what} has the element ${String(x)}: finite numbers are needed`);
+  return read;
+}
+
+function positive(value: unknown, fallback: number, what: string): number {
+  if (value === undefined) return fallback;
+  if (typeof value !== "number" || !(value >= 0 && value < Infinity)) refuse(what, `${what} is ${String(value)}: it has to be a number from 0`);
+  return value as number;
+}
+
+// The ray with its defaults, and a direction of length 1.
+function checked(ray: Ray): { o: Vector; d: Vector; reach: Reach; allowed: readonly string[] } {
+  knownOptions(ray, ["origin", "direction", "radius", "spread", "kinds"], "ray");
+  const direction = vector(ray.direction, "ray.direction");
+  const length = Math.hypot(...direction);
+  if (!(length > 0 && length < Infinity)) refuse("ray.direction", `ray.direction has the length ${length}: it needs one above 0`);
+  const allowed = ray.kinds ?? kinds;
+  if (!Array.isArray(allowed)) refuse("ray.kinds", `ray.kinds is not an array of ${kinds.join(", ")}`);
+  for (const kind of allowed) {
+    if (!kinds.includes(kind)) refuse("ray.kinds", `ray.kinds has ${JSON.stringify(kind)}: it has to be one of ${kinds.join(", ")}`);
+  }
+  const reach = { radius: positive(ray.radius, 1e-3, "ray.radius"), spread: positive(ray.spread, 0, "ray.spread") };
+  const d = direction.map((x) => x / length) as Vector;
+  return { o: vector(ray.origin, "ray.origin"), d, reach, allowed };
+}
+
 /** The part that a ray meets: a chord or head within its radius and not behind a leaflet, else the leaflet. */
 export function pick(snapshot: Snapshot, ray: Ray): Picked | undefined {
-  const o: Vector = [ray.origin[0]!, ray.origin[1]!, ray.origin[2]!];
-  const length = Math.hypot(ray.direction[0]!, ray.direction[1]!, ray.direction[2]!);
-  const d: Vector = [ray.direction[0]! / length, ray.direction[1]! / length, ray.direction[2]! / length];
-  const allowed = ray.kinds ?? ["leaflet", "chord", "head"];
+  const { o, d, reach, allowed } = checked(ray);
   // leaflets that may be met hide chordae and heads behind them
   const leaflet = pickLeaflet(snapshot, o, d);
   const behind = leaflet && allowed.includes("leaflet") ? leaflet.distance : Infinity;
   const x = snapshot.array("node_position");
   const heads = snapshot.array("head_nodes");
   const chords = snapshot.array("chord_nodes");
-  const head = allowed.includes("head") ? pickThin(heads.length, (k) => [row(x, heads[k]!), row(x, heads[k]!)], o, d, ray, behind) : undefined;
+  const head = allowed.includes("head") ? pickThin(heads.length, (k) => [row(x, heads[k]!), row(x, heads[k]!)], o, d, reach, behind) : undefined;
   if (head) return named(snapshot, "head", head);
   const chord = allowed.includes("chord")
-    ? pickThin(chords.length / 2, (k) => [row(x, chords[2 * k]!), row(x, chords[2 * k + 1]!)], o, d, ray, behind) : undefined;
+    ? pickThin(chords.length / 2, (k) => [row(x, chords[2 * k]!), row(x, chords[2 * k + 1]!)], o, d, reach, behind) : undefined;
   if (chord) return named(snapshot, "chord", chord);
   return leaflet && allowed.includes("leaflet") ? onLeaflet(snapshot, leaflet) : undefined;
 }

@@ -1,14 +1,15 @@
 // The simulator: a valve with its load, settled and stepped, operated on, pushed and pulled.
 import type { LogCallback, ProgressCallback } from "./arrays.js";
-import { MvsError } from "./error.js";
+import { knownOptions, MvsError, refuse } from "./error.js";
 import type { Backend, Format } from "./generated/enums.js";
 import type {
   BuildFinding, BuildOptions, Coarsening, CoarsenOptions, LeafletDesc, LoadCase, LoadCaseInput, ParametricDesc, Profile, Replay,
   SettleOptions, Stats, StepOptions, SurfaceDesc, ToolDesc, ToolState, ValveDesc,
 } from "./generated/structs.js";
 import { Owned } from "./handles.js";
+import { layoutOf, whole } from "./layout.js";
 import type { Mvs } from "./library.js";
-import { OperationWriter, type OperationFields, type PartRef } from "./operations.js";
+import { OperationWriter, type FieldsOf, type NameOf, type PartRef } from "./operations.js";
 import { loadWithDefaults, Snapshot, snapshotHandle, SYSTOLE_PA } from "./snapshot.js";
 
 export { SYSTOLE_PA };
@@ -31,6 +32,8 @@ export interface SliceOptions extends SettleOptions {
   /** Cancels the settle between two slices. */
   signal?: AbortSignal;
 }
+
+const sliceOptions = ["slice", "onProgress", "signal", ...layoutOf("mvs_settle_options").fields.map((field) => field.name)];
 
 /** A settle in slices that is under way. */
 interface Slices {
@@ -94,6 +97,7 @@ export class Simulator extends Owned {
 
   /** Changes the tissue of a leaflet, of all where `leaflet` is null. */
   setLeaflet(leaflet: PartRef | null, tissue: Omit<LeafletDesc, "name" | "id">): void {
+    if (leaflet === undefined) refuse("leaflet", "leaflet is missing: give its name or id, or null for all leaflets");
     const id = typeof leaflet === "string" ? this.findPart("leaflet", leaflet) : (leaflet ?? 0n);
     this.mvs.c.mvs_set_leaflet(this.handle, id, tissue);
   }
@@ -149,7 +153,11 @@ export class Simulator extends Owned {
    * another settle begins, and when another call changes the valve in between.
    */
   async settleInSlices(options: SliceOptions = {}): Promise<Stats> {
+    knownOptions(options, sliceOptions, "options");
     const { slice = 0.02, onProgress, signal, ...settle } = options;
+    if (typeof slice !== "number" || !(slice >= 0 && slice <= 3600)) refuse("options.slice", `options.slice is ${String(slice)}: it has to be 0 to 3600 s`);
+    if (onProgress !== undefined && typeof onProgress !== "function") refuse("options.onProgress", "options.onProgress is not a function");
+    if (signal !== undefined && typeof (signal as AbortSignal | null)?.aborted !== "boolean") refuse("options.signal", "options.signal is not an AbortSignal");
     const aborted = "by its signal; it has changed nothing";
     if (signal?.aborted) throw cancelled(aborted);
     this.beginSettle(settle);
@@ -188,6 +196,7 @@ export class Simulator extends Owned {
 
   /** Advances by time steps of bounded work. */
   step(options?: StepOptions, count = 1): void {
+    whole(count, "count");
     for (let k = 0; k < count; ++k) this.mvs.c.mvs_step(this.handle, options);
   }
 
@@ -223,12 +232,12 @@ export class Simulator extends Owned {
   }
 
   /** Throws what apply() would throw; nothing changes. */
-  check(operation: string, fields: OperationFields = {}): void {
+  check<N extends string>(operation: NameOf<N>, fields: FieldsOf<N> = {} as FieldsOf<N>): void {
     this.mvs.c.mvs_check_op(this.handle, this.operation(operation, fields));
   }
 
   /** Applies an operation by its name; returns the id of the part that it made, or 0n. */
-  apply(operation: string, fields: OperationFields = {}): bigint {
+  apply<N extends string>(operation: NameOf<N>, fields: FieldsOf<N> = {} as FieldsOf<N>): bigint {
     return this.mvs.c.mvs_apply_op(this.handle, this.operation(operation, fields));
   }
 
@@ -240,7 +249,7 @@ export class Simulator extends Owned {
     this.mvs.c.mvs_redo(this.handle);
   }
 
-  /** Operations of `work` are undone and redone together; a failure in it undoes them. */
+  /** Operations of `work`, which must not be async, are undone and redone together; a failure in it undoes them. */
   group<T>(name: string, work: () => T): T {
     const { c } = this.mvs;
     const before = this.snapshot();
@@ -249,6 +258,9 @@ export class Simulator extends Owned {
       let result: T;
       try {
         result = work();
+        if (typeof (result as { then?: unknown } | undefined | null)?.then === "function") {
+          refuse("work", "work returns a promise: a group has the operations of a function that does not wait");
+        }
       } catch (error) {
         c.mvs_end_group(this.handle);
         this.restore(before);
@@ -320,7 +332,7 @@ export class Simulator extends Owned {
     this.mvs.c.mvs_transfer_state(this.handle, snapshotHandle(this.mvs, from, "from"));
   }
 
-  private operation(name: string, fields: OperationFields): ReturnType<OperationWriter["make"]> {
+  private operation(name: string, fields: object): ReturnType<OperationWriter["make"]> {
     const writer = new OperationWriter(this.mvs.operations, (kind, part) => this.findPart(kind, part));
     return writer.make(name, fields);
   }

@@ -41,6 +41,8 @@ copyFileSync(join(module, "mvs.wasm"), join(dist, "mvs.wasm"));
 
 execFileSync(process.execPath, [join(here, "node_modules/typescript/bin/tsc"), "-p", here, "--emitDeclarationOnly", "--outDir", join(dist, "types")], { stdio: "inherit" });
 
+writeFileSync(join(dist, "types/wasm.d.ts"), "/** The address of mvs.wasm, from a bundler that hands out files. */\ndeclare const url: string;\nexport default url;\n");
+
 rmSync(join(target, "dist"), { recursive: true, force: true });
 renameSync(dist, join(target, "dist"));
 

@@ -156,6 +156,9 @@ function steps(fn, describer) {
       made.push({ ...row, how: "handle", of: base });
     } else if (p.type.endsWith("*") && base === "mvs_op") {
       made.push({ ...row, how: "operation" });
+    } else if (p.type.endsWith("*") && describer.structs.has(base) && /_count$/.test(next?.name) && /_stride$/.test(list[k + 2]?.name)) {
+      made.push({ ...row, how: "inStructs", of: base });
+      k += 2;
     } else if (p.type.endsWith("*") && describer.structs.has(base)) {
       made.push({ ...row, how: p.type.startsWith("const") ? "inStruct" : base === "mvs_view" ? "outView" : "outStruct", of: base });
     } else if (p.length) {

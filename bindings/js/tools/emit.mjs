@@ -51,7 +51,7 @@ function mark(api, name, set) {
 function collect(api) {
   for (const fn of api.functions) {
     for (const step of fn.steps) {
-      if (step.how === "inStruct") mark(api, step.of, inputs);
+      if (step.how === "inStruct" || step.how === "inStructs") mark(api, step.of, inputs);
       if (step.how === "outStruct") mark(api, step.of, outputs);
     }
     if (fn.name === "mvs_last_error") mark(api, "mvs_error", outputs);
@@ -105,11 +105,37 @@ function interfaceText(struct, input) {
   return text + "}\n\n";
 }
 
+// The fields of operations as operations.ts writes them: parts by name, points and vectors as arrays.
+function operationFieldType(field) {
+  const { codec } = field;
+  if (codec.kind === "u64") return "PartRef";
+  if (codec.kind === "array") return "ArrayInput";
+  if (codec.of === "mvs_site") return "Place";
+  if (codec.of === "mvs_point" || codec.length) return "ArrayLike<number>";
+  return fieldType({ codec: { ...codec, flag: false } }, true).replace(" | null", "");
+}
+
+function operationsText(api) {
+  let text = "/** Fields of each operation, by its name, as check() and apply() take them: SI units; those left out take their defaults. */\n";
+  text += "export interface OperationValues {\n";
+  for (const { word } of api.enums.find((entry) => entry.name === "mvs_op_kind").words) {
+    const struct = api.structs.find((entry) => entry.name === `mvs_op_${word}`);
+    if (!struct) continue;
+    text += doc(struct.doc, "  ") + `  ${word}: {\n`;
+    for (const field of struct.fields.filter((one) => one.codec.of !== "mvs_op")) {
+      text += doc(field.doc, "    ") + `    ${field.name}?: ${operationFieldType(field)} | null;\n`;
+    }
+    text += "  };\n";
+  }
+  return text + "}\n\n";
+}
+
 export function structsText(api) {
   collect(api);
   let text = head("Structs: types of their fields (SI units), and their layouts on wasm32.");
   text += 'import type { ArrayInput, ArrayView, LogCallback, ProgressCallback } from "../arrays.js";\n';
   text += 'import type { Layout } from "../layout.js";\n';
+  text += 'import type { PartRef, Site as Place } from "../operations.js";\n';
   const used = new Set();
   for (const struct of api.structs) {
     if (["mvs_op", "mvs_array", "mvs_view"].includes(struct.name)) continue;
@@ -122,6 +148,7 @@ export function structsText(api) {
     if (outputs.has(struct.name)) text += interfaceText(shown, false);
     if (inputs.has(struct.name)) text += interfaceText(shown, true);
   }
+  text += operationsText(api);
   text += "export const layouts: Record<string, Layout> = {\n";
   for (const struct of api.structs) {
     text += `  ${struct.name}: {\n    size: ${struct.size},\n    sized: ${struct.sized},\n    fields: [\n`;
@@ -141,6 +168,8 @@ function parameterType(step) {
       return handleType(step.of);
     case "inStruct":
       return inputName(step.of);
+    case "inStructs":
+      return `readonly ${inputName(step.of)}[]`;
     case "operation":
       return "Operation";
     case "bytes":

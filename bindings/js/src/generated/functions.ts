@@ -814,12 +814,8 @@ const signatures: Record<string, Signature> = {
     returns: "mvs_result",
     steps: [
       { name: "snapshot", nullable: false, how: "handle", of: "mvs_snapshot" },
-      { name: "quantities", nullable: false, how: "inStruct", of: "mvs_quantity" },
-      { name: "quantity_count", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
-      { name: "quantity_stride", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
-      { name: "parameters", nullable: false, how: "inStruct", of: "mvs_parameter" },
-      { name: "parameter_count", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
-      { name: "parameter_stride", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
+      { name: "quantities", nullable: false, how: "inStructs", of: "mvs_quantity" },
+      { name: "parameters", nullable: false, how: "inStructs", of: "mvs_parameter" },
       { name: "options", nullable: true, how: "inStruct", of: "mvs_sensitivity_options" },
       { name: "sensitivity", nullable: false, how: "outHandle", of: "mvs_sensitivity", freedBy: "mvs_sensitivity_release" },
     ],
@@ -1637,8 +1633,8 @@ export class Functions extends Calls {
    * rest, or its equilibrium is unstable; MVS_E_ARGUMENT for a quantity or parameter that the valve
    * does not have, or that has no derivative.
    */
-  mvs_sensitivity_run(snapshot: SnapshotHandle, quantities: Quantity, quantity_count: number, quantity_stride: number, parameters: Parameter, parameter_count: number, parameter_stride: number, options?: SensitivityOptions | null): SensitivityHandle {
-    return this.invoke(signatures.mvs_sensitivity_run!, [snapshot, quantities, quantity_count, quantity_stride, parameters, parameter_count, parameter_stride, options]) as never;
+  mvs_sensitivity_run(snapshot: SnapshotHandle, quantities: readonly Quantity[], parameters: readonly Parameter[], options?: SensitivityOptions | null): SensitivityHandle {
+    return this.invoke(signatures.mvs_sensitivity_run!, [snapshot, quantities, parameters, options]) as never;
   }
 
   /** Releases a result. `sensitivity` is nullable. */

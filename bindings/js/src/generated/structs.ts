@@ -3,6 +3,7 @@
 
 import type { ArrayInput, ArrayView, LogCallback, ProgressCallback } from "../arrays.js";
 import type { Layout } from "../layout.js";
+import type { PartRef, Site as Place } from "../operations.js";
 import type {
   Axes,
   Backend,
@@ -1405,6 +1406,196 @@ export interface BuildFinding {
    * (landmarks of another frame, swapped leaflets, atrial wall): show it to whoever builds
    */
   doubtful: number;
+}
+
+/** Fields of each operation, by its name, as check() and apply() take them: SI units; those left out take their defaults. */
+export interface OperationValues {
+  /** Sets the rest length of a chord; exactly one of length, factor and drag_to is given. */
+  chord_length: {
+    chord?: PartRef | null;
+    /** m */
+    length?: number | null;
+    /** on its present rest length */
+    factor?: number | null;
+    /**
+     * new position of the leaflet end: sets the length at which the chord reaches it under its
+     * present tension
+     */
+    drag_to?: ArrayLike<number> | null;
+  };
+  /** Cuts a chord. Segments that lose their support are removed with it. */
+  chord_remove: {
+    chord?: PartRef | null;
+  };
+  /** Attaches a new chord from a papillary head to a leaflet; makes a chord. */
+  chord_add: {
+    head?: PartRef | null;
+    site?: Place | null;
+    /**
+     * m [as taut as its neighbours: its distance in the rest shape times the median ratio of rest
+     * length to distance of the five nearest chords of the head; its distance if the head has no
+     * chords. Slack where these lie far from the site or on the other leaflet: give a length there]
+     */
+    length?: number | null;
+    /** Pa [40e6] */
+    young?: number | null;
+    /** m2 [pi/4 * (1 mm)^2] */
+    area?: number | null;
+    /** MVS_CHORD_KIND_* except trunk and suture [other] */
+    type?: ChordKind | number | null;
+    /** nullable [made by the library, "P2/9"] */
+    name?: string | null;
+  };
+  /**
+   * Moves one end of a chord to another place of a leaflet, or to another papillary head. The
+   * leaflet end keeps the length of the chord. At a head the chord is attached anew with the
+   * default length of mvs_op_chord_add, at which the leaflet can close.
+   */
+  chord_transfer: {
+    chord?: PartRef | null;
+    /** MVS_CHORD_END_* [leaflet] */
+    end?: ChordEnd | number | null;
+    /** new place of the leaflet end */
+    site?: Place | null;
+    /** new head of the head end */
+    head?: PartRef | null;
+    /** m [leaflet end: unchanged; head end: that of mvs_op_chord_add] */
+    length?: number | null;
+  };
+  /**
+   * Scales the annulus about its centroid in its own frame, open and under load: to model
+   * pathologies and to size rings.
+   */
+  annulus_scale: {
+    /** in every direction [1] */
+    factor?: number | null;
+    /** additional factor along the anteroposterior axis [1] */
+    ap?: number | null;
+    /** additional factor along the intercommissural axis [1] */
+    cc?: number | null;
+  };
+  /**
+   * Sews a rigid ring to the annulus: the annulus nodes move onto the curve at equal fractions of
+   * the arc length, with and without load. Makes a ring, which replaces an existing ring or band.
+   */
+  ring: {
+    /**
+     * F64, k x 3, m, k >= 8: closed, in any frame, of any winding and start, its first point
+     * repeated at its end or not; or left out with a size
+     */
+    curve?: ArrayInput | null;
+    /**
+     * m, intercommissural width of a parametric ring: 0.034 is labelled 34. Measured proportions of
+     * the Physio II 34, not catalogue data
+     */
+    size?: number | null;
+    /** AP over CC width [26.1 / 34.7] */
+    ap_ratio?: number | null;
+    /** m, height of the saddle [4.7 / 34.7 of the CC width] */
+    saddle?: number | null;
+    /** F64, k x 3, m, k >= 3: points of the ring in the frame of `curve` */
+    landmarks?: ArrayInput | null;
+    /** F64, k x 3, m: their positions in the valve [best rigid fit to the annulus under load] */
+    landmarks_at?: ArrayInput | null;
+    /** nullable ["ring"] */
+    name?: string | null;
+  };
+  /**
+   * Sews a flexible band along the posterior annulus from trigone to trigone: it shortens that part
+   * of the annulus to its length, towards the line between the fixed trigones. Makes a ring.
+   */
+  band: {
+    /** m; or give a factor */
+    length?: number | null;
+    /** on the present length of that part under load */
+    factor?: number | null;
+    /** nullable ["band"] */
+    name?: string | null;
+  };
+  /** Attaches artificial chordae (ePTFE) to a leaflet; makes a chord. */
+  neochord: {
+    head?: PartRef | null;
+    site?: Place | null;
+    /** m [that of mvs_op_chord_add] */
+    length?: number | null;
+    /** parallel strands [2] */
+    strands?: number | null;
+    /** Pa [ePTFE, libmvs/surgery/README.md] */
+    young?: number | null;
+    /** m, of one strand [0.3e-3] */
+    diameter?: number | null;
+    /** nullable [made by the library] */
+    name?: string | null;
+  };
+  /** Moves a papillary head, open and under load. */
+  head_move: {
+    head?: PartRef | null;
+    /** m, along the axes of `frame` */
+    by?: ArrayLike<number> | null;
+    /** MVS_AXES_* [scene] */
+    frame?: Axes | number | null;
+  };
+  /**
+   * Joins two free edges (edge to edge: a clip or an Alfieri stitch) by sutures one contact
+   * thickness long; makes a chord, the middle one, about which `angle` turns it in the plane of the
+   * leaflets. It is placed on the open valve: positions return to the rest shape with zero
+   * velocity.
+   */
+  clip: {
+    /** scallop [A2] */
+    anterior?: PartRef | null;
+    /** scallop [P2] */
+    posterior?: PartRef | null;
+    /** along the scallops, -1 to 1 [0: the middle] */
+    position?: number | null;
+    /** m, of the free edge that is joined [5e-3] */
+    width?: number | null;
+    /** m, from the free edge into the leaflets [4e-3] */
+    reach?: number | null;
+    /** nullable ["clip"] */
+    name?: string | null;
+    /** rad, anticlockwise as seen from the atrium [0: across the free edge] */
+    angle?: number | null;
+  };
+  /**
+   * Resects a part of a scallop from its free edge and sews the sides of the gap together: a
+   * triangle, a quadrangle, or a given outline. A quadrangle also shortens the annulus below by the
+   * width of its base. It is made on the open valve: positions return to the rest shape with zero
+   * velocity.
+   */
+  resect: {
+    /** [P2] */
+    scallop?: PartRef | null;
+    /** of its centre along the scallop, -1 to 1 [0] */
+    position?: number | null;
+    /** m, at the free edge [8e-3] */
+    width?: number | null;
+    /** m, towards the annulus; 0: a triangle */
+    base_width?: number | null;
+    /** m, from the free edge [0.8 of the scallop's height there] */
+    depth?: number | null;
+    /**
+     * F64, k x 3, m, k >= 3: points on the present leaflet, in order, the first and the last on or
+     * beyond the free edge; replaces all fields above
+     */
+    outline?: ArrayInput | null;
+  };
+  /**
+   * Enlarges a leaflet by a pericardial patch: replaces the tissue within an ellipse by a larger
+   * piece, which bulges at rest.
+   */
+  patch: {
+    /** the centre */
+    site?: Place | null;
+    /** m, circumferential [12e-3] */
+    width?: number | null;
+    /** m, radial [8e-3] */
+    height?: number | null;
+    /** area of the patch over that of the hole [1.3] */
+    area_factor?: number | null;
+    /** m [0.4e-3] */
+    thickness?: number | null;
+  };
 }
 
 export const layouts: Record<string, Layout> = {

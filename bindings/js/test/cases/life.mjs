@@ -268,8 +268,20 @@ export const life = {
 
   async a_module_that_cannot_start_says_why({ libmvs }) {
     await fails(() => libmvs.instantiate({}), "MVS_E_ARGUMENT", /wasm is missing/, "wasm");
-    await fails(() => libmvs.instantiate({ wasm: new Uint8Array([1, 2, 3]) }), "MVS_E_UNSUPPORTED", /could not be started/, "wasm");
-    await fails(() => libmvs.instantiate({ wasm: new Uint8Array(8), maxMemory: 5 }), "MVS_E_ARGUMENT", /maxMemory/, "maxMemory");
+    const page = new TextEncoder().encode("\n<!doctype html><title>app</title>");
+    await fails(() => libmvs.instantiate({ wasm: page }), "MVS_E_FORMAT", /a page \(HTML\) and not mvs\.wasm/, "wasm");
+    await fails(() => libmvs.instantiate({ wasm: page.buffer }), "MVS_E_FORMAT", /HTML/, "wasm");
+    await fails(() => libmvs.instantiate({ wasm: new Uint8Array([1, 2, 3]) }), "MVS_E_FORMAT", /other bytes/, "wasm");
+    await fails(() => libmvs.instantiate({ wasm: new Uint8Array(0) }), "MVS_E_FORMAT", /nothing/, "wasm");
+    const head = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0);
+    await fails(() => libmvs.instantiate({ wasm: head.subarray(0, 6) }), "MVS_E_UNSUPPORTED", /could not be started/, "wasm");
+    await fails(() => libmvs.instantiate({ wasm: head, maxMemory: 5 }), "MVS_E_ARGUMENT", /maxMemory/, "maxMemory");
+    for (const wasm of ["mvs.wasm", 5, {}, Promise.resolve(head)]) {
+      await fails(() => libmvs.loadMvs({ wasm }), "MVS_E_ARGUMENT", /neither bytes nor/, "wasm");
+    }
+    await fails(() => libmvs.loadMvs(null), "MVS_E_ARGUMENT", /options is null/, "options");
+    await fails(() => libmvs.loadMvs(5), "MVS_E_ARGUMENT", /options is 5/, "options");
+    await fails(() => libmvs.loadMvs({ wasm: head, memory: 5 }), "MVS_E_ARGUMENT", /no field memory; its fields are wasm/, "options.memory");
   },
 
   async bytes_pack_into_text_and_back({ libmvs }) {

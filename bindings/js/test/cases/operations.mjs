@@ -66,6 +66,48 @@ export const operations = {
     sim.dispose();
   },
 
+  words_of_choices_are_those_of_the_types({ libmvs, mvs }) {
+    const types = { "chord_add.type": "ChordKind", "chord_transfer.end": "ChordEnd", "head_move.frame": "Axes" };
+    for (const { name, fields } of mvs.operations) {
+      for (const { words, ...field } of fields.filter((one) => one.type === "choice")) {
+        const type = libmvs[types[`${name}.${field.name}`]];
+        for (const [word, number] of Object.entries(type)) {
+          if (Object.values(words).includes(number)) equal(words[word], number, `${name}.${field.name} ${word}`);
+        }
+      }
+    }
+  },
+
+  a_description_cannot_be_changed: async ({ mvs }) => {
+    const { operations: table } = mvs;
+    for (const part of [table, table[0], table[0].fields, table[0].fields[0], table[0].fields[0].words]) ok(Object.isFrozen(part), "frozen");
+  },
+
+  bad_fields_and_sites_are_refused: async ({ mvs }) => {
+    const sim = closed(mvs);
+    const curve = Array.from({ length: 12 }, (_, k) => [0.015 * Math.cos(k / 2), 0.015 * Math.sin(k / 2), 0]);
+    await fails(() => sim.check("clip", null), "MVS_E_ARGUMENT", /fields is null/, "fields");
+    await fails(() => sim.apply("clip", 5), "MVS_E_ARGUMENT", /fields is 5/, "fields");
+    await fails(() => sim.check("chord_add", { head: "AL1", site: { node: 200, u: [0, 1] } }), "MVS_E_ARGUMENT", /no field u/, "chord_add.site.u");
+    await fails(() => sim.check("chord_add", { head: "AL1", site: { scallop: "A2", u: [0.5, 0.9], w: 1 } }), "MVS_E_ARGUMENT", /no field w/, "chord_add.site.w");
+    sim.check("ring", { curve });
+    sim.check("ring", { curve: curve.map((row) => Float64Array.from(row)) });
+    await fails(() => sim.check("ring", { curve: curve.map(([x, y]) => [x, y]) }), "MVS_E_ARGUMENT", /row 0 of 2 numbers: each row has 3/, "ring.curve");
+    await fails(() => sim.check("ring", { curve: [...curve, [0, 0], [0, 0, 0, 0]] }), "MVS_E_ARGUMENT", /row 12 of 2 numbers/, "ring.curve");
+    await fails(() => sim.check("ring", { curve: [...curve, 0, 0, 0] }), "MVS_E_ARGUMENT", /row 12 of no numbers/, "ring.curve");
+    sim.dispose();
+  },
+
+  a_group_does_not_wait: async ({ mvs }) => {
+    const sim = closed(mvs);
+    const before = hashOf(sim);
+    const work = async () => void sim.apply("chord_length", { chord: "A2/7", factor: 0.9 });
+    await fails(() => sim.group("late", work), "MVS_E_ARGUMENT", /work returns a promise/, "work");
+    equal(hashOf(sim), before, "hash");
+    equal(sim.group("none", () => null), null, "result");
+    sim.dispose();
+  },
+
   groups_and_checkpoints({ mvs }) {
     const sim = closed(mvs);
     const before = hashOf(sim);

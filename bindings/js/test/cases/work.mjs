@@ -305,6 +305,47 @@ export const work = {
     sim.dispose();
   },
 
+  async bad_rays_are_refused({ mvs }) {
+    const sim = closed(mvs);
+    const s = sim.snapshot();
+    const ray = { origin: [0, 0, 0.1], direction: [0, 0, -1] };
+    ok(s.pick(ray), "a ray that meets");
+    const cases = [
+      [null, /null/, "ray"], [{ direction: [0, 0, 1] }, /3 numbers/, "ray.origin"], [{ origin: [0, 0, 1] }, /3 numbers/, "ray.direction"],
+      [{ ...ray, direction: [0, 0, 0] }, /length 0/, "ray.direction"], [{ ...ray, direction: [0, -1] }, /3 numbers/, "ray.direction"],
+      [{ ...ray, direction: [0, 0, NaN] }, /NaN/, "ray.direction"], [{ ...ray, origin: [0, "1", 0] }, /element 1/, "ray.origin"],
+      [{ ...ray, origin: [Infinity, 0, 0] }, /Infinity/, "ray.origin"], [{ ...ray, radus: 1 }, /no field radus/, "ray.radus"],
+      [{ ...ray, radius: -1 }, /-1/, "ray.radius"], [{ ...ray, radius: NaN }, /NaN/, "ray.radius"], [{ ...ray, spread: "1" }, /from 0/, "ray.spread"],
+      [{ ...ray, kinds: ["chrod"] }, /one of leaflet, chord, head/, "ray.kinds"], [{ ...ray, kinds: "chord" }, /not an array/, "ray.kinds"],
+    ];
+    for (const [given, sentence, part] of cases) await fails(() => s.pick(given), "MVS_E_ARGUMENT", sentence, part);
+    ok(s.pick({ ...ray, radius: 0 }), "a radius of 0 meets a leaflet");
+    equal(s.pick({ ...ray, kinds: [] }), undefined, "no kinds");
+    s.dispose();
+    sim.dispose();
+  },
+
+  async bad_counts_and_options_are_refused({ mvs }) {
+    const sim = closed(mvs);
+    const before = hashOf(sim);
+    for (const count of [-1, NaN, 1.5, "3", null, true, Infinity]) {
+      await fails(() => sim.step({}, count), "MVS_E_ARGUMENT", /count/, "count");
+    }
+    for (const vertices of [null, true, "425"]) {
+      await fails(() => sim.generateValve({ vertices }), "MVS_E_ARGUMENT", /vertices is/, "desc.vertices");
+    }
+    await fails(() => sim.setLeaflet(undefined, { law: "fung" }), "MVS_E_ARGUMENT", /leaflet is missing/, "leaflet");
+    await fails(() => sim.settleInSlices(null), "MVS_E_ARGUMENT", /null/, "options");
+    await fails(() => sim.settleInSlices({ slise: 1 }), "MVS_E_ARGUMENT", /no field slise; its fields are slice, onProgress, signal, /, "options.slise");
+    for (const slice of ["1", NaN, -1, null]) await fails(() => sim.settleInSlices({ slice }), "MVS_E_ARGUMENT", /slice/, "options.slice");
+    for (const signal of [5, null, {}]) await fails(() => sim.settleInSlices({ signal }), "MVS_E_ARGUMENT", /AbortSignal/, "options.signal");
+    await fails(() => sim.settleInSlices({ onProgress: 5 }), "MVS_E_ARGUMENT", /function/, "options.onProgress");
+    equal(hashOf(sim), before, "hash");
+    sim.step({}, 0);
+    ok(sim.addTool({ kind: "grasp", node: 200, by_node: true, position: [0, 0, 0.01] }) > 0n, "true is 1");
+    sim.dispose();
+  },
+
   read_outs_of_leak_cost_and_shape({ mvs }) {
     const sim = mvs.simulator();
     sim.generateValve({ annulus_scale: 1.25, chord_slack: 1.1, shape: "founding" });
@@ -324,6 +365,24 @@ export const work = {
     const { cost, opened } = s.cost({ flow: 2e-4 });
     ok(cost.open_area > 1e-4 && cost.gradient > 0, "open area and gradient");
     opened.dispose();
+    s.dispose();
+    sim.dispose();
+  },
+
+  async sensitivities_take_lists({ mvs }) {
+    const sim = closed(mvs);
+    const s = sim.snapshot();
+    const quantities = [{ kind: "measure", measure: "coaptation_area" }];
+    const parameters = [3, 4, 5].map((index) => ({ kind: "chord_rest_length", index }));
+    const run = mvs.c.mvs_sensitivity_run(s.handle, quantities, parameters);
+    const rows = mvs.c.mvs_sensitivity_get_array(run, "derivative");
+    equal(rows.values.length, 3, "derivatives");
+    const single = mvs.c.mvs_sensitivity_run(s.handle, quantities, parameters.slice(1, 2));
+    near(mvs.c.mvs_sensitivity_get_array(single, "derivative").values[0], rows.values[1], 1e-9 * Math.abs(rows.values[1]), "derivative of the second");
+    for (const one of [run, single]) mvs.c.mvs_sensitivity_release(one);
+    await fails(() => mvs.c.mvs_sensitivity_run(s.handle, quantities[0], parameters), "MVS_E_ARGUMENT", /not an array/, "quantities");
+    await fails(() => mvs.c.mvs_sensitivity_run(s.handle, quantities, [{ kind: "chord" }]), "MVS_E_ARGUMENT", /one of/, "parameters[0].kind");
+    await fails(() => mvs.c.mvs_sensitivity_run(s.handle, quantities), "MVS_E_ARGUMENT", /parameters is missing/, "parameters");
     s.dispose();
     sim.dispose();
   },
