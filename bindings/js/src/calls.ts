@@ -61,7 +61,7 @@ export class Calls {
   private depth = 0;
   /** Handles that are not released yet, by the function that releases them. */
   readonly held = new Map<string, number>();
-  /** The same by their addresses: what they are of, and how many references are held. */
+  /** The same by their addresses: their type in C and the number of references. */
   private readonly handles = new Map<number, { of: string; count: number }>();
 
   constructor(readonly module: EmscriptenModule) {

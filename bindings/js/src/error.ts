@@ -1,6 +1,9 @@
 // Failures as exceptions.
 
-/** A failure of the library, or of the values that were passed to it. */
+/**
+ * A failure of the library, or of the values that were passed to it. structuredClone() and postMessage() make a plain Error of
+ * it, without its fields: send { code, part, message, line }.
+ */
 export class MvsError extends Error {
   override readonly name = "MvsError";
   /** The result code by its name in C: "MVS_E_ARGUMENT". */

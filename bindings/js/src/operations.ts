@@ -60,7 +60,7 @@ export function readSchema(c: Functions): readonly OperationInfo[] {
   }));
 }
 
-// Operations are written by this table: what it holds must not change.
+// Freezes a value with all its parts: operations are written by this table, which must not change.
 function frozen<T extends object>(value: T): T {
   for (const part of Object.values(value)) if (typeof part === "object" && part !== null) frozen(part as object);
   return Object.freeze(value);

@@ -102,7 +102,7 @@ export class Simulator extends Owned {
     this.mvs.c.mvs_set_leaflet(this.handle, id, tissue);
   }
 
-  /** Loads the bytes of a file: "obj" or "inp". */
+  /** Loads the bytes of a file: "obj" or "inp"; "auto" is "obj", as bytes have no name. */
   load(data: Uint8Array | string, format: Format = "auto"): void {
     this.mvs.c.mvs_load_memory(this.handle, data, format);
   }

@@ -79,7 +79,7 @@ test("npm pack makes a package that works in an empty folder", async (t) => {
     });
     await t.test("TypeScript finds the declarations", () => {
       file("types.mts", `import { loadMvs, MvsError, NodeKind, type Snapshot } from "libmvs";
-        import { loadMvs as load } from "libmvs/browser.mjs";
+        import { loadMvs as load } from "libmvs/browser";
         import url from "libmvs/mvs.wasm";
         const start: typeof loadMvs = load;
         ${use}

@@ -14,7 +14,7 @@ export const typeName = (name) => camel(`_${name.replace(/^mvs_/, "")}`);
 const withDefault = (struct, field) => struct === "mvs_parametric_desc" && field.kind === "f64";
 const zeroCounts = new Set(["mvs_body_desc.radius"]);
 
-// What C makes of a 0 in a field: "default" replaces it, "explicit" does so with the explicit solver, undefined keeps it.
+// Says how C takes a 0 in a field: "default" in its place, "explicit" the default with the explicit solver only, undefined as 0.
 function meaningOfZero(struct, field) {
   if (!["f64", "u32"].includes(field.kind) || field.length || zeroCounts.has(`${struct}.${field.name}`)) return undefined;
   const stated = field.default ?? "";
