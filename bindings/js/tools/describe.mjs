@@ -18,7 +18,7 @@ const zeroCounts = new Set(["mvs_body_desc.radius"]);
 function meaningOfZero(struct, field) {
   if (!["f64", "u32"].includes(field.kind) || field.length || zeroCounts.has(`${struct}.${field.name}`)) return undefined;
   const stated = field.default ?? "";
-  if (/explicit 500/.test(stated)) return "explicit";
+  if (/explicit 500|500 explicit/.test(stated)) return "explicit";
   return withDefault(struct, field) || (stated && !/^0\b(?![.])/.test(stated)) ? "default" : undefined;
 }
 

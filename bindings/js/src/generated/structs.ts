@@ -1835,7 +1835,7 @@ export const layouts: Record<string, Layout> = {
     fields: [
       { name: "solver", kind: "enum", of: "mvs_solver", at: 4 },
       { name: "dt", kind: "f64", at: 8, zero: "default" },
-      { name: "damping", kind: "f64", at: 16 },
+      { name: "damping", kind: "f64", at: 16, zero: "explicit" },
       { name: "budget", kind: "u32", at: 24, zero: "default" },
     ],
   },

@@ -52,7 +52,9 @@ export const work = {
     await fails(() => sim.setValve({ bending_scale: 0, flags: 2 }), "MVS_E_OP", /nodes/);
     await refused(() => sim.settle({ residual: 0 }), "options.residual");
     await refused(() => sim.settle({ solver: "explicit", damping: 0 }), "options.damping");
+    await refused(() => sim.step({ solver: "explicit", damping: 0 }), "options.damping");
     sim.step({ solver: "implicit", damping: 0 });
+    sim.step({ damping: 0 });
     await refused(() => sim.step({ budget: 0 }), "options.budget");
     await refused(() => sim.read((s) => s.cost({ pressure: 0 })), "options.pressure");
     await refused(() => sim.read((s) => s.ensemble({}, { members: 0 })), "options.members");
