@@ -14,7 +14,8 @@ export type { FieldsOf, NameOf, OperationField, OperationFields, OperationInfo, 
 export { packBytes, unpackBytes } from "./pack.js";
 export type { Picked, Ray } from "./pick.js";
 export { DIASTOLE_PA, Simulator, SYSTOLE_PA } from "./simulator.js";
-export type { Finding, SimulatorOptions, SliceOptions } from "./simulator.js";
+export type { Finding, SimulatorOptions } from "./simulator.js";
+export type { SliceOptions } from "./slices.js";
 export { Snapshot } from "./snapshot.js";
 export type { ArrayName, History } from "./snapshot.js";
 export type { Surface } from "./surface.js";

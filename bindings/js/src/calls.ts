@@ -3,6 +3,7 @@
 import type { FaultCallback, LogCallback, ProgressCallback } from "./arrays.js";
 import { MvsError, refuse } from "./error.js";
 import type { LogLevel } from "./generated/enums.js";
+import { HeldHandles } from "./held.js";
 import { Arena, Heap, toBytes, type EmscriptenModule } from "./heap.js";
 import { big, enumNumber, enumWord, layoutOf, readScalar, readStruct, readView, StructWriter, whole, writeScalar, real } from "./layout.js";
 
@@ -59,10 +60,7 @@ export class Calls {
   private thrown: { error: unknown } | undefined;
   private broken = "";
   private depth = 0;
-  /** Handles that are not released yet, by the function that releases them. */
-  readonly held = new Map<string, number>();
-  /** The same by their addresses: their type in C and the number of references. */
-  private readonly handles = new Map<number, { of: string; count: number }>();
+  private readonly handles = new HeldHandles();
 
   constructor(readonly module: EmscriptenModule) {
     this.heap = new Heap(module);
@@ -149,7 +147,7 @@ export class Calls {
     }
     switch (step.how) {
       case "handle":
-        values.push(this.heldHandle(step, value));
+        values.push(this.handles.check(step.of!, value, step.name));
         return;
       case "inStruct":
         values.push(call.writer.make(step.of!, value, step.name));
@@ -206,7 +204,7 @@ export class Calls {
     const reads: Record<string, () => unknown> = {
       outStruct: () => readStruct(heap, step.of!, at),
       outView: () => readView(heap, at),
-      outHandle: () => this.newHandle(step, heap.view.getUint32(at, true)),
+      outHandle: () => this.handles.add(step.of!, step.freedBy ?? "", heap.view.getUint32(at, true)),
       outText: () => heap.text(heap.view.getUint32(at, true)),
       outScalar: () => readScalar(heap, step.element!, at),
       outArray: () => Array.from({ length: step.length! }, (_, k) => readScalar(heap, step.element!, at, k)),
@@ -249,26 +247,9 @@ export class Calls {
     return fill.asNumbers ? new Float64Array(bytes.buffer) : bytes;
   }
 
-  private heldHandle(step: Step, value: unknown): number {
-    if (typeof value !== "number" || this.handles.get(value)?.of !== step.of) {
-      const kind = step.of!.replace("mvs_", "").replace(/_/g, " ");
-      const found = typeof value === "object" ? "an object" : String(value);
-      return refuse(step.name, `${step.name} is ${found}: it has to be the handle of a ${kind} that this module still holds`);
-    }
-    return value;
-  }
-
-  private retain(handle: number, of: string): void {
-    const known = this.handles.get(handle);
-    if (known) ++known.count;
-    else this.handles.set(handle, { of, count: 1 });
-  }
-
-  private newHandle(step: Step, handle: number): number {
-    this.retain(handle, step.of!);
-    const by = step.freedBy ?? "";
-    this.held.set(by, (this.held.get(by) ?? 0) + 1);
-    return handle;
+  /** Handles that are not released yet, by the function that releases them. */
+  get held(): ReadonlyMap<string, number> {
+    return this.handles.counts;
   }
 
   // Callbacks of a simulator live as long as it does.
@@ -276,13 +257,10 @@ export class Calls {
     const first = call.values[0] as number;
     const name = call.signature.name;
     if (name === "mvs_snapshot_retain") {
-      this.held.set("mvs_snapshot_release", (this.held.get("mvs_snapshot_release") ?? 0) + 1);
-      this.retain(first, "mvs_snapshot");
+      this.handles.add("mvs_snapshot", "mvs_snapshot_release", first);
     }
     if (first !== 0 && /(_release|_destroy)$/.test(name)) {
-      this.held.set(name, (this.held.get(name) ?? 0) - 1);
-      const known = this.handles.get(first);
-      if (known && --known.count === 0) this.handles.delete(first);
+      this.handles.remove(name, first);
       if (name === "mvs_destroy") {
         this.callbacks.delete(this.callbacksOf.get(first) ?? 0);
         this.callbacksOf.delete(first);

@@ -1,15 +1,16 @@
 // The simulator: a valve with its load, settled and stepped, operated on, pushed and pulled.
 import type { LogCallback, ProgressCallback } from "./arrays.js";
-import { knownOptions, MvsError, refuse } from "./error.js";
+import { refuse } from "./error.js";
 import type { Backend, Format } from "./generated/enums.js";
 import type {
   BuildFinding, BuildOptions, Coarsening, CoarsenOptions, LeafletDesc, LoadCase, LoadCaseInput, ParametricDesc, Profile, Replay,
   SettleOptions, Stats, StepOptions, SurfaceDesc, ToolDesc, ToolState, ValveDesc,
 } from "./generated/structs.js";
 import { Owned } from "./handles.js";
-import { layoutOf, whole } from "./layout.js";
+import { whole } from "./layout.js";
 import type { Mvs } from "./library.js";
 import { OperationWriter, type FieldsOf, type NameOf, type PartRef } from "./operations.js";
+import { Slices, type SliceOptions } from "./slices.js";
 import { loadWithDefaults, Snapshot, snapshotHandle, SYSTOLE_PA } from "./snapshot.js";
 
 export { SYSTOLE_PA };
@@ -23,47 +24,11 @@ export interface SimulatorOptions {
   progress?: ProgressCallback;
 }
 
-/** A settle in slices, for a thread that has to answer in between. */
-export interface SliceOptions extends SettleOptions {
-  /** s, length of a slice [0.02]. */
-  slice?: number;
-  /** Receives the completed share after every slice. */
-  onProgress?: (share: number) => void;
-  /** Cancels the settle between two slices. */
-  signal?: AbortSignal;
-}
-
-const sliceOptions = ["slice", "onProgress", "signal", ...layoutOf("mvs_settle_options").fields.map((field) => field.name)];
-
-/** A settle in slices that is under way. */
-interface Slices {
-  /** Why it ended before its time. */
-  ended?: string;
-}
-
 /** A finding of a build: `values` is a copy. */
 export type Finding = Omit<BuildFinding, "values"> & { values: Float64Array };
 
-/** Lets the event loop run: messages and timers that wait are served. */
-function breathe(): Promise<void> {
-  return new Promise((resolve) => {
-    if (typeof setImmediate === "function") {
-      setImmediate(resolve);
-      return;
-    }
-    const channel = new MessageChannel();
-    channel.port1.onmessage = () => {
-      channel.port1.close();
-      resolve();
-    };
-    channel.port2.postMessage(0);
-  });
-}
-
-const cancelled = (why: string): MvsError => new MvsError("MVS_E_CANCELLED", "settle", `the settle was cancelled: ${why}`);
-
 export class Simulator extends Owned {
-  private slices: Slices | undefined;
+  private readonly slices = new Slices();
 
   constructor(readonly mvs: Mvs, options: SimulatorOptions = {}) {
     const { c } = mvs;
@@ -127,7 +92,7 @@ export class Simulator extends Owned {
   /** Begins a settle in slices; one that is under way is replaced: the promise of its settleInSlices() is rejected. */
   beginSettle(options?: SettleOptions): void {
     this.mvs.c.mvs_begin_settle(this.handle, options);
-    this.endSlices("replaced by a new settle");
+    this.slices.end("replaced by a new settle");
   }
 
   /** Advances it for `seconds`, and at least by one iteration; `share` is 1 at the end, and `stats` are those of the settle then. */
@@ -138,12 +103,7 @@ export class Simulator extends Owned {
   /** Cancels the settle in slices that is under way, if there is one: its promise is rejected with MVS_E_CANCELLED. */
   cancelSettle(): void {
     this.mvs.c.mvs_cancel_settle(this.handle);
-    this.endSlices("by cancelSettle(); it has changed nothing");
-  }
-
-  private endSlices(why: string): void {
-    if (this.slices) this.slices.ended = why;
-    this.slices = undefined;
+    this.slices.end("by cancelSettle(); it has changed nothing");
   }
 
   /**
@@ -152,46 +112,8 @@ export class Simulator extends Owned {
    * vertices. The promise is rejected with MVS_E_CANCELLED if the signal aborts, after cancelSettle(), when
    * another settle begins, and when another call changes the valve in between.
    */
-  async settleInSlices(options: SliceOptions = {}): Promise<Stats> {
-    knownOptions(options, sliceOptions, "options");
-    const { slice = 0.02, onProgress, signal, ...settle } = options;
-    if (typeof slice !== "number" || !(slice >= 0 && slice <= 3600)) refuse("options.slice", `options.slice is ${String(slice)}: it has to be 0 to 3600 s`);
-    if (onProgress !== undefined && typeof onProgress !== "function") refuse("options.onProgress", "options.onProgress is not a function");
-    if (signal !== undefined && typeof (signal as AbortSignal | null)?.aborted !== "boolean") refuse("options.signal", "options.signal is not an AbortSignal");
-    const aborted = "by its signal; it has changed nothing";
-    if (signal?.aborted) throw cancelled(aborted);
-    this.beginSettle(settle);
-    const mine: Slices = {};
-    this.slices = mine;
-    try {
-      for (;;) {
-        const { share, stats } = this.advance(slice);
-        if (share >= 1) this.slices = undefined;
-        onProgress?.(share);
-        if (share >= 1) return stats;
-        await breathe();
-        if (signal?.aborted) throw cancelled(mine.ended ?? aborted);
-        if (mine.ended) throw cancelled(mine.ended);
-      }
-    } catch (error) {
-      // another settle may be under way by now: it is not this one's to cancel
-      if (this.slices === mine) {
-        if (!this.isDisposed) this.mvs.c.mvs_cancel_settle(this.handle);
-        this.slices = undefined;
-      }
-      throw error;
-    }
-  }
-
-  // A slice of settleInSlices: without a settle under way, another call has changed the valve.
-  private advance(seconds: number): { share: number; stats: Stats } {
-    const { handle } = this;
-    try {
-      return this.mvs.c.mvs_advance_settle(handle, seconds);
-    } catch (error) {
-      if (error instanceof MvsError && error.code === "MVS_E_STATE") throw cancelled("another call has changed the valve");
-      throw error;
-    }
+  settleInSlices(options: SliceOptions = {}): Promise<Stats> {
+    return this.slices.settle(this, options);
   }
 
   /** Advances by time steps of bounded work. */
