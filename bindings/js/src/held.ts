@@ -1,4 +1,4 @@
-// Handles of the C interface that are not released yet: what is passed as a handle is looked up here.
+// Registry of the handles of the C interface that are not released yet, in which handles that are passed are looked up.
 import { refuse } from "./error.js";
 
 export class HeldHandles {
