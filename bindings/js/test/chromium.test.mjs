@@ -24,7 +24,7 @@ test("cases in Chromium", { skip: existsSync(executable) ? false : `no ${executa
     packed: gzipSync(readFileSync(join(dist, "mvs.wasm")), { level: 9 }).toString("base64"),
   });
   try {
-    const groups = ["life", "operations", "work", ...(rounds > 0 ? ["soak"] : [])];
+    const groups = ["life", "operations", "settles", "refusals", "work", ...(rounds > 0 ? ["soak"] : [])];
     const messages = await page.run({ groups, rounds });
     const last = messages.pop();
     assert.equal(last.failure, undefined);

@@ -2,9 +2,11 @@
 import { life } from "./cases/life.mjs";
 import { operations } from "./cases/operations.mjs";
 import { soak } from "./cases/soak.mjs";
+import { refusals } from "./cases/refusals.mjs";
+import { settles } from "./cases/settles.mjs";
 import { work } from "./cases/work.mjs";
 
-const groups = { life, operations, work, soak };
+const groups = { life, operations, settles, refusals, work, soak };
 
 onmessage = async ({ data: { packed, job } }) => {
   const { libmvs } = globalThis;
