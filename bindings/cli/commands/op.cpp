@@ -177,8 +177,7 @@ void add_op(CLI::App &app, Console &console) {
       "along the scallop,\nshare from annulus to free edge), node:17, or "
       "triangle:12:0.3:0.3:0.4. Points are a text file with one x,y,z per line.\n--settle "
       "operates on the valve as given, `mvs sweep` on the closed one: give a closed valve (mvs "
-      "close "
-      "-o) for the\nsame figures.");
+      "close -o) for the\nsame figures.");
   for (const mvs::OpKind &kind : mvs::op_kinds()) add_kind(*command, console, kind, file);
 }
 

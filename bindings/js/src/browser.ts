@@ -1,12 +1,12 @@
 // Browsers through a bundler or a server: mvs.wasm is fetched from beside this file.
 import { knownOptions, MvsError } from "./error.js";
-import { instantiate, type LoadOptions, type Mvs } from "./library.js";
+import { instantiate, loadOptions, type LoadOptions, type Mvs } from "./library.js";
 
 export * from "./api.js";
 
 /** Loads the library: its own mvs.wasm, or the bytes given. */
 export async function loadMvs(options: LoadOptions = {}): Promise<Mvs> {
-  knownOptions(options, ["wasm", "maxMemory"], "options");
+  knownOptions(options, loadOptions, "options");
   return instantiate({ ...options, wasm: options.wasm ?? (await fetched(new URL("./mvs.wasm", import.meta.url))) });
 }
 

@@ -3,7 +3,7 @@ import { readFile } from "node:fs/promises";
 import { pathToFileURL } from "node:url";
 
 import { knownOptions, MvsError } from "./error.js";
-import { instantiate, type LoadOptions, type Mvs } from "./library.js";
+import { instantiate, loadOptions, type LoadOptions, type Mvs } from "./library.js";
 
 export * from "./api.js";
 
@@ -12,7 +12,7 @@ declare const MVS_HERE: string;
 
 /** Loads the library: its own mvs.wasm, or the bytes given. */
 export async function loadMvs(options: LoadOptions = {}): Promise<Mvs> {
-  knownOptions(options, ["wasm", "maxMemory"], "options");
+  knownOptions(options, loadOptions, "options");
   const here = MVS_HERE.startsWith("file:") ? MVS_HERE : pathToFileURL(MVS_HERE);
   return instantiate({ ...options, wasm: options.wasm ?? (await read(new URL("./mvs.wasm", here))) });
 }

@@ -17,6 +17,9 @@ export interface LoadOptions {
   maxMemory?: number | undefined;
 }
 
+/** The names of the options, which each way of loading checks before it reads mvs.wasm. */
+export const loadOptions: readonly (keyof LoadOptions)[] = ["wasm", "maxMemory"];
+
 const page = 65536;
 const initialMemory = 33554432;
 const largestMemory = 2147483648;
@@ -106,7 +109,7 @@ function mustBeWasm(wasm: unknown): void {
 
 /** Makes the library from its bytes or its compiled module. */
 export async function instantiate(options: LoadOptions): Promise<Mvs> {
-  knownOptions(options, ["wasm", "maxMemory"], "options");
+  knownOptions(options, loadOptions, "options");
   const { wasm, maxMemory = largestMemory } = options;
   if (!wasm) throw new MvsError("MVS_E_ARGUMENT", "wasm", "wasm is missing: give the bytes of mvs.wasm, or the module compiled of them");
   if (!(wasm instanceof WebAssembly.Module)) mustBeWasm(wasm);

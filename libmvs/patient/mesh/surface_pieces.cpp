@@ -148,8 +148,8 @@ void refuse_pieces(const LeafletSheet &sheet, const SurfacePieces &pieces, doubl
        "the surface has %zu pieces that are not connected, of %s mm2%s; the second is nearest to "
        "the first at (%.1f, %.1f, %.1f) mm, %.2f mm from it: if both are leaflets, join them there "
        "over an edge or more, with common points; if they are the atrial and the ventricular side "
-       "of "
-       "the leaflets, delete the ventricular one and give the other as atrial, or close both rims "
+       "of the leaflets, delete the ventricular one and give the other as atrial, or close both "
+       "rims "
        "between them and give all as skin; delete what is no leaflet",
        large.size(), list.c_str(), where.c_str(), gap.at.x() * 1e3, gap.at.y() * 1e3,
        gap.at.z() * 1e3, gap.distance * 1e3);

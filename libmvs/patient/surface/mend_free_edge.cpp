@@ -284,8 +284,7 @@ void report_notches(const FilledNotches &notches, NotchesOf rim, Findings &findi
   const bool is_annulus = rim == NotchesOf::annulus;
   std::string sentence = format(
       "%zu notches of the %s, up to %.1f mm deep and at most %.0f mm wide, were filled with %.1f "
-      "mm2 "
-      "of tissue; the %s is %.1f mm shorter for it. ",
+      "mm2 of tissue; the %s is %.1f mm shorter for it. ",
       notches.last.size(), is_annulus ? "annulus" : "free edge", notches.deepest * 1e3,
       widest_notch * 1e3, notches.area * 1e6, is_annulus ? "annulus" : "edge", notches.saved * 1e3);
   sentence += is_annulus
