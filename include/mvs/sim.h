@@ -52,10 +52,11 @@ typedef struct mvs_sim_desc {
    * force in N; a non-zero return value cancels the call. Nullable. */
   int32_t (*progress)(void *user, double share, double residual);
   void *user; /* passed to all callbacks */
-  /* Threads that share the work of mvs_settle, mvs_advance_settle and mvs_step, the calling one
-   * included, at most MVS_MAX_WORKERS; 0 and 1: the calling thread alone. Results have the same
-   * bits for any number. The library starts its threads in the first loop that is long enough to
-   * be shared (in valves of more than about a thousand vertices), and joins them in mvs_destroy.
+  /* Threads that share the work of mvs_settle, mvs_advance_settle, mvs_step, mvs_build_valve and
+   * mvs_find_leak_interval, the calling one included, at most MVS_MAX_WORKERS; 0 and 1: the calling
+   * thread alone. Results have the same bits for any number. The library starts its threads in the
+   * first loop that is long enough to be shared (in valves of more than about a thousand vertices;
+   * in a build the closures of its variants), and joins them in mvs_destroy.
    * They run no callback, block all signals, and sleep between calls. Where there are no threads,
    * as in WebAssembly, or the system grants fewer, the others do the work. A process made by fork()
    * has none of them and must not destroy the simulator. */

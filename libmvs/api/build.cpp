@@ -134,7 +134,8 @@ extern "C" {
 mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
                            const mvs_build_options *options, mvs_build **build) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
-    const BuildSettings settings = read_options(options);
+    BuildSettings settings = read_options(options);
+    settings.workers = s.workers.get();
     BuiltValve built = build_valve(read_surface(surface), settings, s.progress());
     auto found = std::make_unique<mvs_build>(mvs_build{std::move(built.findings)});
     State state = initial_state(*built.model);
@@ -149,8 +150,10 @@ mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors, m
     const LeakUnknowns unknowns = read_errors(errors);
     auto build = std::make_unique<mvs_build>();
     report_thickness_error(unknowns.thickness_error, build->findings);
-    leak_interval(s.current().model, unknowns, {}, build->findings,
-                  [&, progress = s.progress()](double share) { tell_progress(progress, share); });
+    leak_interval(
+        s.current().model, unknowns, {}, build->findings,
+        [&, progress = s.progress()](double share) { tell_progress(progress, share); },
+        s.workers.get());
     *found = build.release();
   });
 }

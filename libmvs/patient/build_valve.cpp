@@ -89,9 +89,9 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   if (!settings.finds_leak) return built;
   begin_stage(settings, "leak");
   report_thickness_error(settings.thickness_error, findings);
-  built.leak = leak_interval(built.model, unknowns, leaks, findings, [&](double share) {
-    tell_progress(progress, done + (1 - done) * share);
-  });
+  built.leak = leak_interval(
+      built.model, unknowns, leaks, findings,
+      [&](double share) { tell_progress(progress, done + (1 - done) * share); }, settings.workers);
   return built;
 }
 

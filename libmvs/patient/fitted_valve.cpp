@@ -21,7 +21,7 @@ constexpr double other_fold = 1.2;
 // Fits of the coarse valve with each of some laws.
 std::vector<LawFit> fits_of_laws(const std::vector<LeafletLawId> &laws, const Patient &patient,
                                  const BuildSettings &settings, const Findings &findings,
-                                 const std::function<void(double)> &tell) {
+                                 const TellShare &tell) {
   Findings of_coarse = findings;  // its commissures are those of the patient
   const double edge = std::max(settings.edge, edge_for(patient.mid.sheet, law_vertices));
   const PatientGeometry g = patient_geometry(patient.mid, edge, of_coarse);
@@ -33,13 +33,13 @@ std::vector<LawFit> fits_of_laws(const std::vector<LeafletLawId> &laws, const Pa
     Findings of_law = of_coarse;
     valves.push_back(patient_valve(settings, law, g, patient.boundary, of_law));
   }
-  return fit_laws(std::move(valves), g, patient.closed, edge_is_exact, tell);
+  return fit_laws(std::move(valves), g, patient.closed, edge_is_exact, tell, settings.workers);
 }
 
 // Coarse fits, the nearest first: with the given law, so that its fine fit begins at the same
 // factors, or with each of three.
 std::vector<LawFit> coarse_fits(const Patient &patient, const BuildSettings &settings,
-                                const Findings &findings, const std::function<void(double)> &tell) {
+                                const Findings &findings, const TellShare &tell) {
   begin_stage(settings, "tissue");
   std::vector<LeafletLawId> laws(fitted_laws.begin(), fitted_laws.end());
   if (settings.law) laws = {*settings.law};
@@ -55,22 +55,22 @@ std::vector<LawFit> coarse_fits(const Patient &patient, const BuildSettings &set
 // Fits the chordae of a valve. If the free edge is not exact, it gets the tissue that the closed
 // surface shows.
 FittedValve fit_valve(const Patient &patient, const BuildSettings &settings, const LawFit &coarse,
-                      const PatientGeometry &g, const Findings &findings,
-                      const std::function<void(double)> &tell) {
+                      const PatientGeometry &g, const Findings &findings, const TellShare &tell) {
   FittedValve made{coarse.law, g, {}, findings, {}, {}};
   made.valve = patient_valve(settings, coarse.law, g, patient.boundary, made.findings);
   FitSettings s;
   s.known = coarse.factor;
-  const auto tell_search = [&](uint32_t search) {
-    tell(static_cast<double>(search) / (s.starts + 1));
-  };
+  s.workers = settings.workers;
+  // of the progress: the search for the free edge is one beside the others
+  const double edge_share = 1.0 / (s.starts + 1);
   const EdgeRange edge =
       find_edge_range(settings.edge_error, settings.edge_lost, made.g, made.findings);
   if (edge.geometry != nullptr) {
-    extend_free_edge(made.valve, made.g, patient.closed, s.known, made.findings, tell_search);
+    extend_free_edge(made.valve, made.g, patient.closed, s.known, made.findings,
+                     [&](double share) { tell(edge_share * share); });
   }
   made.fit = fit_over_levels(made.valve, patient.closed, s, made.findings,
-                             [&](uint32_t start) { tell_search(start + 1); });
+                             [&](double share) { tell(edge_share + (1 - edge_share) * share); });
   return made;
 }
 
@@ -78,7 +78,7 @@ FittedValve fit_valve(const Patient &patient, const BuildSettings &settings, con
 // farther from the surface; then the other plausible laws are tried, and the nearest is taken.
 FittedValve fit_with_laws(const Patient &patient, const BuildSettings &settings,
                           const std::vector<LawFit> &fits, const PatientGeometry &g,
-                          const Findings &findings, const std::function<void(double)> &tell) {
+                          const Findings &findings, const TellShare &tell) {
   std::vector<LawFit> laws = plausible_laws(fits);
   if (laws.empty()) {
     laws.emplace_back();
@@ -110,7 +110,7 @@ Finding given_tissue(LeafletLawId law) {
 
 FittedValve fitted_valve(const Patient &patient, const BuildSettings &settings,
                          const PatientGeometry &g, const Findings &findings,
-                         const std::function<void(double)> &tell) {
+                         const TellShare &tell) {
   const std::vector<LawFit> fits =
       coarse_fits(patient, settings, findings, [&](double share) { tell(0.4 * share); });
   begin_stage(settings, "fit");

@@ -28,8 +28,7 @@ struct FittedValve {
 // shows past a free edge that is not exact; fitted lengths. `tell` is called with the share that is
 // done and may throw.
 FittedValve fitted_valve(const Patient &patient, const BuildSettings &settings,
-                         const PatientGeometry &g, const Findings &findings,
-                         const std::function<void(double)> &tell);
+                         const PatientGeometry &g, const Findings &findings, const TellShare &tell);
 
 // The finding "tissue" of a law that is given.
 Finding given_tissue(LeafletLawId law);

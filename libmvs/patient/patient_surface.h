@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/workers.h"
 #include "model/kinds.h"
 #include "patient/leaflet_sheet.h"
 
@@ -39,6 +40,7 @@ struct BuildSettings {
   double thickness_error = 0;  // m, of the leaflets, thicker or thinner
   uint32_t chords = 100;
   bool finds_leak = true;
+  Workers *workers = nullptr;                  // that close variants of the valve at the same time
   std::function<void(const char *)> on_stage;  // called with the name of each stage as it begins
 };
 

@@ -3,11 +3,13 @@
 //   bench_import                        parametric leaflets of 1,100 and 5,000 triangles
 //   bench_import --surface open.stl --unit mm
 //   bench_import --fit                  also a fit to the closed surface of other chord lengths
+//   bench_import --workers 2            closures of a fit and of the leak run at the same time
 //   bench_import --csv FILE
 //
-// Columns: CPU seconds of the whole and of each stage (build_valve.h), the fastest of the runs, and
-// the iterations of the three closures for the leak. The surface of a fit is that of the same valve
-// with lengths of groups of chordae between 0.93 and 1.06 times as long, closed.
+// Columns: wall seconds, CPU seconds of the whole and of each stage (build_valve.h), of the run
+// with the least CPU time, and the iterations of the three closures for the leak. The surface of a
+// fit is that of the same valve with lengths of groups of chordae between 0.93 and 1.06 times as
+// long, closed.
 #include <mvs/valve.h>
 
 #include <CLI/CLI.hpp>
@@ -34,6 +36,7 @@ struct Options {
   double edge = 0;  // mm
   int repeat = 3;
   bool fit = false;
+  uint32_t workers = 1;
 };
 
 struct Case {
@@ -108,23 +111,28 @@ std::map<std::string, double> time_stages(const Case &of, BuildSettings settings
 }
 
 void add_row(const Options &options, const Case &of, bench::Table &table) {
+  Workers workers(options.workers);
   BuildSettings settings;
   settings.edge = options.edge * 1e-3;
+  settings.workers = &workers;
   Case with_closed = of;
   if (options.fit) add_closed(settings, with_closed);
   std::map<std::string, double> best;
-  double best_total = HUGE_VAL;
+  double best_total = HUGE_VAL, best_wall = 0;
   BuiltValve built;
   for (int k = 0; k < options.repeat; ++k) {
-    const std::map<std::string, double> spent = time_stages(with_closed, settings, built);
+    std::map<std::string, double> spent;
+    const double wall =
+        bench::timed([&] { spent = time_stages(with_closed, settings, built); }).wall;
     double total = 0;
     for (const auto &[stage, seconds] : spent) total += seconds;
     if (total >= best_total) continue;
     best_total = total;
+    best_wall = wall;
     best = spent;
   }
   std::vector<bench::Cell> cells = {of.name, of.surface.triangles.size(),
-                                    built.model->topology.node_kind.size(), best_total};
+                                    built.model->topology.node_kind.size(), best_wall, best_total};
   for (const std::string &stage : stages) cells.emplace_back(best[stage]);
   cells.emplace_back(built.leak.iterations[0]);
   cells.emplace_back(built.leak.iterations[1]);
@@ -142,9 +150,12 @@ int run(int argc, char **argv) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
   app.add_flag("--fit", options.fit, "with a fit to a closed surface");
+  app.add_option("--workers", options.workers, "threads that close variants at the same time")
+      ->capture_default_str()
+      ->check(CLI::Range(1u, Workers::most));
   app.add_option("--csv", options.csv, "file to write the table to");
   CLI11_PARSE(app, argc, argv);
-  std::vector<std::string> columns = {"surface ", "triangles", "nodes", "CPU s"};
+  std::vector<std::string> columns = {"surface ", "triangles", "nodes", "wall s", "CPU s"};
   columns.insert(columns.end(), stages.begin(), stages.end());
   for (const char *name : {"it 0.9", "it 1", "it 1.1"}) columns.emplace_back(name);
   bench::Table table(columns, options.csv);

@@ -237,8 +237,9 @@ TEST_CASE("an_edge_that_is_not_sure_widens_the_interval_of_leaks") {
   for (Chord &chord : valve.chords) chord.rest_length *= 0.75;
   Findings exact, unsure;
   const LeakInterval sure = leak_interval(make_model(valve), {}, {}, exact);
+  Workers workers(3);
   const LeakInterval wide =
-      leak_interval(make_model(valve), {{}, {2 * mm, 1 * mm, &g}, 0, {}}, {}, unsure);
+      leak_interval(make_model(valve), {{}, {2 * mm, 1 * mm, &g}, 0, {}}, {}, unsure, {}, &workers);
   CHECK(wide.leak == sure.leak);
   CHECK(sure.edge_leak[0] == 0);
   // leaflets that are longer leak less; shorter ones hang on longer chordae, and may leak less as

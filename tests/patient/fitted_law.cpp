@@ -96,14 +96,14 @@ TEST_CASE("a_valve_that_is_far_behind_after_one_search_is_given_up") {
   ClosedSurface given{closed.state.x, valve.triangles.get()};
   given.points.resize(g.sheet.x.size());
   std::vector<double> shares;
-  const std::vector<LawFit> fits = in_order(
-      fit_laws({other, valve}, g, given, true, [&](double share) { shares.push_back(share); }));
+  Workers workers(2);
+  const std::vector<LawFit> fits = in_order(fit_laws(
+      {other, valve}, g, given, true, [&](double share) { shares.push_back(share); }, &workers));
   REQUIRE(fits.size() == 2);
   CHECK_FALSE(fits[0].given_up);
   CHECK(fits[1].given_up);
   CHECK(misfit_of(fits[1]) > 2.5 * misfit_of(fits[0]));
-  // an edge and a search of each, and the other searches of the second
-  CHECK(shares == std::vector<double>{0, 1 / 8.0, 2 / 8.0, 3 / 8.0, 5 / 8.0, 7 / 8.0});
+  CHECK(std::is_sorted(shares.begin(), shares.end()));
   CHECK(tissue_found(fits, LeafletLawId::bilinear).sentence.find("(given up)") !=
         std::string::npos);
 }
@@ -128,7 +128,7 @@ TEST_CASE("law_of_a_closed_valve_is_found_by_its_surface") {
   REQUIRE(fits.size() == valves.size());
   CHECK(std::is_sorted(shares.begin(), shares.end()));
   CHECK(shares[0] == 0);
-  CHECK(shares.back() < 1);
+  CHECK(shares.back() == 1);
   // its own law meets the surface as well as a fit weighs it
   CHECK(fits[0].distance < FitSettings().noise);
   CHECK(fits[0].rms < FitSettings().noise);

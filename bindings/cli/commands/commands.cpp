@@ -17,12 +17,8 @@ void add_progress_flag(CLI::App &command, Console &console) {
                    "show progress on stderr even if stderr is not a terminal");
 }
 
-void add_workers_option(CLI::App &command, Console &console) {
-  command
-      .add_option("--workers", console.workers,
-                  "threads that share the closure of a valve of more than about 1,000 vertices; "
-                  "the result is the same for any number [1]")
-      ->check(CLI::Range(1, MVS_MAX_WORKERS));
+void add_workers_option(CLI::App &command, Console &console, const char *help) {
+  command.add_option("--workers", console.workers, help)->check(CLI::Range(1, MVS_MAX_WORKERS));
 }
 
 CLI::Validator one_of(const std::vector<std::string> &names) {

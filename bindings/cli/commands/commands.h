@@ -49,8 +49,11 @@ std::pair<CLI::App *, Options *> add_command(CLI::App &app, Console &console,
 // --progress
 void add_progress_flag(CLI::App &command, Console &console);
 
-// --workers.
-void add_workers_option(CLI::App &command, Console &console);
+// --workers, by default of commands that close one valve.
+void add_workers_option(CLI::App &command, Console &console,
+                        const char *help =
+                            "threads that share the closure of a valve of more than about 1,000 "
+                            "vertices; the result is the same for any number [1]");
 
 // Accepts one of `names`; the error message lists them.
 CLI::Validator one_of(const std::vector<std::string> &names);

@@ -1,8 +1,10 @@
 // `mvs import`: builds a valve from a patient's surface and landmarks.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "commands/commands.h"
 #include "import/findings_file.h"
@@ -11,6 +13,8 @@
 
 namespace cli {
 namespace {
+
+constexpr uint32_t most_cores = 8;  // a build has at most 13 closures at the same time
 
 std::string findings_path(const ImportOptions &options) {
   if (!options.findings_out.empty()) return options.findings_out;
@@ -83,7 +87,10 @@ void run_import(const ImportOptions &given, Console &console) {
   warn_of_whole_valve(options.surface);
   const std::string name = std::filesystem::path(options.surface).stem().string();
   Progress progress(console);
-  mvs_sim_desc how = {};
+  mvs_sim_desc how = with_workers(console);
+  if (how.workers == 0) {
+    how.workers = std::clamp(std::thread::hardware_concurrency(), 1u, most_cores);
+  }
   how.progress = &Progress::callback;
   how.user = &progress;
   mvs::Simulator sim = make_sim(how);
@@ -199,6 +206,9 @@ void add_import(CLI::App &app, Console &console) {
                       "them is used");
   command->add_option("--findings", options->findings_out,
                       "file for the findings [VALVE.import.json beside the output]");
+  add_workers_option(*command, console,
+                     "threads that close variants of the valve at the same time; the result is the "
+                     "same for any number [the cores of the machine, at most 8]");
   add_progress_flag(*command, console);
 }
 

@@ -186,7 +186,9 @@ void bind_simulator(py::module_ &module) {
       "factorisation, one of " +
       backend_words() +
       "\nworkers: threads that share the work of a settle or step on a valve of more than about "
-      "1,000 vertices, at most 256; no bit of a result depends on them"
+      "1,000 vertices, of build_valve and find_leak_interval, at most 256; no bit of a result "
+      "depends "
+      "on them"
       "\nlike: a mvs.Snapshot that the simulator begins with (restore); its variants, which "
       "set_valve "
       "and load set, share what depends on its mesh, in any thread, with the same bits"

@@ -20,7 +20,7 @@ constexpr double limit_share = 0.9;  // of most_overhang: few edges lack as much
 
 // The valve with the lengths of a search from one start, closed from open.
 ClosedValve closed_roughly(const Valve &valve, const ClosedSurface &given,
-                           const GroupFactors &known, const FitProgress &progress) {
+                           const GroupFactors &known, const TellShare &tell) {
   FitSettings settings;
   settings.starts = 1;
   settings.one_by_one = false;
@@ -28,7 +28,7 @@ ClosedValve closed_roughly(const Valve &valve, const ClosedSurface &given,
   settings.known = known;
   Valve fitted = valve;
   Findings of_search;
-  fit_over_levels(fitted, given, settings, of_search, progress);
+  fit_over_levels(fitted, given, settings, of_search, tell);
   Solver solver(Backend::fastest);
   return close_open(solver, make_model(std::move(fitted)), settings.pressure);
 }
@@ -36,9 +36,8 @@ ClosedValve closed_roughly(const Valve &valve, const ClosedSurface &given,
 }  // namespace
 
 double extend_free_edge(Valve &valve, PatientGeometry &g, const ClosedSurface &given,
-                        const GroupFactors &known, Findings &findings,
-                        const FitProgress &progress) {
-  const ClosedValve closed = closed_roughly(valve, given, known, progress);
+                        const GroupFactors &known, Findings &findings, const TellShare &tell) {
+  const ClosedValve closed = closed_roughly(valve, given, known, tell);
   const SurfaceMatcher matcher(given, *closed.model, closed.state.x);
   const std::vector<double> by =
       edge_overhang(g, closed, matcher.match(*closed.model, closed.state.x));

@@ -11,6 +11,6 @@ namespace mvs::core {
 // where the edge would move by less than a tenth of a millimetre in the mean. Returns by how much
 // it was moved, m RMS. `known`: factors from which the fit begins.
 double extend_free_edge(Valve &valve, PatientGeometry &g, const ClosedSurface &given,
-                        const GroupFactors &known, Findings &findings, const FitProgress &progress);
+                        const GroupFactors &known, Findings &findings, const TellShare &tell);
 
 }  // namespace mvs::core

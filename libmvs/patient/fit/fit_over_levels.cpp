@@ -14,7 +14,8 @@
 namespace mvs::core {
 namespace {
 
-constexpr double finer = 1.5;  // share of the coarse vertices from which levels pay
+constexpr double finer = 1.5;         // share of the coarse vertices from which levels pay
+constexpr double coarse_share = 0.8;  // of the progress of a fit: that of the search
 
 std::optional<Coarsened> coarsened(const Model &model, size_t vertices) {
   if (static_cast<double>(sheet_vertices(model)) < finer * static_cast<double>(vertices))
@@ -58,7 +59,7 @@ ChordFit on_fine_chords(const ChordFit &rough, const Model &coarse, const Model 
 
 // Closes the fine valve with the factors; improves the groups if it lies farther from the surface.
 void finish(const Valve &valve, const SurfaceMatcher &matcher, const FitSettings &s, Solver &solver,
-            ChordFit &fit) {
+            ChordFit &fit, const std::function<void()> &before_closure) {
   const ClosedJacobian jacobian = jacobian_by_linearisation();
   Valve shaped = valve;  // the factor of a chord beside that of its group
   for (size_t g = 0; g < fit.groups.size(); ++g) {
@@ -67,7 +68,7 @@ void finish(const Valve &valve, const SurfaceMatcher &matcher, const FitSettings
   }
   FitParameters groups{fit.groups, {}, s.prior};
   groups.mean.assign(groups.groups.size(), 1);
-  const FitSearch search(shaped, matcher, s, solver, jacobian);
+  const FitSearch search(shaped, matcher, s, solver, jacobian, before_closure);
   FitTrial taken = search.from_open(groups, fit.factor);
   if (rms_distance(taken.matches) > as_good_as(fit.rms)) {
     FitTrial improved = taken;
@@ -94,19 +95,23 @@ void finish(const Valve &valve, const SurfaceMatcher &matcher, const FitSettings
 }  // namespace
 
 ChordFit fit_over_levels(Valve &valve, const ClosedSurface &given, const FitSettings &s,
-                         Findings &findings, const FitProgress &progress, size_t coarse) {
+                         Findings &findings, const TellShare &tell, size_t coarse) {
   const ModelPtr model = make_model(valve);
   const std::optional<Coarsened> level = coarsened(*model, coarse);
-  if (!level) return fit_to_closed(valve, given, s, findings, {}, progress);
+  if (!level) return fit_to_closed(valve, given, s, findings, {}, tell);
   Valve searched = level->model->valve;
   Findings of_coarse;
-  const ChordFit rough = fit_to_closed(searched, given, s, of_coarse, {}, progress);
+  const ChordFit rough = fit_to_closed(searched, given, s, of_coarse, {}, [&](double share) {
+    if (tell) tell(coarse_share * share);
+  });
   ChordFit fit = on_fine_chords(rough, *level->model, *model, s);
   Solver solver(Backend::fastest);
   // the closed coarse valve decides how the given surface is wound
   const ClosedValve closed = close_open(solver, make_model(searched), s.pressure);
   const SurfaceMatcher matcher(given, *closed.model, closed.state.x);
-  finish(valve, matcher, s, solver, fit);
+  finish(valve, matcher, s, solver, fit, [&] {
+    if (tell) tell(coarse_share);
+  });
   for (size_t c = 0; c < valve.chords.size(); ++c)
     valve.chords[c].rest_length *= fit.chord_factor[c];
   report_fit(fit, s, findings);

@@ -18,7 +18,7 @@ inline constexpr size_t search_vertices = 1000;
 // As fit_to_closed(), which it is for valves with less than one and a half times `coarse` vertices,
 // and for those that cannot be coarsened so far.
 ChordFit fit_over_levels(Valve &valve, const ClosedSurface &given, const FitSettings &settings,
-                         Findings &findings, const FitProgress &progress = {},
+                         Findings &findings, const TellShare &tell = {},
                          size_t coarse = search_vertices);
 
 }  // namespace mvs::core

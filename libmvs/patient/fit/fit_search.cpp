@@ -97,12 +97,14 @@ FitTrial FitSearch::judged(const FitParameters &p, std::vector<double> factor,
 }
 
 FitTrial FitSearch::from_open(const FitParameters &p, std::vector<double> factor) const {
+  before_closure_();
   ClosedValve closed = close_open(solver_, make_model(scaled(p, factor)), s_.pressure);
   return judged(p, std::move(factor), std::move(closed));
 }
 
 FitTrial FitSearch::again(const FitParameters &p, std::vector<double> factor,
                           const ClosedValve &from) const {
+  before_closure_();
   ClosedValve closed = close_again(solver_, from, scaled(p, factor));
   return judged(p, std::move(factor), std::move(closed));
 }

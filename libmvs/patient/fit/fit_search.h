@@ -23,10 +23,16 @@ struct FitTrial {
 
 class FitSearch {
  public:
-  // Keeps references to all arguments.
+  // Keeps references to all arguments but the last, which is called before each closure and may
+  // throw.
   FitSearch(const Valve &valve, const SurfaceMatcher &matcher, const FitSettings &settings,
-            Solver &solver, const ClosedJacobian &jacobian)
-      : valve_(valve), matcher_(matcher), s_(settings), solver_(solver), jacobian_(jacobian) {}
+            Solver &solver, const ClosedJacobian &jacobian, std::function<void()> before_closure)
+      : valve_(valve),
+        matcher_(matcher),
+        s_(settings),
+        solver_(solver),
+        jacobian_(jacobian),
+        before_closure_(std::move(before_closure)) {}
 
   Valve scaled(const FitParameters &p, const std::vector<double> &factor) const;
   FitTrial judged(const FitParameters &p, std::vector<double> factor, ClosedValve closed) const;
@@ -49,6 +55,7 @@ class FitSearch {
   const FitSettings &s_;
   Solver &solver_;
   const ClosedJacobian &jacobian_;
+  const std::function<void()> before_closure_;
 };
 
 }  // namespace mvs::core

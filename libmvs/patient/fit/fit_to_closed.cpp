@@ -30,7 +30,13 @@ namespace {
 constexpr double difference = 0.01;
 // m, RMS: leaflets move by 3 to 5 mm as they close (median); the sides of thick ones lie 1 mm off.
 constexpr double nearest_open = 1e-3;
-constexpr uint64_t start_seed = 22;  // of the other starts
+constexpr uint64_t start_seed = 22;    // of the other starts
+constexpr double usual_closures = 50;  // of a search: about so many, for its progress
+
+// The share of a search that is done; its number of closures is not known before.
+double share_after(uint32_t closures) {
+  return closures / (closures + usual_closures);
+}
 
 // The model of a valve, whose annulus the surface must meet.
 ModelPtr checked_model(const ClosedSurface &given, const Valve &valve) {
@@ -206,12 +212,11 @@ ClosedJacobian jacobian_by_differences(Solver &solver) {
 struct FitSearches::Work {
   Valve valve;
   FitSettings settings;
-  Solver solver{Backend::fastest};
   ClosedJacobian jacobian;
+  Solver solver{Backend::fastest};
   ClosedValve first;  // as it is given
   SurfaceMatcher matcher;
   FitParameters groups;
-  FitSearch from;
   FitTrial as_it_is;
   std::vector<FoundLengths> found;
   size_t best = 0;
@@ -222,10 +227,27 @@ struct FitSearches::Work {
         jacobian(j ? std::move(j) : jacobian_by_linearisation()),
         first(close_open(solver, checked_model(given, valve), s.pressure)),
         matcher(given, *first.model, first.state.x),
-        groups{chord_groups(*first.model, s.grouping), {}, s.prior},
-        from(valve, matcher, settings, solver, jacobian) {
+        groups{chord_groups(*first.model, s.grouping), {}, s.prior} {
     groups.mean.assign(groups.groups.size(), 1);
+    const FitSearch from(valve, matcher, settings, solver, jacobian, {});
     as_it_is = from.judged(groups, groups.mean, first);
+  }
+
+  // The search number `start`, from 0.
+  FoundLengths search(uint32_t start, const TellShare &tell) const {
+    uint32_t closures = 0;
+    const auto before_closure = [&] { tell(share_after(closures++)); };
+    Solver own(Backend::fastest);
+    const FitSearch from(valve, matcher, settings, own, jacobian, before_closure);
+    FitTrial begin = start == 0 && settings.known.empty()
+                         ? as_it_is
+                         : from.from_open(groups, start_factors(groups, settings, start));
+    return search_from(from, groups, settings, std::move(begin));
+  }
+
+  void add(FoundLengths lengths) {
+    found.push_back(std::move(lengths));
+    if (loss(found.back()) < loss(found[best])) best = found.size() - 1;
   }
 };
 
@@ -235,13 +257,13 @@ FitSearches::FitSearches(Valve valve, const ClosedSurface &given, const FitSetti
 
 FitSearches::~FitSearches() = default;
 
-void FitSearches::search(uint32_t start) {
-  Work &w = *work_;
-  FitTrial begin = start == 0 && w.settings.known.empty()
-                       ? w.as_it_is
-                       : w.from.from_open(w.groups, start_factors(w.groups, w.settings, start));
-  w.found.push_back(search_from(w.from, w.groups, w.settings, std::move(begin)));
-  if (loss(w.found.back()) < loss(w.found[w.best])) w.best = w.found.size() - 1;
+void FitSearches::search(uint32_t count, const TellShare &tell) {
+  const uint32_t first = static_cast<uint32_t>(work_->found.size());
+  std::vector<FoundLengths> found(count);
+  run_tasks(work_->settings.workers, count, tell, [&](uint32_t k, const TellShare &tell_search) {
+    found[k] = work_->search(first + k, tell_search);
+  });
+  for (FoundLengths &lengths : found) work_->add(std::move(lengths));
 }
 
 const ClosedValve &FitSearches::closed() const {
@@ -260,12 +282,9 @@ ChordFit FitSearches::fit() const {
 }
 
 ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettings &s,
-                       Findings &findings, ClosedJacobian jacobian, const FitProgress &progress) {
+                       Findings &findings, ClosedJacobian jacobian, const TellShare &tell) {
   FitSearches searches(valve, given, s, std::move(jacobian));
-  for (uint32_t k = 0; k < std::max(1u, s.starts); ++k) {
-    if (progress) progress(k);
-    searches.search(k);
-  }
+  searches.search(std::max(1u, s.starts), tell);
   ChordFit done = searches.fit();
   for (size_t c = 0; c < valve.chords.size(); ++c)
     valve.chords[c].rest_length *= done.chord_factor[c];

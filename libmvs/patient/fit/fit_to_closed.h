@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "base/tasks.h"
 #include "patient/chordae/chord_groups.h"
 #include "patient/fit/closure.h"
 #include "patient/fit/surface_match.h"
@@ -36,6 +37,7 @@ struct FitSettings {
   uint32_t rounds = 6;              // at most, of each search
   uint32_t starts = 3;              // searches, the first from `known`
   GroupFactors known;               // of a fit on another mesh; other groups begin at 1
+  Workers *workers = nullptr;       // that make searches at the same time
 };
 
 // A factor is not determined by the surface if its deviation is at least this share of the prior's.
@@ -77,18 +79,15 @@ inline double loss_of(double rms, bool at_rest) {
   return rms + (at_rest ? 0 : not_at_rest);
 }
 
-// Called before each search with its number, from 0; may throw to end the fit.
-using FitProgress = std::function<void(uint32_t start)>;
-
-// The searches of a fit, one by one, so that a caller can give up a fit that falls behind another.
+// The searches of a fit, so that a caller can give up a fit that falls behind another.
 class FitSearches {
  public:
   // Throws if the surface is empty or lies elsewhere. Keeps a reference to `given`.
   FitSearches(Valve valve, const ClosedSurface &given, const FitSettings &settings,
               ClosedJacobian jacobian = {});
   ~FitSearches();
-  // Search number `start`, from 0, in order.
-  void search(uint32_t start);
+  // The next searches. `tell` is called before each closure.
+  void search(uint32_t count, const TellShare &tell);
   // Of the best search so far: its valve, closed from open.
   const ClosedValve &closed() const;
   // The best search so far, and how far those as good as it lie from it.
@@ -99,9 +98,10 @@ class FitSearches {
   std::unique_ptr<Work> work_;
 };
 
-// All searches. Changes the rest lengths of `valve`. Throws as FitSearches does.
+// All searches. Changes the rest lengths of `valve`. Throws as FitSearches does. `tell` is called
+// before each closure.
 ChordFit fit_to_closed(Valve &valve, const ClosedSurface &given, const FitSettings &settings,
                        Findings &findings, ClosedJacobian jacobian = {},
-                       const FitProgress &progress = {});
+                       const TellShare &tell = {});
 
 }  // namespace mvs::core

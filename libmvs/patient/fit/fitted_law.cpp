@@ -91,35 +91,35 @@ std::string words_of(const LawFit &fit) {
 }  // namespace
 
 std::vector<LawFit> fit_laws(std::vector<Valve> valves, const PatientGeometry &g,
-                             const ClosedSurface &given, bool edge_is_exact,
-                             const std::function<void(double)> &tell) {
+                             const ClosedSurface &given, bool edge_is_exact, const TellShare &tell,
+                             Workers *workers) {
   const FitSettings settings;
-  const size_t n = valves.size(), steps = n * (1 + settings.starts);
-  const auto tell_step = [&](size_t step) {
-    tell(static_cast<double>(step) / static_cast<double>(steps));
+  const uint32_t n = static_cast<uint32_t>(valves.size());
+  const auto tell_round = [&](uint32_t round) {
+    return [&, round](double share) { tell((round + share) / (1 + settings.starts)); };
   };
   std::vector<Candidate> all(n);
-  for (size_t k = 0; k < n; ++k) {
-    tell_step(k);
+  run_tasks(workers, n, tell_round(0), [&](uint32_t k, const TellShare &tell_law) {
     all[k].fit.law = valves[k].leaflets[0].law;
     all[k].valid = without_divergence([&] {
       PatientGeometry own = g;
       Findings unused;
-      if (!edge_is_exact) all[k].fit.edge = extend_free_edge(valves[k], own, given, {}, unused, {});
+      tell_law(0);
+      if (!edge_is_exact)
+        all[k].fit.edge = extend_free_edge(valves[k], own, given, {}, unused, tell_law);
       all[k].searches = std::make_unique<FitSearches>(std::move(valves[k]), given, settings);
       return true;
     });
-  }
+  });
   for (uint32_t start = 0; start < settings.starts; ++start) {
-    for (size_t k = 0; k < n; ++k) {
+    run_tasks(workers, n, tell_round(1 + start), [&](uint32_t k, const TellShare &tell_law) {
       Candidate &c = all[k];
-      if (!c.valid || c.fit.given_up) continue;
-      tell_step(n * (1 + start) + k);
+      if (!c.valid || c.fit.given_up) return;
       c.valid = without_divergence([&] {
-        c.searches->search(start);
+        c.searches->search(1, tell_law);
         return judge(given, start + 1, c);
       });
-    }
+    });
     if (start + 1 < settings.starts) give_up_far_behind(all);
   }
   std::vector<LawFit> fits;

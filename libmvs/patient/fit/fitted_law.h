@@ -38,14 +38,14 @@ struct LawFit {
 
 // Fits each of `valves`, on the sheet of `g`, each with a law of its own. A valve is left out if it
 // diverges or crosses itself. Their searches take turns, and a law that falls far behind another is
-// given up.
+// given up. Laws share the workers.
 //
 // The distance is that of the given surface from the valve, not the other way round: where the
 // surface lacks tissue, as along the free edge, a valve without error is far from it whatever its
-// tissue. `tell` receives the share done before each search and may throw to end the fits.
+// tissue. `tell` is called before each closure.
 std::vector<LawFit> fit_laws(std::vector<Valve> valves, const PatientGeometry &g,
-                             const ClosedSurface &given, bool edge_is_exact,
-                             const std::function<void(double)> &tell);
+                             const ClosedSurface &given, bool edge_is_exact, const TellShare &tell,
+                             Workers *workers = nullptr);
 
 // Distance and moved edge together, m.
 double misfit_of(const LawFit &fit);

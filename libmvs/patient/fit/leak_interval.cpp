@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/tasks.h"
 #include "measure/orifice/orifice.h"
 #include "patient/chordae/chord_groups.h"
 #include "patient/fit/closure.h"
@@ -18,7 +19,7 @@ namespace mvs::core {
 namespace {
 
 constexpr double least_thickness = 0.3;  // share of the thickness that thinner tissue keeps
-constexpr uint32_t most_draws = 6;
+constexpr uint32_t draws = 6;
 // The bound of one closure. Closures of sound valves come to rest after 30 to 180 iterations; ten
 // closures of a valve that creeps would take minutes.
 constexpr uint32_t most_iterations = 400;
@@ -40,12 +41,16 @@ struct ClosureChange {
 };
 
 Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRange &range,
-                  const Progress &progress) {
+                  const TellShare &tell) {
   const auto &[factor, by, thickness] = change;
   const bool moves = range.geometry && by != 0;
   Valve changed = moves ? with_edge_moved(valve, *range.geometry, by) : valve;
   if (thickness != 1) changed = with_thickness(changed, thickness);
   for (size_t c = 0; c < factor.size(); ++c) changed.chords[c].rest_length *= factor[c];
+  const auto progress = [&](double share, double) {
+    tell(share);
+    return true;
+  };
   Solver solver(Backend::fastest);
   try {
     const ClosedValve closed = close_open(solver, make_model(std::move(changed)), systolic_pressure,
@@ -59,42 +64,56 @@ Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRan
   }
 }
 
-// Closures of one valve with changes, and the leaks found so far.
-class Closures {
- public:
-  // `known`: leaks of closures at rest. `tell` gets the number of closures that are done.
-  Closures(const Model &model, const EdgeRange &edge, const std::vector<double> &known,
-           std::function<void(double)> tell)
-      : model_(model), edge_(edge), tell_(std::move(tell)), leaks_(known), leaks_at_rest_(known) {}
+// Leaks of closures, m2.
+struct FoundLeaks {
+  std::vector<double> all, at_rest;
+  uint32_t rests = 0;  // closures that came to rest
 
-  Closed close(const ClosureChange &change) {
-    const auto share_done = [&](double share, double) {
-      tell_(count_ + share);
-      return true;
-    };
-    share_done(0, 0);
-    Closed closed = close_with(model_.valve, change, edge_, share_done);
-    ++count_;
-    leaks_.push_back(closed.leak);
-    if (closed.at_rest) {
-      ++rests_;
-      leaks_at_rest_.push_back(closed.leak);
+  void add(const std::vector<Closed> &closed) {
+    for (const Closed &c : closed) {
+      all.push_back(c.leak);
+      if (!c.at_rest) continue;
+      ++rests;
+      at_rest.push_back(c.leak);
     }
-    return closed;
   }
-
-  uint32_t count() const { return count_; }
-  uint32_t rests() const { return rests_; }  // closures that came to rest
-  const std::vector<double> &leaks() const { return leaks_; }
-  const std::vector<double> &leaks_at_rest() const { return leaks_at_rest_; }
-
- private:
-  const Model &model_;
-  const EdgeRange &edge_;
-  std::function<void(double)> tell_;
-  uint32_t count_ = 0, rests_ = 0;
-  std::vector<double> leaks_, leaks_at_rest_;  // m2
 };
+
+// Closes a valve with each of the changes, on all workers.
+std::vector<Closed> close_all(const Valve &valve, const std::vector<ClosureChange> &changes,
+                              const EdgeRange &range, Workers *workers, const TellShare &tell) {
+  std::vector<Closed> closed(changes.size());
+  run_tasks(workers, static_cast<uint32_t>(changes.size()), tell,
+            [&](uint32_t k, const TellShare &tell_task) {
+              closed[k] = close_with(valve, changes[k], range, tell_task);
+            });
+  return closed;
+}
+
+double thickness_factor(const Model &model, const LeakUnknowns &unknowns, double share) {
+  const double spread = unknowns.thickness_error / mean_thickness(model.valve);
+  return std::max(least_thickness, 1 + share * spread);
+}
+
+// The ends of each range alone: all lengths shorter, as they are, and longer; the edge farther out
+// and in, and the tissue thicker and thinner, where they are not exact.
+std::vector<ClosureChange> single_changes(const Model &model, const LeakUnknowns &unknowns,
+                                          const std::array<double, 3> &factors) {
+  std::vector<ClosureChange> changes;
+  changes.reserve(7);
+  for (const double factor : factors) {
+    changes.push_back({std::vector<double>(model.valve.chords.size(), factor)});
+  }
+  if (unknowns.edge.geometry) {
+    changes.push_back({{}, unknowns.edge.out});
+    changes.push_back({{}, -unknowns.edge.in});
+  }
+  if (unknowns.thickness_error > 0) {
+    changes.push_back({{}, 0, thickness_factor(model, unknowns, 1)});
+    changes.push_back({{}, 0, thickness_factor(model, unknowns, -1)});
+  }
+  return changes;
+}
 
 std::vector<double> drawn_factors(const std::vector<ChordGroup> &groups, const LengthRange &range,
                                   size_t chords, NormalNumbers &random) {
@@ -105,6 +124,22 @@ std::vector<double> drawn_factors(const std::vector<ChordGroup> &groups, const L
     for (const uint32_t c : groups[g].chords) factor[c] = shared * (1 + deviate(range.single));
   }
   return factor;
+}
+
+// Random changes of everything from the same ranges.
+std::vector<ClosureChange> random_changes(const Model &model, const LeakUnknowns &unknowns) {
+  const EdgeRange &edge = unknowns.edge;
+  NormalNumbers random(seed);
+  const std::vector<ChordGroup> groups = chord_groups(model, ChordGrouping::halves);
+  std::vector<ClosureChange> changes(draws);
+  for (ClosureChange &change : changes) {
+    change.factor = drawn_factors(groups, unknowns.lengths, model.valve.chords.size(), random);
+    if (edge.geometry) change.edge = random.uniform() * (edge.out + edge.in) - edge.in;
+    if (unknowns.thickness_error > 0) {
+      change.thickness = thickness_factor(model, unknowns, 2 * random.uniform() - 1);
+    }
+  }
+  return changes;
 }
 
 // From the leaks of closures at rest to a little beyond them, for the few that were tried.
@@ -152,59 +187,63 @@ void reach_to(const ShownGaps &shown, LeakInterval &interval) {
   interval.most = std::max(interval.most, shown.most);
 }
 
+namespace {
+
+// Widens the interval of a fitted valve, closed at `x`, by the errors and gaps of its surface.
+void reach_to_shape(const Model &model, const std::vector<Vec3> &x, const FittedShape &shape,
+                    LeakInterval &interval, Findings &findings) {
+  interval.shape = leaks_of_shape(model, x, interval.leak[1], shape);
+  add_shape_error(interval);
+  const ShownGaps shown = shown_gaps(*shape.given, model, x, *shape.geometry);
+  report_shown_gaps(shown, interval.leak[1], findings);
+  reach_to(shown, interval);
+}
+
+}  // namespace
+
 LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
                            const std::vector<double> &known, Findings &findings,
-                           const std::function<void(double)> &tell) {
-  const LengthRange &range = unknowns.lengths;
+                           const TellShare &tell, Workers *workers) {
+  const Valve &valve = model->valve;
   const EdgeRange &edge = unknowns.edge;
-  const double thickness_error = unknowns.thickness_error;
-  const size_t chords = model->valve.chords.size();
-  const uint32_t most = 3 + (edge.geometry ? 2 : 0) + (thickness_error > 0 ? 2 : 0) + most_draws;
   LeakInterval interval;
-  interval.factor = {1 - range.all, 1, 1 + range.all};
-  Closures closures(*model, edge, known, [&](double done) {
-    if (tell) tell(done / most);
-  });
-  std::vector<Vec3> as_it_is;
+  interval.factor = {1 - unknowns.lengths.all, 1, 1 + unknowns.lengths.all};
+  const std::vector<ClosureChange> singles = single_changes(*model, unknowns, interval.factor);
+  const double most = static_cast<double>(singles.size() + draws);
+  const auto tell_from = [&](double begin, size_t count) {
+    return [&tell, begin, share = static_cast<double>(count) / most](double done) {
+      if (tell) tell(begin + share * done);
+    };
+  };
+  std::vector<Closed> closed =
+      close_all(valve, singles, edge, workers, tell_from(0, singles.size()));
   for (size_t k = 0; k < 3; ++k) {
-    Closed closed = closures.close({std::vector<double>(chords, interval.factor[k])});
-    interval.leak[k] = closed.leak;
-    interval.at_rest[k] = closed.at_rest;
-    interval.iterations[k] = closed.iterations;
-    if (k == 1) as_it_is = std::move(closed.x);
+    interval.leak[k] = closed[k].leak;
+    interval.at_rest[k] = closed[k].at_rest;
+    interval.iterations[k] = closed[k].iterations;
   }
-  for (size_t k = 0; edge.geometry && k < 2; ++k) {
-    interval.edge_leak[k] = closures.close({{}, k == 0 ? edge.out : -edge.in}).leak;
+  for (size_t k = 0; edge.geometry && k < 2; ++k) interval.edge_leak[k] = closed[3 + k].leak;
+  for (size_t k = 0; unknowns.thickness_error > 0 && k < 2; ++k) {
+    interval.tissue_leak[k] = closed[singles.size() - 2 + k].leak;
   }
-  const double spread = thickness_error / mean_thickness(model->valve);
-  const auto thickness = [&](double by) { return std::max(least_thickness, 1 + by * spread); };
-  for (size_t k = 0; thickness_error > 0 && k < 2; ++k) {
-    interval.tissue_leak[k] = closures.close({{}, 0, thickness(k == 0 ? 1 : -1)}).leak;
+  const std::vector<Vec3> as_it_is = std::move(closed[1].x);
+  FoundLeaks leaks{known, known};
+  leaks.add(closed);
+  const bool is_sealed = leaks.rests > 0 && all_seal(leaks.all);
+  if (leaks.rests > 0 && !is_sealed) {
+    interval.draws = draws;
+    leaks.add(close_all(valve, random_changes(*model, unknowns), edge, workers,
+                        tell_from(static_cast<double>(singles.size()) / most, draws)));
   }
-  const bool is_sealed = closures.rests() > 0 && all_seal(closures.leaks());
-  const bool is_worth_draws = closures.rests() > 0 && !is_sealed;
-  NormalNumbers random(seed);
-  const std::vector<ChordGroup> groups = chord_groups(*model, ChordGrouping::halves);
-  for (; is_worth_draws && interval.draws < most_draws; ++interval.draws) {
-    ClosureChange change{drawn_factors(groups, range, chords, random)};
-    if (edge.geometry) change.edge = random.uniform() * (edge.out + edge.in) - edge.in;
-    if (thickness_error > 0) change.thickness = thickness(2 * random.uniform() - 1);
-    closures.close(change);
-  }
-  interval.closures = closures.count();
-  interval.rests = closures.rests();
+  interval.closures = static_cast<uint32_t>(leaks.all.size() - known.size());
+  interval.rests = leaks.rests;
   if (interval.rests > 0) {
-    set_range(interval, closures.leaks_at_rest(), is_sealed);
+    set_range(interval, leaks.at_rest, is_sealed);
     if (unknowns.shape.given && !as_it_is.empty()) {
-      interval.shape = leaks_of_shape(*model, as_it_is, interval.leak[1], unknowns.shape);
-      add_shape_error(interval);
-      const ShownGaps shown =
-          shown_gaps(*unknowns.shape.given, *model, as_it_is, *unknowns.shape.geometry);
-      report_shown_gaps(shown, interval.leak[1], findings);
-      reach_to(shown, interval);
+      reach_to_shape(*model, as_it_is, unknowns.shape, interval, findings);
     }
   }
-  report_leaks(interval, edge, thickness_error, findings);
+  report_leaks(interval, edge, unknowns.thickness_error, findings);
   return interval;
 }
 

@@ -23,6 +23,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/tasks.h"
 #include "model/model.h"
 #include "patient/fit/edge_range.h"
 #include "patient/fit/fit_to_closed.h"
@@ -73,10 +74,9 @@ void add_shape_error(LeakInterval &interval);
 void reach_to(const ShownGaps &shown, LeakInterval &interval);
 
 // `known`: leaks of other closures of the same valve that came to rest, m2, which the interval
-// contains. `tell` is
-// called before and during closures with the share that is done; it may throw.
+// contains. `tell` is called before and during closures; closures share the workers.
 LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
                            const std::vector<double> &known, Findings &findings,
-                           const std::function<void(double)> &tell = {});
+                           const TellShare &tell = {}, Workers *workers = nullptr);
 
 }  // namespace mvs::core

@@ -1695,8 +1695,9 @@ export class Functions extends Calls {
    * Replaces the valve of a simulator by one that is built from a surface, open and without load,
    * and begins a history, like mvs_generate_valve. `options` is nullable. `build` is nullable, else
    * release it with mvs_build_release. Faults of the surface that no rule mends give MVS_E_OP and a
-   * sentence; the simulator is unchanged then. MVS_E_CANCELLED if the progress callback of the
-   * simulator cancelled.
+   * sentence; the simulator is unchanged then. Closures of variants, of a fit and for the leak, run
+   * at the same time on the workers of the simulator (mvs_sim_desc), with the same bits.
+   * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
    */
   mvs_build_valve(sim: SimHandle, surface: SurfaceDesc, options?: BuildOptions | null): BuildHandle {
     return this.invoke(signatures.mvs_build_valve!, [sim, surface, options]) as never;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Optional
 
@@ -99,7 +100,7 @@ def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[She
         check_closed(loaded, sheet)
         arguments["closed_points"] = np.ascontiguousarray(loaded.points)
         arguments["closed_triangles"] = np.ascontiguousarray(loaded.triangles, dtype=np.uint32)
-    with mvs.Simulator() as sim:
+    with mvs.Simulator(workers=usable_cores()) as sim:
         found = sim.build_valve(np.ascontiguousarray(sheet.points),
                                 np.ascontiguousarray(sheet.triangles, dtype=np.uint32),
                                 kind="mid", name=name, progress=progress, **arguments)
@@ -111,6 +112,12 @@ def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[She
     if loaded is not None:
         every.append(distance_from_image(closed, loaded))
     return ImageValve(opened, closed, stats.converged, leaflets, loaded, tuple(every), dict(given))
+
+
+def usable_cores() -> int:
+    """Cores on which closures of a build run at the same time, at most 8."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return min(cores, 8)
 
 
 LEAST_MOTION = 1e-3

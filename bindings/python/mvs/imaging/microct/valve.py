@@ -17,7 +17,7 @@ from ..labels import Leaflets, report_thickness
 from ..mesh import Sheet
 from ..open_valve import check_open_valve
 from ..pipeline import Pipeline, Run
-from ..valve import ImageValve, build, distance_from_image, scanned
+from ..valve import ImageValve, build, distance_from_image, scanned, usable_cores
 from .chords import ChordNetwork
 from .fitted import with_fitted_lengths
 from .lengths import with_loaded_lengths
@@ -138,7 +138,7 @@ def _with_unseen_and_fitted(valve: mvs.Valve, normal: mvs.Snapshot, closure: Clo
 
 def _leaks(opened: mvs.Snapshot, console: Console) -> tuple[mvs.Finding, ...]:
     """Findings `leak`, `leak_interval` and `leak_limits` over the errors of the lengths."""
-    with mvs.Simulator() as sim:
+    with mvs.Simulator(workers=usable_cores()) as sim:
         sim.restore(opened)
         return sim.find_leak_interval(lengths=LENGTH_ERROR, single=SINGLE_ERROR,
                                       progress=lambda done, _: console.share(done))
