@@ -103,9 +103,9 @@ enum mvs_finding_source_e {
 };
 typedef uint32_t mvs_finding_source;
 
-/* A finding: a value that a build found, guessed or assumed. Texts are valid while the build is
- * held. */
-typedef struct mvs_build_finding {
+/* A finding: a value that a build found, guessed or assumed. Texts and values are
+ * valid while the findings are held. */
+typedef struct mvs_finding {
   uint32_t struct_size;
   mvs_finding_source source; /* MVS_FINDING_SOURCE_* */
   const char *name;          /* "annulus", "commissures", "thickness" */
@@ -117,35 +117,35 @@ typedef struct mvs_build_finding {
                                 is probably wrong (landmarks of another frame, swapped leaflets,
                                 atrial wall): show it to whoever builds */
   uint32_t reserved;
-} mvs_build_finding;
+} mvs_finding;
 
-typedef struct mvs_build mvs_build;
+/* Findings in the order in which they were made. */
+typedef struct mvs_findings mvs_findings;
 
 /* Replaces the valve of a simulator by one that is built from a surface, open and without load, and
- * begins a history, like mvs_generate_valve. `options` is nullable. `build` is nullable, else
- * release it with mvs_build_release. Faults of the surface that no rule mends give MVS_E_OP and a
- * sentence; the simulator is unchanged then. Closures of variants, of a fit and for the leak, run
- * at the same time on the workers of the simulator (mvs_sim_desc), with the same bits.
+ * begins a history, like mvs_generate_valve. `options` is nullable. `findings` is nullable, else
+ * release it with mvs_findings_release. Faults of the surface that no rule mends give MVS_E_OP
+ * and a sentence; the simulator is unchanged then. Closures of variants, of a fit and for the leak,
+ * run at the same time on the workers of the simulator (mvs_sim_desc), with the same bits.
  * MVS_E_CANCELLED if the progress callback of the simulator cancelled. */
 MVS_API mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
-                                   const mvs_build_options *options, mvs_build **build);
+                                   const mvs_build_options *options, mvs_findings **findings);
 
 /* Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other lengths
  * and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an error
- * of the thickness, if all of these are sealed. `errors` is nullable. `found` gets findings as
- * those of a build: "leak", "leak_interval", without values if no closure came to rest, and
- * "leak_limits", m2; release it with mvs_build_release. The simulator is unchanged. MVS_E_CANCELLED
- * if the progress callback of the simulator cancelled. */
+ * of the thickness, if all of these are sealed. `errors` is nullable. `findings` gets "leak",
+ * "leak_interval", without values if no closure came to rest, and "leak_limits", m2, as those of a
+ * build; release it with mvs_findings_release. The simulator is unchanged. MVS_E_CANCELLED if the
+ * progress callback of the simulator cancelled. */
 MVS_API mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors,
-                                          mvs_build **found);
+                                          mvs_findings **findings);
 
-/* The findings of a build, in the order in which they were made. */
-MVS_API mvs_result mvs_build_get_finding_count(const mvs_build *build, uint32_t *count);
-MVS_API mvs_result mvs_build_get_finding(const mvs_build *build, uint32_t index,
-                                         mvs_build_finding *finding);
+MVS_API mvs_result mvs_findings_get_count(const mvs_findings *findings, uint32_t *count);
+MVS_API mvs_result mvs_findings_get(const mvs_findings *findings, uint32_t index,
+                                    mvs_finding *finding);
 
-/* Releases a build. `build` is nullable. */
-MVS_API void mvs_build_release(mvs_build *build);
+/* Releases findings. `findings` is nullable. */
+MVS_API void mvs_findings_release(mvs_findings *findings);
 
 #ifdef __cplusplus
 }

@@ -12,8 +12,8 @@
 
 namespace mvs {
 
-// A value that a build found, guessed or assumed: mvs_build_finding, owned.
-struct BuildFinding {
+// A value that a build found, guessed or assumed: mvs_finding, owned.
+struct Finding {
   std::string name, sentence, unit;
   mvs_finding_source source = 0;
   double confidence = 0;
@@ -21,10 +21,10 @@ struct BuildFinding {
   bool doubtful = false;
 };
 
-inline BuildFinding build_finding(const mvs_build *build, std::uint32_t index) {
-  const auto found = filled<mvs_build_finding>(mvs_build_get_finding, build, index);
-  BuildFinding finding{found.name, found.sentence,     found.unit, found.source, found.confidence,
-                       {},         found.doubtful != 0};
+inline Finding finding_of(const mvs_findings *findings, std::uint32_t index) {
+  const auto found = filled<mvs_finding>(mvs_findings_get, findings, index);
+  Finding finding{found.name, found.sentence,     found.unit, found.source, found.confidence,
+                  {},         found.doubtful != 0};
   finding.values.resize(found.values.count);
   if (!finding.values.empty()) {
     std::memcpy(finding.values.data(), found.values.data, sizeof(double) * found.values.count);
@@ -32,35 +32,35 @@ inline BuildFinding build_finding(const mvs_build *build, std::uint32_t index) {
   return finding;
 }
 
-// The findings of a build, which is released.
-inline std::vector<BuildFinding> take_findings(mvs_build *build) {
+// Copies findings, and releases them.
+inline std::vector<Finding> take_findings(mvs_findings *findings) {
   struct Release {
-    mvs_build *build;
-    ~Release() { mvs_build_release(build); }
-  } const release{build};
+    mvs_findings *findings;
+    ~Release() { mvs_findings_release(findings); }
+  } const release{findings};
   std::uint32_t count = 0;
-  must(mvs_build_get_finding_count(build, &count));
-  std::vector<BuildFinding> findings;
-  for (std::uint32_t k = 0; k < count; ++k) findings.push_back(build_finding(build, k));
-  return findings;
+  must(mvs_findings_get_count(findings, &count));
+  std::vector<Finding> taken;
+  for (std::uint32_t k = 0; k < count; ++k) taken.push_back(finding_of(findings, k));
+  return taken;
 }
 
 // Replaces the valve of `sim`; returns the findings.
-inline std::vector<BuildFinding> build_valve(Simulator &sim, mvs_surface_desc surface,
-                                             mvs_build_options options = {}) {
+inline std::vector<Finding> build_valve(Simulator &sim, mvs_surface_desc surface,
+                                        mvs_build_options options = {}) {
   surface.struct_size = sizeof surface;
   options.struct_size = sizeof options;
-  mvs_build *build = nullptr;
-  must(mvs_build_valve(sim.get(), &surface, &options, &build));
-  return take_findings(build);
+  mvs_findings *findings = nullptr;
+  must(mvs_build_valve(sim.get(), &surface, &options, &findings));
+  return take_findings(findings);
 }
 
 // Closes the valve of `sim` with other lengths and thicknesses; returns its leak and the interval.
-inline std::vector<BuildFinding> find_leak_interval(Simulator &sim, mvs_leak_errors errors = {}) {
+inline std::vector<Finding> find_leak_interval(Simulator &sim, mvs_leak_errors errors = {}) {
   errors.struct_size = sizeof errors;
-  mvs_build *found = nullptr;
-  must(mvs_find_leak_interval(sim.get(), &errors, &found));
-  return take_findings(found);
+  mvs_findings *findings = nullptr;
+  must(mvs_find_leak_interval(sim.get(), &errors, &findings));
+  return take_findings(findings);
 }
 
 }  // namespace mvs

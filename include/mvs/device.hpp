@@ -23,7 +23,7 @@ struct FoundDevice {
 };
 
 // One check of a driver's doctor; `verdict` is 1 passed, 0 a fault, -1 a warning, 2 a note.
-struct Finding {
+struct DriverFinding {
   std::int32_t verdict;
   std::string check, sentence;
 };
@@ -55,13 +55,13 @@ inline std::vector<FoundDevice> devices_of(const std::string &driver,
 }
 
 // Returns all checks of a driver's doctor; "": of every installed driver.
-inline std::vector<Finding> findings_of(const std::string &driver = "",
-                                        const std::string &options = "") {
-  std::vector<Finding> found;
+inline std::vector<DriverFinding> findings_of(const std::string &driver = "",
+                                              const std::string &options = "") {
+  std::vector<DriverFinding> found;
   must(mvs_device_doctor(
       driver.empty() ? nullptr : driver.c_str(), options.empty() ? nullptr : options.c_str(),
       [](void *to, std::int32_t verdict, const char *check, const char *sentence) {
-        static_cast<std::vector<Finding> *>(to)->push_back({verdict, check, sentence});
+        static_cast<std::vector<DriverFinding> *>(to)->push_back({verdict, check, sentence});
       },
       &found));
   return found;

@@ -11,8 +11,8 @@
 
 using namespace mvs::core;
 
-struct mvs_build {
-  Findings findings;
+struct mvs_findings {
+  Findings list;
 };
 
 namespace {
@@ -132,47 +132,47 @@ LeakUnknowns read_errors(const mvs_leak_errors *given) {
 extern "C" {
 
 mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
-                           const mvs_build_options *options, mvs_build **build) {
+                           const mvs_build_options *options, mvs_findings **findings) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
     BuildSettings settings = read_options(options);
     settings.workers = s.workers.get();
     BuiltValve built = build_valve(read_surface(surface), settings, s.progress());
-    auto found = std::make_unique<mvs_build>(mvs_build{std::move(built.findings)});
+    auto made = std::make_unique<mvs_findings>(mvs_findings{std::move(built.findings)});
     State state = initial_state(*built.model);
     replace_valve(s, {{std::move(built.model), std::move(state)}, {}});
-    if (build) *build = found.release();
+    if (findings) *findings = made.release();
   });
 }
 
-mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors, mvs_build **found) {
+mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors,
+                                  mvs_findings **findings) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
-    must_point(found, "found");
+    must_point(findings, "findings");
     const LeakUnknowns unknowns = read_errors(errors);
-    auto build = std::make_unique<mvs_build>();
-    report_thickness_error(unknowns.thickness_error, build->findings);
+    auto made = std::make_unique<mvs_findings>();
+    report_thickness_error(unknowns.thickness_error, made->list);
     leak_interval(
-        s.current().model, unknowns, {}, build->findings,
+        s.current().model, unknowns, {}, made->list,
         [&, progress = s.progress()](double share) { tell_progress(progress, share); },
         s.workers.get());
-    *found = build.release();
+    *findings = made.release();
   });
 }
 
-mvs_result mvs_build_get_finding_count(const mvs_build *build, uint32_t *count) {
+mvs_result mvs_findings_get_count(const mvs_findings *findings, uint32_t *count) {
   return at_boundary([&] {
-    must_point(build, "build");
+    must_point(findings, "findings");
     must_point(count, "count");
-    *count = static_cast<uint32_t>(build->findings.size());
+    *count = static_cast<uint32_t>(findings->list.size());
   });
 }
 
-mvs_result mvs_build_get_finding(const mvs_build *build, uint32_t index,
-                                 mvs_build_finding *finding) {
+mvs_result mvs_findings_get(const mvs_findings *findings, uint32_t index, mvs_finding *finding) {
   return at_boundary([&] {
-    must_point(build, "build");
-    must_be_index(index, build->findings.size(), "build", "findings");
-    const Finding &found = build->findings[index];
-    mvs_build_finding out = {};
+    must_point(findings, "findings");
+    must_be_index(index, findings->list.size(), "findings", "findings");
+    const Finding &found = findings->list[index];
+    mvs_finding out = {};
     out.source = static_cast<mvs_finding_source>(found.source);
     out.name = found.name.c_str();
     out.sentence = found.sentence.c_str();
@@ -184,8 +184,8 @@ mvs_result mvs_build_get_finding(const mvs_build *build, uint32_t index,
   });
 }
 
-void mvs_build_release(mvs_build *build) {
-  delete build;
+void mvs_findings_release(mvs_findings *findings) {
+  delete findings;
 }
 
 }  // extern "C"

@@ -7,19 +7,19 @@
 
 static void a_surface_becomes_a_valve_that_closes(surface *s) {
   mvs_sim *sim = NULL, *again = NULL;
-  mvs_build *build = NULL;
-  mvs_build_finding finding = {.struct_size = sizeof finding};
+  mvs_findings *findings = NULL;
+  mvs_finding finding = {.struct_size = sizeof finding};
   const mvs_surface_desc desc = desc_of(s);
   /* 350 vertices: closures take a tenth of the time of the default */
   const mvs_build_options coarse = {.struct_size = sizeof coarse, .edge = 2.4e-3};
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   mvs_stats stats = {.struct_size = sizeof stats};
   MUST(mvs_create(NULL, &sim));
-  MUST(mvs_build_valve(sim, &desc, &coarse, &build));
+  MUST(mvs_build_valve(sim, &desc, &coarse, &findings));
   const char *const wanted[] = {"annulus",        "commissures", "anterior", "thickness",
                                 "papillary_tips", "chordae",     "leak"};
   for (size_t k = 0; k < sizeof wanted / sizeof *wanted; ++k) {
-    const uint32_t at = find(build, wanted[k], &finding);
+    const uint32_t at = find(findings, wanted[k], &finding);
     if (at == UINT32_MAX) printf("no finding \"%s\"\n", wanted[k]);
     CHECK(at != UINT32_MAX);
     if (at == UINT32_MAX) continue;
@@ -29,14 +29,14 @@ static void a_surface_becomes_a_valve_that_closes(surface *s) {
     CHECK(finding.source >= MVS_FINDING_SOURCE_GIVEN &&
           finding.source <= MVS_FINDING_SOURCE_ASSUMED);
   }
-  CHECK(find(build, "thickness", &finding) != UINT32_MAX);
+  CHECK(find(findings, "thickness", &finding) != UINT32_MAX);
   CHECK(finding.source == MVS_FINDING_SOURCE_ASSUMED);
-  CHECK(find(build, "papillary_tips", &finding) != UINT32_MAX);
+  CHECK(find(findings, "papillary_tips", &finding) != UINT32_MAX);
   CHECK(finding.source == MVS_FINDING_SOURCE_GIVEN);
   MUST(mvs_set_load(sim, &systole));
   MUST(mvs_settle(sim, NULL, &stats));
   CHECK(stats.converged == 1);
-  mvs_build_release(build);
+  mvs_findings_release(findings);
   /* the same input gives the same bits; no findings are asked for here */
   MUST(mvs_create(NULL, &again));
   MUST(mvs_build_valve(again, &desc, &coarse, NULL));
@@ -49,33 +49,33 @@ static void a_surface_becomes_a_valve_that_closes(surface *s) {
 
 static void an_edge_and_a_thickness_that_are_not_sure_change_findings_only(surface *s) {
   mvs_sim *exact = NULL, *unsure = NULL;
-  mvs_build *build = NULL;
-  mvs_build_finding finding = {.struct_size = sizeof finding};
+  mvs_findings *findings = NULL;
+  mvs_finding finding = {.struct_size = sizeof finding};
   const mvs_surface_desc desc = desc_of(s);
   /* 200 vertices: the closures of the interval are short */
   mvs_build_options options = {.struct_size = sizeof options, .edge = 3.2e-3};
   MUST(mvs_create(NULL, &exact));
-  MUST(mvs_build_valve(exact, &desc, &options, &build));
-  CHECK(find(build, "edge_error", &finding) == UINT32_MAX);
-  CHECK(find(build, "edge_lost", &finding) == UINT32_MAX);
-  mvs_build_release(build);
+  MUST(mvs_build_valve(exact, &desc, &options, &findings));
+  CHECK(find(findings, "edge_error", &finding) == UINT32_MAX);
+  CHECK(find(findings, "edge_lost", &finding) == UINT32_MAX);
+  mvs_findings_release(findings);
   options.edge_error = 0.35e-3;
   options.edge_lost = 1.5e-3;
   options.thickness_error = 0.2e-3;
   MUST(mvs_create(NULL, &unsure));
-  MUST(mvs_build_valve(unsure, &desc, &options, &build));
-  CHECK(find(build, "edge_error", &finding) != UINT32_MAX);
+  MUST(mvs_build_valve(unsure, &desc, &options, &findings));
+  CHECK(find(findings, "edge_error", &finding) != UINT32_MAX);
   CHECK(((const double *)finding.values.data)[0] == 0.35e-3);
   CHECK(finding.source == MVS_FINDING_SOURCE_GIVEN);
-  CHECK(find(build, "edge_lost", &finding) != UINT32_MAX);
+  CHECK(find(findings, "edge_lost", &finding) != UINT32_MAX);
   CHECK(((const double *)finding.values.data)[0] == 1.5e-3);
-  CHECK(find(build, "thickness_error", &finding) != UINT32_MAX);
+  CHECK(find(findings, "thickness_error", &finding) != UINT32_MAX);
   CHECK(((const double *)finding.values.data)[0] == 0.2e-3);
-  CHECK(find(build, "leak_interval", &finding) != UINT32_MAX);
+  CHECK(find(findings, "leak_interval", &finding) != UINT32_MAX);
   CHECK(strstr(finding.sentence, "1.9 mm farther out") != NULL);
   CHECK(strstr(finding.sentence, "0.20 mm thicker") != NULL);
   CHECK(same_hash(sim_hash(exact), sim_hash(unsure)));
-  mvs_build_release(build);
+  mvs_findings_release(findings);
   mvs_destroy(exact);
   mvs_destroy(unsure);
 }
@@ -89,32 +89,32 @@ static int32_t cancel(void *user, double share, double residual) {
 
 static void the_leak_is_found_in_the_build_or_later_with_the_same_figures(surface *s) {
   mvs_sim *with = NULL, *without = NULL, *stopped = NULL;
-  mvs_build *build = NULL, *found = NULL;
-  mvs_build_finding finding = {.struct_size = sizeof finding};
+  mvs_findings *findings = NULL, *found = NULL;
+  mvs_finding finding = {.struct_size = sizeof finding};
   const mvs_surface_desc desc = desc_of(s);
   mvs_build_options options = {.struct_size = sizeof options, .edge = 3.2e-3};
   double leak[3], interval[2];
   MUST(mvs_create(NULL, &with));
-  MUST(mvs_build_valve(with, &desc, &options, &build));
-  CHECK(find(build, "leak", &finding) != UINT32_MAX && finding.values.count == 3);
+  MUST(mvs_build_valve(with, &desc, &options, &findings));
+  CHECK(find(findings, "leak", &finding) != UINT32_MAX && finding.values.count == 3);
   memcpy(leak, finding.values.data, sizeof leak);
-  CHECK(find(build, "leak_interval", &finding) != UINT32_MAX && finding.values.count == 2);
+  CHECK(find(findings, "leak_interval", &finding) != UINT32_MAX && finding.values.count == 2);
   memcpy(interval, finding.values.data, sizeof interval);
-  mvs_build_release(build);
+  mvs_findings_release(findings);
   options.without_leak = 1;
   MUST(mvs_create(NULL, &without));
-  MUST(mvs_build_valve(without, &desc, &options, &build));
-  CHECK(find(build, "leak", &finding) == UINT32_MAX);
-  CHECK(find(build, "leak_interval", &finding) == UINT32_MAX);
+  MUST(mvs_build_valve(without, &desc, &options, &findings));
+  CHECK(find(findings, "leak", &finding) == UINT32_MAX);
+  CHECK(find(findings, "leak_interval", &finding) == UINT32_MAX);
   CHECK(same_hash(sim_hash(with), sim_hash(without)));
-  mvs_build_release(build);
+  mvs_findings_release(findings);
   MUST(mvs_find_leak_interval(without, NULL, &found));
   CHECK(same_hash(sim_hash(with), sim_hash(without)));
   CHECK(find(found, "leak", &finding) != UINT32_MAX);
   CHECK(same_bits(leak, finding.values.data, sizeof leak));
   CHECK(find(found, "leak_interval", &finding) != UINT32_MAX);
   CHECK(same_bits(interval, finding.values.data, sizeof interval));
-  mvs_build_release(found);
+  mvs_findings_release(found);
   const mvs_leak_errors errors = {
       .struct_size = sizeof errors, .lengths = 0.02, .thickness = 0.1e-3};
   MUST(mvs_find_leak_interval(without, &errors, &found));
@@ -122,11 +122,11 @@ static void the_leak_is_found_in_the_build_or_later_with_the_same_figures(surfac
   CHECK(strstr(finding.sentence, "chordae of 98, 100 and 102 %") != NULL);
   CHECK(((const double *)finding.values.data)[1] == leak[1]);
   CHECK(find(found, "thickness_error", &finding) != UINT32_MAX);
-  mvs_build_release(found);
+  mvs_findings_release(found);
   found = NULL;
   const mvs_leak_errors wide = {.struct_size = sizeof wide, .lengths = 0.6};
   MUST_FAIL(mvs_find_leak_interval(without, &wide, &found), MVS_E_ARGUMENT, "errors.lengths");
-  MUST_FAIL(mvs_find_leak_interval(without, NULL, NULL), MVS_E_ARGUMENT, "found");
+  MUST_FAIL(mvs_find_leak_interval(without, NULL, NULL), MVS_E_ARGUMENT, "findings");
   options.without_leak = 2;
   MUST_FAIL(mvs_build_valve(without, &desc, &options, NULL), MVS_E_ARGUMENT,
             "options.without_leak");
@@ -143,7 +143,7 @@ static void the_leak_is_found_in_the_build_or_later_with_the_same_figures(surfac
 
 static void bad_input_is_refused_and_changes_nothing(surface *s) {
   mvs_sim *sim = NULL;
-  mvs_build *build = NULL;
+  mvs_findings *findings = NULL;
   mvs_surface_desc desc = desc_of(s);
   mvs_build_options options = {.struct_size = sizeof options};
   MUST(mvs_create(NULL, &sim));
@@ -152,40 +152,40 @@ static void bad_input_is_refused_and_changes_nothing(surface *s) {
   MUST_FAIL(mvs_build_valve(sim, NULL, NULL, NULL), MVS_E_ARGUMENT, "surface");
   MUST_FAIL(mvs_build_valve(NULL, &desc, NULL, NULL), MVS_E_ARGUMENT, "sim");
   desc.kind = 9;
-  MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &build), MVS_E_ARGUMENT, "MVS_SURFACE_KIND_");
+  MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &findings), MVS_E_ARGUMENT, "MVS_SURFACE_KIND_");
   desc = desc_of(s);
   desc.points.data = NULL;
-  MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &build), MVS_E_ARGUMENT, "points");
+  MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &findings), MVS_E_ARGUMENT, "points");
   desc = desc_of(s);
   desc.triangles.data = NULL;
   desc.triangles.count = 0;
   desc.triangles.components = 0;
   desc.triangles.type = 0;
   desc.points.count = 3 * (desc.points.count / 3) - 1;
-  MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &build), MVS_E_ARGUMENT, "multiple of 3");
+  MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &findings), MVS_E_ARGUMENT, "multiple of 3");
   desc = desc_of(s);
   const double few[] = {0, 0, 0, 0.01, 0, 0};
   desc.closed_annulus = (mvs_array){few, 2, 3, MVS_TYPE_F64, 0};
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "closed_annulus");
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "closed_annulus");
   desc = desc_of(s);
   desc.closed_tips = (mvs_array){few, 1, 3, MVS_TYPE_F64, 0};
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "closed_tips");
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "closed_tips");
   desc = desc_of(s);
   options.edge = 1;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.edge");
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.edge");
   options.edge = 0;
   options.edge_error = 6e-3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.edge_error");
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.edge_error");
   options.edge_error = 0;
   options.edge_lost = -1e-3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.edge_lost");
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.edge_lost");
   options.edge_lost = 0;
   options.thickness_error = 3e-3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT,
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT,
             "options.thickness_error");
   options.thickness_error = 0;
   options.chords = 3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &build), MVS_E_ARGUMENT, "options.chords");
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.chords");
   /* lengths in mm */
   static surface wide;
   wide = *s;
@@ -193,11 +193,11 @@ static void bad_input_is_refused_and_changes_nothing(surface *s) {
     for (int c = 0; c < 3; ++c) wide.points[k][c] *= 1e3;
   }
   desc = desc_of(&wide);
-  MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &build), MVS_E_OP, "mm");
-  CHECK(build == NULL);
+  MUST_FAIL(mvs_build_valve(sim, &desc, NULL, &findings), MVS_E_OP, "mm");
+  CHECK(findings == NULL);
   CHECK(same_hash(before, sim_hash(sim)));
   mvs_destroy(sim);
-  mvs_build_release(NULL);
+  mvs_findings_release(NULL);
 }
 
 int main(void) {

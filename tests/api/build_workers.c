@@ -45,14 +45,14 @@ static void take_closed(const surface *s, double (*closed)[3]) {
   mvs_destroy(sim);
 }
 
-static int same_findings(const mvs_build *a, const mvs_build *b) {
+static int same_findings(const mvs_findings *a, const mvs_findings *b) {
   uint32_t count = 0, others = 0;
-  MUST(mvs_build_get_finding_count(a, &count));
-  MUST(mvs_build_get_finding_count(b, &others));
+  MUST(mvs_findings_get_count(a, &count));
+  MUST(mvs_findings_get_count(b, &others));
   for (uint32_t k = 0; count == others && k < count; ++k) {
-    mvs_build_finding x = {.struct_size = sizeof x}, y = {.struct_size = sizeof y};
-    MUST(mvs_build_get_finding(a, k, &x));
-    MUST(mvs_build_get_finding(b, k, &y));
+    mvs_finding x = {.struct_size = sizeof x}, y = {.struct_size = sizeof y};
+    MUST(mvs_findings_get(a, k, &x));
+    MUST(mvs_findings_get(b, k, &y));
     if (strcmp(x.name, y.name) != 0 || strcmp(x.sentence, y.sentence) != 0 ||
         x.confidence != y.confidence || x.values.count != y.values.count ||
         !same_bits(x.values.data, y.values.data, sizeof(double) * x.values.count)) {
@@ -72,15 +72,15 @@ static void workers_change_no_bit_of_a_build(const mvs_surface_desc *desc) {
   progress_log of_one = {.grows = 1, .is_on_caller = 1, .caller = pthread_self()};
   progress_log of_three = of_one;
   mvs_sim *one = sim_with(1, &of_one), *three = sim_with(3, &of_three);
-  mvs_build *a = NULL, *b = NULL;
+  mvs_findings *a = NULL, *b = NULL;
   MUST(mvs_build_valve(one, desc, &options, &a));
   MUST(mvs_build_valve(three, desc, &options, &b));
   CHECK(same_hash(sim_hash(one), sim_hash(three)));
   CHECK(same_findings(a, b));
   CHECK(of_one.grows && of_one.is_on_caller && of_one.calls > 10);
   CHECK(of_three.grows && of_three.is_on_caller && of_three.calls > 10);
-  mvs_build_release(a);
-  mvs_build_release(b);
+  mvs_findings_release(a);
+  mvs_findings_release(b);
   mvs_destroy(one);
   mvs_destroy(three);
 }
@@ -94,10 +94,10 @@ static void a_build_on_workers_can_be_cancelled(const mvs_surface_desc *desc) {
     mvs_sim *sim = sim_with(3, &log);
     MUST(mvs_generate_valve(sim, NULL));
     const hash128 before = sim_hash(sim);
-    mvs_build *build = NULL;
-    MUST_FAIL(mvs_build_valve(sim, desc, &options, &build), MVS_E_CANCELLED, "progress");
+    mvs_findings *findings = NULL;
+    MUST_FAIL(mvs_build_valve(sim, desc, &options, &findings), MVS_E_CANCELLED, "progress");
     CHECK(log.calls == calls);
-    CHECK(build == NULL);
+    CHECK(findings == NULL);
     CHECK(same_hash(before, sim_hash(sim)));
     mvs_destroy(sim);
   }

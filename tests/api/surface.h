@@ -57,12 +57,12 @@ static inline mvs_surface_desc desc_of(surface *s) {
 }
 
 /* The index of a finding with this name; UINT32_MAX: none. */
-static inline uint32_t find(const mvs_build *build, const char *name, mvs_build_finding *finding) {
+static inline uint32_t find(const mvs_findings *findings, const char *name, mvs_finding *finding) {
   uint32_t count = 0;
-  MUST(mvs_build_get_finding_count(build, &count));
+  MUST(mvs_findings_get_count(findings, &count));
   for (uint32_t k = 0; k < count; ++k) {
     finding->struct_size = sizeof *finding;
-    MUST(mvs_build_get_finding(build, k, finding));
+    MUST(mvs_findings_get(findings, k, finding));
     if (strcmp(finding->name, name) == 0) return k;
   }
   return UINT32_MAX;

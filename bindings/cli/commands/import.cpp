@@ -37,8 +37,8 @@ void warn_of_whole_valve(const std::string &path) {
 
 // Names inputs that contradict the surface on stderr, such as swapped labels and landmarks of
 // another frame: the valve is written all the same, and most readers of JSON look at its values.
-void warn_of_contradictions(const std::vector<mvs::BuildFinding> &findings) {
-  for (const mvs::BuildFinding &finding : findings) {
+void warn_of_contradictions(const std::vector<mvs::Finding> &findings) {
+  for (const mvs::Finding &finding : findings) {
     if (!finding.doubtful) continue;
     std::fprintf(stderr, "mvs: warning: %s, %.0f %% sure: %s\n", finding.name.c_str(),
                  100 * finding.confidence, finding.sentence.c_str());
@@ -94,7 +94,7 @@ void run_import(const ImportOptions &given, Console &console) {
   how.progress = &Progress::callback;
   how.user = &progress;
   mvs::Simulator sim = make_sim(how);
-  std::vector<mvs::BuildFinding> findings =
+  std::vector<mvs::Finding> findings =
       mvs::build_valve(sim, desc_of(input, options, name), options.build);
   keep_doubts(known, findings);
   warn_of_ignored(known, options.with);

@@ -17,7 +17,7 @@ constexpr int priority = 60;  // SCHED_FIFO priority that the library requests
 // A finding about "system" or about the named driver.
 struct DoctorRow {
   std::string about;
-  mvs::Finding finding;
+  mvs::DriverFinding finding;
 };
 
 // Requests the priority in a separate thread, as the library does.
@@ -31,7 +31,7 @@ bool may_be_realtime() {
   return granted;
 }
 
-mvs::Finding realtime() {
+mvs::DriverFinding realtime() {
   if (may_be_realtime()) return {1, "real-time priority", text("SCHED_FIFO %d granted", priority)};
   rlimit allowed = {};
   getrlimit(RLIMIT_RTPRIO, &allowed);
@@ -49,7 +49,7 @@ mvs::Finding realtime() {
   return {-1, "real-time priority", why + "; without it other programs disturb the forces"};
 }
 
-mvs::Finding processors() {
+mvs::DriverFinding processors() {
   const unsigned count = std::thread::hardware_concurrency();
   const bool enough = count != 1;
   return {enough ? 1 : -1, "processors",
@@ -57,7 +57,7 @@ mvs::Finding processors() {
                  : "only one: servo and simulation share it, which disturbs the forces"};
 }
 
-mvs::Finding library() {
+mvs::DriverFinding library() {
   const uint32_t v = mvs_version();
   return {1, "library",
           text("libmvs %u.%u.%u (%s), drivers of version %u", v / 10000, v / 100 % 100, v % 100,
@@ -69,7 +69,7 @@ mvs::Finding library() {
 std::vector<DoctorRow> driver_rows(const DeviceOptions &options) {
   std::vector<DoctorRow> rows;
   if (options.driver.empty()) {
-    for (mvs::Finding &found : mvs::findings_of()) {
+    for (mvs::DriverFinding &found : mvs::findings_of()) {
       const size_t colon = found.check.find(": ");
       const std::string name = found.check.substr(0, colon);
       found.check.erase(0, colon + 2);
@@ -78,7 +78,8 @@ std::vector<DoctorRow> driver_rows(const DeviceOptions &options) {
     return rows;
   }
   try {
-    for (mvs::Finding &found : mvs::findings_of(driver_of(options), lines_of(options.options))) {
+    for (mvs::DriverFinding &found :
+         mvs::findings_of(driver_of(options), lines_of(options.options))) {
       rows.push_back({options.driver, std::move(found)});
     }
   } catch (const mvs::Error &failure) {
@@ -106,7 +107,7 @@ const char *word_of(int32_t verdict) {
 std::string rows_text(const std::vector<DoctorRow> &rows) {
   std::string lines;
   for (const DoctorRow &row : rows) {
-    const mvs::Finding &found = row.finding;
+    const mvs::DriverFinding &found = row.finding;
     lines += text("%s%-7s  %-14s %s: %s", lines.empty() ? "" : "\n", word_of(found.verdict),
                   row.about.c_str(), found.check.c_str(), found.sentence.c_str());
   }

@@ -113,9 +113,9 @@ std::string names_of_inputs() {
 
 }  // namespace
 
-Json findings_json(const std::vector<mvs::BuildFinding> &findings) {
+Json findings_json(const std::vector<mvs::Finding> &findings) {
   Json rows = Json::array();
-  for (const mvs::BuildFinding &finding : findings) {
+  for (const mvs::Finding &finding : findings) {
     rows.push_back({{"name", finding.name},
                     {"source", source_name(finding.source)},
                     {"confidence", finding.confidence},
@@ -128,9 +128,9 @@ Json findings_json(const std::vector<mvs::BuildFinding> &findings) {
   return rows;
 }
 
-std::string findings_text(const std::vector<mvs::BuildFinding> &findings) {
+std::string findings_text(const std::vector<mvs::Finding> &findings) {
   std::string lines;
-  for (const mvs::BuildFinding &finding : findings) {
+  for (const mvs::Finding &finding : findings) {
     lines += text("\n  %-15s %-9s %3.0f %%  %s", finding.name.c_str(), source_name(finding.source),
                   100 * finding.confidence, finding.sentence.c_str());
   }
@@ -138,7 +138,7 @@ std::string findings_text(const std::vector<mvs::BuildFinding> &findings) {
 }
 
 void write_findings(const std::string &path, const std::string &surface,
-                    const std::vector<mvs::BuildFinding> &findings) {
+                    const std::vector<mvs::Finding> &findings) {
   const Json object = {{"format", "libmvs import"},
                        {"version", 1},
                        {"surface", surface},
@@ -190,7 +190,7 @@ KnownValues read_findings(const std::string &path) {
     }
     const bool is_unsure = source == "guessed" || source == "assumed";
     if (!is_unsure || row.value("unedited", "") != digest_of(values)) continue;
-    mvs::BuildFinding found;
+    mvs::Finding found;
     found.name = name;
     found.source = source_of(source);
     found.confidence = row.value("confidence", 1.0);
@@ -200,8 +200,8 @@ KnownValues read_findings(const std::string &path) {
   return known;
 }
 
-void keep_doubts(const KnownValues &known, std::vector<mvs::BuildFinding> &findings) {
-  for (mvs::BuildFinding &finding : findings) {
+void keep_doubts(const KnownValues &known, std::vector<mvs::Finding> &findings) {
+  for (mvs::Finding &finding : findings) {
     const auto at = known.unsure.find(finding.name);
     if (at == known.unsure.end() || finding.source != MVS_FINDING_SOURCE_GIVEN) continue;
     finding.source = at->second.source;

@@ -10,14 +10,14 @@
 namespace cli {
 
 // Findings in SI units with all digits, so that a value read back is the same.
-Json findings_json(const std::vector<mvs::BuildFinding> &findings);
+Json findings_json(const std::vector<mvs::Finding> &findings);
 
 // A table: name, source, confidence, sentence.
-std::string findings_text(const std::vector<mvs::BuildFinding> &findings);
+std::string findings_text(const std::vector<mvs::Finding> &findings);
 
 // Writes beside, then renames.
 void write_findings(const std::string &path, const std::string &surface,
-                    const std::vector<mvs::BuildFinding> &findings);
+                    const std::vector<mvs::Finding> &findings);
 
 // Values for a build. Empty: not known.
 struct KnownValues {
@@ -26,7 +26,7 @@ struct KnownValues {
   std::vector<double> thickness, edge_error, edge_lost, thickness_error;  // one each, m
   std::vector<double> tissue;                                             // one, MVS_LEAFLET_LAW_*
   // guesses and assumptions of the file with unedited values, by name
-  std::map<std::string, mvs::BuildFinding> unsure;
+  std::map<std::string, mvs::Finding> unsure;
   std::vector<std::string> ignored;  // names of edited findings that are no values for a build
 };
 
@@ -39,6 +39,6 @@ bool is_input(const std::string &name);
 
 // A value that was read back as it was found is as sure as it was found: gives such findings of a
 // build that takes it for given their source, confidence and doubt.
-void keep_doubts(const KnownValues &known, std::vector<mvs::BuildFinding> &findings);
+void keep_doubts(const KnownValues &known, std::vector<mvs::Finding> &findings);
 
 }  // namespace cli

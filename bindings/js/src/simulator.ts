@@ -3,7 +3,7 @@ import type { LogCallback, ProgressCallback } from "./arrays.js";
 import { refuse } from "./error.js";
 import type { Backend, Format } from "./generated/enums.js";
 import type {
-  BuildFinding, BuildOptions, Coarsening, CoarsenOptions, LeafletDesc, LoadCase, LoadCaseInput, ParametricDesc, Profile, Replay,
+  BuildOptions, Coarsening, CoarsenOptions, LeafletDesc, LoadCase, LoadCaseInput, Finding as HeldFinding, ParametricDesc, Profile, Replay,
   SettleOptions, Stats, StepOptions, SurfaceDesc, ToolDesc, ToolState, ValveDesc,
 } from "./generated/structs.js";
 import { Owned } from "./handles.js";
@@ -25,7 +25,7 @@ export interface SimulatorOptions {
 }
 
 /** A finding of a build: `values` is a copy. */
-export type Finding = Omit<BuildFinding, "values"> & { values: Float64Array };
+export type Finding = Omit<HeldFinding, "values"> & { values: Float64Array };
 
 export class Simulator extends Owned {
   private readonly slices = new Slices();
@@ -49,14 +49,14 @@ export class Simulator extends Owned {
   /** Replaces the valve by one built from a patient's surface; returns the findings and guesses. */
   buildValve(surface: SurfaceDesc, options?: BuildOptions): Finding[] {
     const { c } = this.mvs;
-    const build = c.mvs_build_valve(this.handle, surface, options);
+    const findings = c.mvs_build_valve(this.handle, surface, options);
     try {
-      return Array.from({ length: c.mvs_build_get_finding_count(build) }, (_, k) => {
-        const finding = c.mvs_build_get_finding(build, k);
+      return Array.from({ length: c.mvs_findings_get_count(findings) }, (_, k) => {
+        const finding = c.mvs_findings_get(findings, k);
         return { ...finding, values: finding.values.copy() as Float64Array };
       });
     } finally {
-      c.mvs_build_release(build);
+      c.mvs_findings_release(findings);
     }
   }
 

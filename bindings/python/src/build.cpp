@@ -47,7 +47,7 @@ struct SurfaceArrays {
   }
 };
 
-py::object finding_value(const mvs_build_finding &found) {
+py::object finding_value(const mvs_finding &found) {
   const auto *values = static_cast<const double *>(found.values.data);
   const py::array_t<double> owned(static_cast<py::ssize_t>(found.values.count), values);
   owned.attr("setflags")("write"_a = false);
@@ -59,14 +59,14 @@ py::object finding_value(const mvs_build_finding &found) {
       "unit"_a = found.unit, "doubtful"_a = found.doubtful != 0);
 }
 
-py::tuple findings_of(const mvs_build *build) {
+py::tuple findings_of(const mvs_findings *found) {
   uint32_t count = 0;
-  must(mvs_build_get_finding_count(build, &count));
+  must(mvs_findings_get_count(found, &count));
   py::list findings;
   for (uint32_t k = 0; k < count; ++k) {
-    auto found = sized<mvs_build_finding>();
-    must(mvs_build_get_finding(build, k, &found));
-    findings.append(finding_value(found));
+    auto one = sized<mvs_finding>();
+    must(mvs_findings_get(found, k, &one));
+    findings.append(finding_value(one));
   }
   return py::tuple(findings);
 }
@@ -116,11 +116,11 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
   options.thickness_error = given_or_default(thickness_error, "thickness_error");
   options.chords = given_or_default(chords, "chords");
   options.without_leak = leak ? 0 : 1;
-  mvs_build *build = nullptr;
+  mvs_findings *found = nullptr;
   self.call_with(std::move(progress),
-                 [&](mvs_sim *sim) { return mvs_build_valve(sim, &surface, &options, &build); });
-  const std::unique_ptr<mvs_build, void (*)(mvs_build *)> held(build, &mvs_build_release);
-  return findings_of(build);
+                 [&](mvs_sim *sim) { return mvs_build_valve(sim, &surface, &options, &found); });
+  const std::unique_ptr<mvs_findings, void (*)(mvs_findings *)> held(found, &mvs_findings_release);
+  return findings_of(found);
 }
 
 py::tuple find_leak_interval(Simulator &self, Number lengths, Number single, Number thickness,
@@ -129,10 +129,10 @@ py::tuple find_leak_interval(Simulator &self, Number lengths, Number single, Num
   errors.lengths = given_or_default(lengths, "lengths");
   errors.single = given_or_default(single, "single");
   errors.thickness = given_or_default(thickness, "thickness");
-  mvs_build *found = nullptr;
+  mvs_findings *found = nullptr;
   self.call_with(std::move(progress),
                  [&](mvs_sim *sim) { return mvs_find_leak_interval(sim, &errors, &found); });
-  const std::unique_ptr<mvs_build, void (*)(mvs_build *)> held(found, &mvs_build_release);
+  const std::unique_ptr<mvs_findings, void (*)(mvs_findings *)> held(found, &mvs_findings_release);
   return findings_of(found);
 }
 

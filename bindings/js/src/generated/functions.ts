@@ -16,7 +16,6 @@ import type {
 } from "./enums.js";
 import type {
   Error as Error_,
-  BuildFinding,
   BuildOptions,
   ChordInfo,
   CoarsenOptions,
@@ -28,6 +27,7 @@ import type {
   EnsembleOptions,
   EnsembleSummary,
   FieldInfo,
+  Finding,
   History,
   HistoryEntry,
   Law,
@@ -74,8 +74,8 @@ export type EnsembleHandle = number & { readonly of?: "mvs_ensemble" };
 export type SensitivityHandle = number & { readonly of?: "mvs_sensitivity" };
 /** The address of a mvs_surface_file. */
 export type SurfaceFileHandle = number & { readonly of?: "mvs_surface_file" };
-/** The address of a mvs_build. */
-export type BuildHandle = number & { readonly of?: "mvs_build" };
+/** The address of a mvs_findings. */
+export type FindingsHandle = number & { readonly of?: "mvs_findings" };
 
 const signatures: Record<string, Signature> = {
   mvs_last_error: {
@@ -909,7 +909,7 @@ const signatures: Record<string, Signature> = {
       { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
       { name: "surface", nullable: false, how: "inStruct", of: "mvs_surface_desc" },
       { name: "options", nullable: true, how: "inStruct", of: "mvs_build_options" },
-      { name: "build", nullable: true, how: "outHandle", of: "mvs_build", freedBy: "mvs_build_release" },
+      { name: "findings", nullable: true, how: "outHandle", of: "mvs_findings", freedBy: "mvs_findings_release" },
     ],
   },
   mvs_find_leak_interval: {
@@ -918,31 +918,31 @@ const signatures: Record<string, Signature> = {
     steps: [
       { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
       { name: "errors", nullable: true, how: "inStruct", of: "mvs_leak_errors" },
-      { name: "found", nullable: false, how: "outHandle", of: "mvs_build", freedBy: "mvs_build_release" },
+      { name: "findings", nullable: false, how: "outHandle", of: "mvs_findings", freedBy: "mvs_findings_release" },
     ],
   },
-  mvs_build_get_finding_count: {
-    name: "mvs_build_get_finding_count",
+  mvs_findings_get_count: {
+    name: "mvs_findings_get_count",
     returns: "mvs_result",
     steps: [
-      { name: "build", nullable: false, how: "handle", of: "mvs_build" },
+      { name: "findings", nullable: false, how: "handle", of: "mvs_findings" },
       { name: "count", nullable: false, how: "outScalar", element: "u32" },
     ],
   },
-  mvs_build_get_finding: {
-    name: "mvs_build_get_finding",
+  mvs_findings_get: {
+    name: "mvs_findings_get",
     returns: "mvs_result",
     steps: [
-      { name: "build", nullable: false, how: "handle", of: "mvs_build" },
+      { name: "findings", nullable: false, how: "handle", of: "mvs_findings" },
       { name: "index", nullable: false, how: "scalar", of: "uint32_t", element: "u32" },
-      { name: "finding", nullable: false, how: "outStruct", of: "mvs_build_finding" },
+      { name: "finding", nullable: false, how: "outStruct", of: "mvs_finding" },
     ],
   },
-  mvs_build_release: {
-    name: "mvs_build_release",
+  mvs_findings_release: {
+    name: "mvs_findings_release",
     returns: "void",
     steps: [
-      { name: "build", nullable: true, how: "handle", of: "mvs_build" },
+      { name: "findings", nullable: true, how: "handle", of: "mvs_findings" },
     ],
   },
 };
@@ -1693,40 +1693,54 @@ export class Functions extends Calls {
 
   /**
    * Replaces the valve of a simulator by one that is built from a surface, open and without load,
-   * and begins a history, like mvs_generate_valve. `options` is nullable. `build` is nullable, else
-   * release it with mvs_build_release. Faults of the surface that no rule mends give MVS_E_OP and a
-   * sentence; the simulator is unchanged then. Closures of variants, of a fit and for the leak, run
-   * at the same time on the workers of the simulator (mvs_sim_desc), with the same bits.
-   * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
+   * and begins a history, like mvs_generate_valve. `options` is nullable. `findings` is nullable,
+   * else release it with mvs_findings_release. Faults of the surface that no rule mends give
+   * MVS_E_OP and a sentence; the simulator is unchanged then. Closures of variants, of a fit and
+   * for the leak, run at the same time on the workers of the simulator (mvs_sim_desc), with the
+   * same bits. MVS_E_CANCELLED if the progress callback of the simulator cancelled.
    */
-  mvs_build_valve(sim: SimHandle, surface: SurfaceDesc, options?: BuildOptions | null): BuildHandle {
+  mvs_build_valve(sim: SimHandle, surface: SurfaceDesc, options?: BuildOptions | null): FindingsHandle {
     return this.invoke(signatures.mvs_build_valve!, [sim, surface, options]) as never;
   }
 
   /**
    * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
    * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an
-   * error of the thickness, if all of these are sealed. `errors` is nullable. `found` gets findings
-   * as those of a build: "leak", "leak_interval", without values if no closure came to rest, and
-   * "leak_limits", m2; release it with mvs_build_release. The simulator is unchanged.
+   * error of the thickness, if all of these are sealed. `errors` is nullable. `findings` gets
+   * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2, as
+   * those of a build; release it with mvs_findings_release. The simulator is unchanged.
    * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
    */
-  mvs_find_leak_interval(sim: SimHandle, errors?: LeakErrors | null): BuildHandle {
+  mvs_find_leak_interval(sim: SimHandle, errors?: LeakErrors | null): FindingsHandle {
     return this.invoke(signatures.mvs_find_leak_interval!, [sim, errors]) as never;
   }
 
-  /** The findings of a build, in the order in which they were made. */
-  mvs_build_get_finding_count(build: BuildHandle): number {
-    return this.invoke(signatures.mvs_build_get_finding_count!, [build]) as never;
+  /**
+   * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
+   * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an
+   * error of the thickness, if all of these are sealed. `errors` is nullable. `findings` gets
+   * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2, as
+   * those of a build; release it with mvs_findings_release. The simulator is unchanged.
+   * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
+   */
+  mvs_findings_get_count(findings: FindingsHandle): number {
+    return this.invoke(signatures.mvs_findings_get_count!, [findings]) as never;
   }
 
-  /** The findings of a build, in the order in which they were made. */
-  mvs_build_get_finding(build: BuildHandle, index: number): BuildFinding {
-    return this.invoke(signatures.mvs_build_get_finding!, [build, index]) as never;
+  /**
+   * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
+   * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an
+   * error of the thickness, if all of these are sealed. `errors` is nullable. `findings` gets
+   * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2, as
+   * those of a build; release it with mvs_findings_release. The simulator is unchanged.
+   * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
+   */
+  mvs_findings_get(findings: FindingsHandle, index: number): Finding {
+    return this.invoke(signatures.mvs_findings_get!, [findings, index]) as never;
   }
 
-  /** Releases a build. `build` is nullable. */
-  mvs_build_release(build: BuildHandle | null): void {
-    return this.invoke(signatures.mvs_build_release!, [build]) as never;
+  /** Releases findings. `findings` is nullable. */
+  mvs_findings_release(findings: FindingsHandle | null): void {
+    return this.invoke(signatures.mvs_findings_release!, [findings]) as never;
   }
 }

@@ -1385,10 +1385,10 @@ export interface LeakErrors {
 }
 
 /**
- * A finding: a value that a build found, guessed or assumed. Texts are valid while the build is
- * held.
+ * A finding: a value that a build found, guessed or assumed. Texts and values are valid while the
+ * findings are held.
  */
-export interface BuildFinding {
+export interface Finding {
   /** MVS_FINDING_SOURCE_* */
   source: FindingSource;
   /** "annulus", "commissures", "thickness" */
@@ -2493,7 +2493,7 @@ export const layouts: Record<string, Layout> = {
       { name: "thickness", kind: "f64", at: 24 },
     ],
   },
-  mvs_build_finding: {
+  mvs_finding: {
     size: 72,
     sized: true,
     fields: [
