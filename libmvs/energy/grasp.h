@@ -13,7 +13,7 @@
 
 namespace mvs::core {
 
-struct Hold {
+struct ToolSpring {
   uint32_t node;
   Vec3 target;
   double stiffness;  // N/m
@@ -21,13 +21,13 @@ struct Hold {
 };
 
 // The spring of point k of a tool, or of a grasp (k = 0), on a node.
-Hold hold_of(const Tool &tool, uint32_t k, uint32_t node);
+ToolSpring tool_spring(const Tool &tool, uint32_t k, uint32_t node);
 
 // The force of a spring on its node at x, N.
-Vec3 pull(const Hold &hold, const Vec3 &x);
+Vec3 pull(const ToolSpring &spring, const Vec3 &x);
 
 // The second derivative of its energy at x; positive semidefinite.
-Mat3 hold_block(const Hold &hold, const Vec3 &x);
+Mat3 spring_block(const ToolSpring &spring, const Vec3 &x);
 
 class GraspTerm {
  public:
@@ -39,7 +39,7 @@ class GraspTerm {
   void hessian(const std::vector<Vec3> &x, HessianAssembler &system) const;
 
  private:
-  std::vector<Hold> holds_;
+  std::vector<ToolSpring> springs_;
 };
 
 }  // namespace mvs::core

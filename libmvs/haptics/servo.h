@@ -7,10 +7,10 @@
 // on devices that render it, and is zero on others.
 #pragma once
 
-#include "haptics/budget.h"
-#include "haptics/energy.h"
 #include "haptics/force_gate.h"
+#include "haptics/force_limits.h"
 #include "haptics/mailbox.h"
+#include "haptics/passivity.h"
 #include "haptics/sample_validator.h"
 
 namespace mvs::core {

@@ -173,9 +173,9 @@ void doubt_mirrored(double distance, double other, Finding &finding) {
 }
 
 // Whether the leaflet along an arc is the anterior one. `shape`: the odds for it by its shape.
-bool is_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
-                 const LeafletLandmarks &landmarks, const LabelledArea &area,
-                 const AnteriorOdds &shape, const LeafletArcs &arcs, Findings &findings) {
+bool decide_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
+                     const LeafletLandmarks &landmarks, const LabelledArea &area,
+                     const AnteriorOdds &shape, const LeafletArcs &arcs, Findings &findings) {
   const double length = c.annulus_length;
   const auto [from, to] = arcs;
   if (!landmarks.anterior.empty()) {
@@ -249,7 +249,7 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
   LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};
   AnteriorOdds shape = anterior_odds(annulus, arcs, length);
   shape.orientation = orientation;
-  if (!is_anterior(sheet, coordinates, landmarks, area, shape, arcs, findings)) {
+  if (!decide_anterior(sheet, coordinates, landmarks, area, shape, arcs, findings)) {
     arcs = {feet[1], feet[1] + wrapped(feet[0] - feet[1], length)};
     std::swap(commissures[0], commissures[1]);
   }

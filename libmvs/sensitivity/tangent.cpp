@@ -31,13 +31,13 @@ EquilibriumTangent::EquilibriumTangent(const Model &model, const State &state)
            "the forces of the snapshot are not finite: settle the valve first");
   free_.place = &x;
   total_energy_.hessian(x, Curvature::exact, free_, profile_);
-  hold_loose_rows();
+  fix_loose_rows();
   factorise();
   find_edge();
 }
 
 // Branch points whose chordae are all slack have no stiffness: they get one, and do not move.
-void EquilibriumTangent::hold_loose_rows() {
+void EquilibriumTangent::fix_loose_rows() {
   BlockMatrix &m = free_.matrix;
   is_loose_.assign(m.size(), 1);
   for (uint32_t c = 0; c < m.size(); ++c) {

@@ -49,7 +49,7 @@ class EquilibriumTangent {
  private:
   void factorise();
   void find_edge();
-  void hold_loose_rows();
+  void fix_loose_rows();
   void apply(const NodeField &rows, bool transposed, NodeField &y);
   void approximate(bool transposed, double tolerance, NodeField &r);
   void eliminate_skew(NodeField &r);

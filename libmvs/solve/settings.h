@@ -168,10 +168,10 @@ inline constexpr double max_shortening = 0.5, min_shortening = 0.2;
 // nodes above which no node is held.
 inline constexpr double stopped_share = 0.9, max_stopped_share = 0.03;
 // Largest stiffness of a held node, as a multiple of its own.
-inline constexpr double max_hold = 1e3;
+inline constexpr double max_stiffening = 1e3;
 // Lambda above which stopped nodes are held. Needles of a real mesh (Kaiser N64), which are always
 // stopped, take fewer iterations when they are not held below it.
-inline constexpr double min_hold_lambda = 100;
+inline constexpr double min_stiffening_lambda = 100;
 
 }  // namespace trust_region
 

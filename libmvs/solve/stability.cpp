@@ -49,10 +49,10 @@ Mat3 taken(const Mat3 &coupling, Mat3 block) {
   return coupling * block.inverse() * coupling.transpose();
 }
 
-// Holds loose rows where they are, without the stiffness that their chordae would get from that: a
+// Fixes loose rows where they are, without the stiffness that their chordae would get from that: a
 // chord to a point that nothing else holds has none. The rows are eliminated, but for the coupling
 // of other rows by them; chordae between two of them are cut.
-void hold(const std::vector<uint8_t> &is_loose, BlockMatrix &matrix) {
+void fix_loose_rows(const std::vector<uint8_t> &is_loose, BlockMatrix &matrix) {
   std::vector<Mat3> own(matrix.size());
   for (uint32_t c = 0; c < matrix.size(); ++c) own[c] = matrix.value[matrix.start[c]];
   const auto for_couplings = [&](auto use) {
@@ -132,7 +132,7 @@ Stability StabilityCheck::check(const Model &model, const TotalEnergy &total_ene
   for (double &number : added) number *= set::max_rate;
   const std::vector<uint8_t> is_loose = loose_rows(model, system);
   BlockMatrix stiffness = system.matrix;
-  hold(is_loose, stiffness);
+  fix_loose_rows(is_loose, stiffness);
   const bool is_definite = factorise(stiffness, added, stats);
   if (is_definite && !margins) {
     last_shift_ = 0;

@@ -104,7 +104,7 @@ TEST_CASE("the_held_tissue_pulls_back_with_the_force_of_the_hand") {
     State without = settled.state;
     without.tools.clear();
     const Vec3 tissue = evaluate_forces(*model, without).total[node];
-    const Vec3 hand = pull(hold_of(start.tools[0], 0, node), settled.state.x[node]);
+    const Vec3 hand = pull(tool_spring(start.tools[0], 0, node), settled.state.x[node]);
     CHECK(hand.norm() > 0.01);
     CHECK((hand + tissue).norm() <= 1e-6);  // the residual
     CHECK(evaluate_forces(*model, settled.state).total[node].norm() <= 1e-6);
@@ -123,7 +123,7 @@ TEST_CASE("a_pull_of_50_mm_in_one_step_is_limited_to_its_largest_force_and_recov
   Solver solver(Backend::fastest);
   for (int k = 0; k < 100; ++k) {
     solver.step(*model, state, {});
-    REQUIRE(pull(hold_of(state.tools[0], 0, node), state.x[node]).norm() <= 2 * (1 + 1e-12));
+    REQUIRE(pull(tool_spring(state.tools[0], 0, node), state.x[node]).norm() <= 2 * (1 + 1e-12));
   }
   CHECK(farthest(state.x, before.state.x) > 2e-3);
   state.tools.clear();

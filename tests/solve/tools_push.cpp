@@ -138,7 +138,7 @@ TEST_CASE("a_ball_on_a_membrane_is_carried_by_its_rim") {
     CHECK(settled.stats.converged);
     const Tool &tool = settled.state.tools[0];
     CHECK(clearance(disc, settled.state.x, tool) > 0);
-    const Vec3 hand = pull(hold_of(tool, 0, 0), tool.proxy[0]);
+    const Vec3 hand = pull(tool_spring(tool, 0, 0), tool.proxy[0]);
     CHECK(hand.z() < -0.01);
     const Positions forces = evaluate_forces(disc, settled.state).total;
     Vec3 rim = Vec3::Zero();

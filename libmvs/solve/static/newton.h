@@ -133,7 +133,7 @@ class Newton {
                     double predicted_reduction) const;
   void adapt_lambda(double gain, double far_share);
   std::vector<StoppedNode> stopped_nodes(const NewtonStep &step) const;
-  bool hold(const std::vector<StoppedNode> &stopped);
+  bool stiffen(const std::vector<StoppedNode> &stopped);
   void limit_step(NewtonStep &step);
   double free_norm() const;
 

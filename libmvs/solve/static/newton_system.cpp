@@ -73,7 +73,7 @@ void NewtonSystem::add_lambda(double lambda) {
     Mat3 &block = assembler_.matrix.value[assembler_.matrix.start[r]];
     block = diagonal_[r];
     block.diagonal().array() += applied_lambda_ * lambda_scale_[assembler_.node_of[r]];
-    if (!hold_.empty()) block += hold_[r];
+    if (!stiffening_.empty()) block += stiffening_[r];
   }
 }
 
@@ -191,10 +191,10 @@ double NewtonSystem::quadratic_form(const std::vector<Vec3> &step) const {
   return sum;
 }
 
-void NewtonSystem::hold(size_t row, const Vec3 &direction, double times) {
-  hold_.resize(diagonal_.size(), Mat3::Zero());
-  const double stiff = times * (diagonal_[row] + hold_[row]).trace() / 3;
-  hold_[row] += stiff * direction * direction.transpose();
+void NewtonSystem::stiffen(size_t row, const Vec3 &direction, double times) {
+  stiffening_.resize(diagonal_.size(), Mat3::Zero());
+  const double stiff = times * (diagonal_[row] + stiffening_[row]).trace() / 3;
+  stiffening_[row] += stiff * direction * direction.transpose();
 }
 
 }  // namespace mvs::core

@@ -76,9 +76,9 @@ class NewtonSystem {
 
   size_t rows() const { return diagonal_.size(); }
   uint32_t node(size_t row) const { return assembler_.node_of[row]; }
-  // Adds `times` the mean stiffness of a row along a unit direction, until release().
-  void hold(size_t row, const Vec3 &direction, double times);
-  void release() { hold_.clear(); }
+  // Adds `times` the mean stiffness of a row along a unit direction, until drop_stiffening().
+  void stiffen(size_t row, const Vec3 &direction, double times);
+  void drop_stiffening() { stiffening_.clear(); }
 
  private:
   void analyse(Profile &profile);
@@ -97,7 +97,7 @@ class NewtonSystem {
   Curvature curvature_ = Curvature::balanced;
   std::vector<Mat3> diagonal_;          // of H
   std::vector<double> lambda_scale_;    // N/m per node: D
-  std::vector<Mat3> hold_;              // N/m per row; empty: no row is held
+  std::vector<Mat3> stiffening_;        // N/m per row; empty: no row is stiffened
   std::vector<Vec3> rows_;              // right-hand side and solution
   std::vector<Vec3> direction_, skew_;  // by node, of solve_by_gmres()
   BlockSpmv product_;

@@ -56,12 +56,12 @@ void Newton::trust_region_step(bool has_exact) {
     if (factorises) stopped = stopped_nodes(step);
     // the model itself predicts that the limited step raises the energy
     const bool uphill = system_.curvature() != Curvature::exact && predicted_reduction < 0;
-    if (uphill && lambda_ > set::min_hold_lambda && !factorises && trial + 1 < set::trials &&
-        hold(stopped)) {
+    if (uphill && lambda_ > set::min_stiffening_lambda && !factorises && trial + 1 < set::trials &&
+        stiffen(stopped)) {
       lambda_ = kept;
     }
   }
-  system_.release();
+  system_.drop_stiffening();
   const double before = at_.energy;
   if (lower) at_.x.swap(tried);
   evaluate();
@@ -79,7 +79,7 @@ std::vector<StoppedNode> Newton::stopped_nodes(const NewtonStep &step) const {
     const uint32_t i = system_.node(r);
     const double whole = step.newton[i].norm(), left = step.limited[i].norm();
     if (left < set::stopped_share * whole) {
-      stopped.push_back({r, step.newton[i] / whole, std::min(whole / left, set::max_hold)});
+      stopped.push_back({r, step.newton[i] / whole, std::min(whole / left, set::max_stiffening)});
     }
   }
   const double nodes = static_cast<double>(at_.x.size());
@@ -90,8 +90,8 @@ std::vector<StoppedNode> Newton::stopped_nodes(const NewtonStep &step) const {
 // Stiffens the stopped nodes along their direction for the rest of this iteration, so that the
 // other nodes take into account how far these go. Lambda, which a few of them would raise until no
 // node moves, may then stay. Returns false if no node is stopped.
-bool Newton::hold(const std::vector<StoppedNode> &stopped) {
-  for (const StoppedNode &s : stopped) system_.hold(s.row, s.direction, s.times);
+bool Newton::stiffen(const std::vector<StoppedNode> &stopped) {
+  for (const StoppedNode &s : stopped) system_.stiffen(s.row, s.direction, s.times);
   return !stopped.empty();
 }
 

@@ -38,7 +38,7 @@ ToolForce force_of(const State &state, const Tool &tool) {
   ToolForce sum;
   for (uint32_t k = 0; k < springs_of(tool); ++k) {
     const Vec3 at = tool.kind == ToolKind::grasp ? state.x[tool.node] : tool.proxy[k];
-    const Vec3 back = -pull(hold_of(tool, k, 0), at);
+    const Vec3 back = -pull(tool_spring(tool, k, 0), at);
     sum.force += back;
     sum.torque += (tool.target(k) - tool.position).cross(back);
   }
@@ -102,11 +102,11 @@ ToolFeel::Springs ToolFeel::springs_at(const Model &valve, const State &valve_st
   out.count = springs_of(tool);
   for (uint32_t k = 0; k < out.count; ++k) {
     const uint32_t node = spring_node(valve_state, nodes, tool, k);
-    const Hold hold = hold_of(tool, k, node);
+    const ToolSpring spring = tool_spring(tool, k, node);
     out.row[k] = system_.row_of[node];
-    out.block[k] = hold_block(hold, state.x[node]);
+    out.block[k] = spring_block(spring, state.x[node]);
     out.arm[k] = tool.target(k) - tool.position;
-    out.force[k] = -pull(hold, state.x[node]);
+    out.force[k] = -pull(spring, state.x[node]);
   }
   return out;
 }

@@ -105,7 +105,7 @@ RingFit placed(const Surgery &s, const mvs_op_ring &op, const Loop &ring, const 
 }
 
 // Moves each annulus node to its share of the ring, with and without load.
-void hold(Surgery &s, const Loop &ring, const Loop &annulus, const RingFit &fit) {
+void move_to_ring(Surgery &s, const Loop &ring, const Loop &annulus, const RingFit &fit) {
   const double a = anterior_stretch(s.before, annulus).middle();
   const std::vector<uint32_t> &nodes = s.before.valve.annulus;
   for (size_t k = 0; k < nodes.size(); ++k) {
@@ -122,7 +122,7 @@ void operate(Surgery &s, const mvs_op_ring &op) {
   must_be_a_ring(s.op_name, curve);
   const Loop ring(curve), annulus(s.before.valve.annulus, s.before.valve.loaded);
   const RingFit fit = placed(s, op, ring, annulus);
-  hold(s, ring, annulus, fit);
+  move_to_ring(s, ring, annulus, fit);
   std::vector<Vec3> points = curve;
   for (Vec3 &p : points) p = fit.motion(p);
   set_ring(s, op.name, "ring", RingKind::rigid, std::move(points));

@@ -1,5 +1,5 @@
 // Workspace wall and norm clamp.
-#include "haptics/budget.h"
+#include "haptics/force_limits.h"
 
 #include <algorithm>
 #include <cmath>

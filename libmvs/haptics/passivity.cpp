@@ -1,5 +1,5 @@
 // Energy account of the passivity observer.
-#include "haptics/energy.h"
+#include "haptics/passivity.h"
 
 #include <algorithm>
 
