@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/utf8.h"
 #include "formats/abaqus/sets.h"
 #include "formats/text/line.h"
 #include "model/text.h"
@@ -39,7 +40,7 @@ void name_once(InpCard &card, const char *key, std::string &name) {
 
 bool is_name(std::string_view text) {
   constexpr size_t longest = 63;  // of a valve's name
-  return !text.empty() && text.size() <= longest && is_plain_text(text);
+  return !text.empty() && text.size() <= longest && is_plain_text(text) && is_utf8(text);
 }
 
 void read_structure(InpCard &card, InpMesh &mesh) {

@@ -1,6 +1,7 @@
 // Reader of extended OBJ: lines and the statements of plain OBJ.
 #include <algorithm>
 
+#include "base/utf8.h"
 #include "formats/obj/reader.h"
 
 namespace mvs::core {
@@ -149,11 +150,13 @@ void ObjReader::check_complete(const Line &last) const {
 
 Loaded read_obj(std::string_view text) {
   MVS_MUST(!text.empty(), MVS_E_FORMAT, "", "the file is empty");
+  MVS_MUST(!text.starts_with("\x89MVS") && !text.starts_with("\x89HDF"), MVS_E_FORMAT, "",
+           "the file is HDF5, not OBJ: give it the ending .h5, or load it as MVS_FORMAT_H5");
   if (text.size() > max_file_bytes) {
     throw Error(MVS_E_FORMAT, "",
                 format("the file has %zu bytes, the limit is %zu", text.size(), max_file_bytes));
   }
-  return ObjReader().read(text);
+  return ObjReader().read(without_byte_order_mark(text));
 }
 
 }  // namespace mvs::core

@@ -3,6 +3,7 @@
 #include <charconv>
 #include <span>
 
+#include "base/utf8.h"
 #include "formats/surface/cursor.h"
 #include "formats/surface/parts.h"
 #include "formats/text/line.h"
@@ -48,7 +49,7 @@ SurfaceParts read_plain_obj(std::string_view bytes) {
   parts.format = "OBJ";
   std::vector<ObjCell> cells;
   std::vector<int64_t> corners;  // of all cells, from 0
-  Cursor cursor(bytes);
+  Cursor cursor(without_byte_order_mark(bytes));
   while (cursor.left() > 0) {
     const int32_t number = cursor.line_number();
     const std::string statement = obj_statement(cursor);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "formats/surface/cursor.h"
 #include "formats/surface/parts.h"
 #include "formats/text/decimal.h"
@@ -61,10 +62,8 @@ char separator_of(std::string_view line) {
 
 // The rows without comments, which go to `parts`; `header` is the last comment "columns = ...".
 std::vector<TableRow> table_rows(std::string_view bytes, SurfaceParts &parts, std::string &header) {
-  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
-  if (bytes.starts_with(byte_order_mark)) bytes.remove_prefix(byte_order_mark.size());
   std::vector<TableRow> rows;
-  Cursor cursor(bytes);
+  Cursor cursor(without_byte_order_mark(bytes));
   char separator = '\0';
   while (!cursor.at_end()) {
     const int32_t number = cursor.line_number();

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "base/utf8.h"
 #include "formats/text/decimal.h"
 
 namespace mvs::core {
@@ -256,6 +257,10 @@ std::string decoded(std::string_view word, const Line &line) {
     }
     text += *byte;
     k += 2;
+  }
+  if (!is_utf8(text)) {
+    line.fail("%s is not UTF-8: names are UTF-8, with %%XX for each byte of a character",
+              quoted(word).c_str());
   }
   return text;
 }

@@ -1,8 +1,8 @@
 /* Conventions and basic types of all headers: export macro, results, errors, ids, arrays.
  *
- * Units are SI (m, kg, s, N, Pa, rad). Text is UTF-8; other bytes of a name become U+FFFD in plans.
- * Pointers must not be null unless the function says nullable; a null pointer gives MVS_E_ARGUMENT,
- * never a crash.
+ * Units are SI (m, kg, s, N, Pa, rad). Text is UTF-8: a name with other bytes is refused, by the
+ * call with the code of its other faults, from a file with MVS_E_FORMAT. Pointers must not be null
+ * unless the function says nullable; a null pointer gives MVS_E_ARGUMENT, never a crash.
  *
  * Structs that may grow start with `struct_size`, which the caller sets to sizeof the struct, for
  * input and output alike. They grow only at their end. Fields that an older program does not have

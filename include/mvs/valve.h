@@ -4,8 +4,8 @@
  * All nodes are in one list: leaflet vertices, chord branch points and papillary heads, in any
  * order. Triangles are wound so that their normals point into the atrium: pressure pushes along the
  * normals. All leaflets form one sheet, joined along the annulus; the annulus is one closed loop of
- * the sheet's boundary. Names have at most 63 bytes and no control characters and are unique among
- * parts of their kind. */
+ * the sheet's boundary. Names are UTF-8, have at most 63 bytes and no control characters, and are
+ * unique among parts of their kind. */
 #ifndef MVS_VALVE_H
 #define MVS_VALVE_H
 

@@ -3,6 +3,7 @@
 
 #include "api/sim_call.h"
 #include "base/array_view.h"
+#include "base/utf8.h"
 #include "model/law.h"
 #include "patient/build_valve.h"
 #include "patient/doubtful.h"
@@ -53,6 +54,8 @@ PatientSurface read_surface(const mvs_surface_desc *given) {
   PatientSurface surface;
   surface.kind = static_cast<SurfaceKind>(desc.kind);
   if (desc.name) surface.name = desc.name;
+  MVS_MUST(is_utf8(surface.name), MVS_E_ARGUMENT, "surface.name",
+           "surface.name, the name of the valve, is not UTF-8: names are UTF-8, convert it");
   surface.points = read_points(desc.points, "surface.points");
   MVS_MUST(!surface.points.empty(), MVS_E_ARGUMENT, "surface.points",
            "surface.points is empty: give the points of the leaflets, in m");

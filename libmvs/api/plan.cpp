@@ -2,6 +2,7 @@
 #include <mvs/plan.h>
 
 #include "api/sim_call.h"
+#include "base/utf8.h"
 #include "formats/formats.h"
 #include "session/commit.h"
 #include "session/replay.h"
@@ -15,6 +16,10 @@ std::string plan_text(const mvs_snapshot *snapshot, const mvs_plan_options *give
   const mvs_plan_options options = read_struct_or_default(given, "options");
   MVS_MUST(options.measures <= 1, MVS_E_ARGUMENT, "options.measures",
            "options.measures is %u: it has to be 0 or 1", options.measures);
+  MVS_MUST(is_utf8(text_or_empty(options.author)), MVS_E_ARGUMENT, "options.author",
+           "options.author is not UTF-8: convert it");
+  MVS_MUST(is_utf8(text_or_empty(options.notes)), MVS_E_ARGUMENT, "options.notes",
+           "options.notes is not UTF-8: convert it");
   return write_plan(snapshot->value, {text_or_empty(options.author), text_or_empty(options.notes)},
                     options.measures ? plan_measures : Measure());
 }

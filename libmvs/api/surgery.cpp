@@ -2,6 +2,7 @@
 #include <mvs/op.h>
 
 #include "api/sim_call.h"
+#include "base/utf8.h"
 #include "model/text.h"
 #include "session/commit.h"
 
@@ -14,6 +15,8 @@ std::string checked_name(const char *name, const char *what) {
   std::string text = name;
   MVS_MUST(!text.empty() && text.size() <= 63 && is_plain_text(text), MVS_E_ARGUMENT, what,
            "the name of a %s has to have 1 to 63 bytes and no control characters", what);
+  MVS_MUST(is_utf8(text), MVS_E_ARGUMENT, what,
+           "the name of the %s is not UTF-8: names are UTF-8, convert it", what);
   return text;
 }
 

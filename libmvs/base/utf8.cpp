@@ -29,6 +29,24 @@ size_t utf8_length(std::string_view text) {
   return 0;
 }
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const size_t length = utf8_length(text);
+    if (length == 0) return false;
+    text.remove_prefix(length);
+  }
+  return true;
+}
+
+std::string without_middle(std::string_view text, size_t most) {
+  if (text.size() <= most) return std::string(text);
+  const size_t half = (most - 3) / 2;
+  size_t end = text.size() - half;
+  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) ++end;
+  return std::string(text.substr(0, whole_utf8(text, half))) + "..." +
+         std::string(text.substr(end));
+}
+
 std::string only_utf8(std::string_view text) {
   std::string kept;
   while (!text.empty()) {

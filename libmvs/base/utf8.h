@@ -1,4 +1,5 @@
-// Texts that are cut to a length, without a part of a character (UTF-8, RFC 3629) at the cut.
+// UTF-8 (RFC 3629): checks of texts, and texts that are cut without a part of a character at the
+// cut.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,15 @@ namespace mvs::core {
 
 // The length of the UTF-8 sequence at the start of a text; 0 for other bytes.
 size_t utf8_length(std::string_view text);
+
+// Returns whether a text is whole UTF-8 characters.
+bool is_utf8(std::string_view text);
+
+// Returns a text without the byte order mark that some programs write at its start.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xef\xbb\xbf";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
 
 // How many of the first `most` bytes of a text are whole characters.
 inline size_t whole_utf8(std::string_view text, size_t most) noexcept {
@@ -25,6 +35,9 @@ void copy_text(char (&to)[size], std::string_view from) noexcept {
   std::memcpy(to, from.data(), length);
   std::memset(to + length, 0, size - length);
 }
+
+// A text of more than `most` bytes with "..." in place of its middle.
+std::string without_middle(std::string_view text, size_t most);
 
 // Without the bytes that are not UTF-8, as those of a character that a printf precision cut.
 std::string only_utf8(std::string_view text);

@@ -7,6 +7,7 @@
 
 #include "base/array_view.h"
 #include "base/error.h"
+#include "base/utf8.h"
 #include "model/text.h"
 
 namespace mvs::core {
@@ -44,6 +45,8 @@ void check_site(const OpKind &kind, const OpField &f, const mvs_site &site) {
            "%s: %s is not given: name a node, a triangle or a scallop", kind.name, f.name);
   MVS_MUST(site.how <= MVS_SITE_ANATOMICAL, MVS_E_ARGUMENT, name_of(kind, f),
            "%s: %s.how is %u, it has to be one of MVS_SITE_*", kind.name, f.name, site.how);
+  MVS_MUST(site.how != MVS_SITE_ANATOMICAL || site.scallop != 0, MVS_E_ID, name_of(kind, f),
+           "%s: %s.scallop is not given: find its id by its name", kind.name, f.name);
   for (const double u : site.u) {
     MVS_MUST(u >= -1e-9 && u <= 1 + 1e-9, MVS_E_ARGUMENT, name_of(kind, f),
              "%s: %s has a coordinate of %g, it has to be 0 to 1", kind.name, f.name, u);
@@ -106,6 +109,8 @@ void check_text(const OpKind &kind, const OpField &f, const std::string &text) {
            name_of(kind, f),
            "%s: %s has %zu bytes or a control character; at most %.0f printable ones", kind.name,
            f.name, text.size(), f.high);
+  MVS_MUST(is_utf8(text), MVS_E_ARGUMENT, name_of(kind, f),
+           "%s: %s is not UTF-8: names are UTF-8, convert it", kind.name, f.name);
 }
 
 // Returns the struct size that the caller set: at least the common head, at most a plausible
@@ -123,6 +128,8 @@ uint32_t checked_size(const mvs_op *given) {
 
 Operation::Operation(const mvs_op *given) {
   const uint32_t size = checked_size(given);
+  MVS_MUST(given->kind != 0, MVS_E_ARGUMENT, "op",
+           "op.kind is not set: it has to be one of MVS_OP_*");
   const OpKind *kind = find_op_kind(given->kind);
   MVS_MUST(kind != nullptr, MVS_E_VERSION, "op",
            "op.kind is %u, which this version of libmvs does not know", given->kind);

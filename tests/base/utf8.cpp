@@ -29,3 +29,35 @@ TEST_CASE("a_name_that_printf_cuts_is_still_utf8") {
   CHECK(cut == "x");
   CHECK(format("%s", longest.c_str()).size() < longest.size());
 }
+
+TEST_CASE("only_whole_characters_are_utf8") {
+  for (const char *text : {"", "abc", "\u00e9", "\u4e2d\u6587", "\U0001f600z", "a\x7f"}) {
+    CAPTURE(text);
+    CHECK(is_utf8(text));
+  }
+  // Latin-1, cut, overlong, half of a pair, beyond the last, a byte that follows nothing
+  for (const char *text :
+       {"\xe9", "\xe4\xb8", "\xc0\x80", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\x80", "\u4e2d\xff"}) {
+    CAPTURE(text);
+    CHECK_FALSE(is_utf8(text));
+  }
+}
+
+TEST_CASE("a_byte_order_mark_is_dropped_at_the_start_alone") {
+  CHECK(without_byte_order_mark("\xef\xbb\xbfv 1") == "v 1");
+  CHECK(without_byte_order_mark("\xef\xbb\xbf") == "");
+  CHECK(without_byte_order_mark("v\xef\xbb\xbf") == "v\xef\xbb\xbf");
+  CHECK(without_byte_order_mark("\xef\xbb") == "\xef\xbb");
+}
+
+TEST_CASE("a_long_text_loses_its_middle_and_no_part_of_a_character") {
+  CHECK(without_middle("abcdefgh", 8) == "abcdefgh");
+  CHECK(without_middle("abcdefghi", 8) == "ab...hi");
+  std::string text;
+  for (int k = 0; k < 40; ++k) text += "\u4e2d";
+  for (size_t most = 10; most < text.size(); ++most) {
+    const std::string cut = without_middle(text, most);
+    CHECK(cut.size() <= most);
+    CHECK(is_utf8(cut));
+  }
+}

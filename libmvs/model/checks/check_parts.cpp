@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "base/utf8.h"
 #include "model/checks/checks.h"
 #include "model/chord_law.h"
 #include "model/text.h"
@@ -32,6 +33,9 @@ void check_names(const CowVector<Part> &parts, const char *kind, bool needed, Fa
     }
     if (!is_plain_text(name)) {
       faults.add(part, "the name of %s has a control character in it", part.c_str());
+    }
+    if (!is_utf8(name)) {
+      faults.add(part, "the name of %s is not UTF-8: names are UTF-8, convert it", part.c_str());
     }
     if (const auto [other, is_new] = seen.emplace(name, k); !is_new) {
       faults.add(part, "%s has the same name as %s %zu, \"%.63s\"", part.c_str(), kind,
@@ -182,6 +186,9 @@ void check_valve(const Valve &valve, Faults &faults) {
     faults.add("valve",
                "the name of the valve is empty, over %zu bytes, or has a control character",
                name_limit);
+  }
+  if (!is_utf8(valve.name)) {
+    faults.add("valve", "the name of the valve is not UTF-8: names are UTF-8, convert it");
   }
   check_range("valve", "density", valve.density, density_range, faults);
   check_range("valve", "contact thickness", valve.contact_thickness, gap_range, faults);

@@ -19,6 +19,15 @@ TEST_CASE("landmarks_keep_their_names_and_their_frame") {
   }
 }
 
+TEST_CASE("a_byte_order_mark_before_an_obj_costs_no_point") {
+  const std::string body = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 5 5 50\nf 1 2 3\n";
+  const SurfaceFile plain = read_sample({"a.obj", body});
+  const SurfaceFile marked = read_sample({"a.obj", "\xef\xbb\xbf" + body});
+  REQUIRE(plain.points.size() == 4);
+  CHECK(marked.points == plain.points);
+  CHECK(marked.triangles == plain.triangles);
+}
+
 TEST_CASE("markups_state_their_unit") {
   SurfaceSample sample = markups_sample();
   CHECK(read_sample(sample, LengthUnit::unknown).unit == LengthUnit::mm);

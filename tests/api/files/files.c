@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "check.h"
-#include "funnel.h"
+#include "tests/api/check.h"
+#include "tests/api/funnel.h"
 #include "tests/founding.h"
 
 static mvs_sim *sim;
@@ -136,7 +136,7 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   MUST_FAIL(mvs_save_file(snapshot, "a.stl", 0), MVS_E_ARGUMENT,
             ".obj, .h5, .vtkhdf, .vtp, .vtm, .inp and .feb");
   MUST_FAIL(mvs_save_memory(snapshot, 9, NULL, 0, &size), MVS_E_ARGUMENT, "format is 9");
-  /* a long path is abbreviated at its start, so that its end and the reason remain */
+  /* a long path is abbreviated in its middle, so that the reason remains */
   memset(path, 'd', sizeof path);
   memcpy(path + sizeof path - 10, "/last.obj", 10);
   MUST_FAIL(mvs_load_file(sim, path, 0), MVS_E_IO, "/last.obj: ");
