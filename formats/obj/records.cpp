@@ -1,5 +1,8 @@
 // Reader of extended OBJ: the table of #mvs lines, and those of the whole file and its state.
+#include <cmath>
+
 #include "formats/obj/reader.h"
+#include "history/event_limits.h"
 
 namespace mvs::core {
 
@@ -84,13 +87,24 @@ void ObjReader::state(Line &line) {
   fields.number("pressure", state.load.pressure);
   fields.number("boundary_fraction", state.load.boundary_fraction);
   fields.number("rest_tolerance", state.rest_tolerance);
+  fields.whole("tools_made", state.tools_made);
   fields.end();
+  if (!(std::abs(state.load.pressure) <= limits::pressure)) {
+    line.fail("pressure is %g Pa: it has to be within %g Pa", state.load.pressure,
+              limits::pressure);
+  }
   if (!(state.load.boundary_fraction >= 0 && state.load.boundary_fraction <= 1)) {
     line.fail("boundary_fraction is %g: it has to be 0 (open) to 1 (loaded)",
               state.load.boundary_fraction);
   }
-  if (!(state.rest_tolerance >= 0)) {
-    line.fail("rest_tolerance is %g: it has to be a force in N, or 0", state.rest_tolerance);
+  if (!(state.rest_tolerance >= 0 && state.rest_tolerance <= limits::residual.most)) {
+    line.fail("rest_tolerance is %g: it has to be a force of at most %g N, or 0",
+              state.rest_tolerance, limits::residual.most);
+  }
+  constexpr uint64_t most_made = 1'000'000'000'000;  // leaves room for the ids of all others
+  if (state.tools_made > most_made) {
+    line.fail("tools_made is %llu: it has to be the number of all tools that the valve ever had",
+              static_cast<unsigned long long>(state.tools_made));
   }
 }
 

@@ -52,6 +52,7 @@ void write_state(LineWriter &out, const State &state) {
   out.key_number("boundary_fraction", state.load.boundary_fraction);
   if (state.is_at_rest() && state.tools.empty())
     out.key_number("rest_tolerance", state.rest_tolerance);
+  if (state.tools_made > 0) out.key_whole("tools_made", state.tools_made);
   out.end_line();
   if (state.tools.empty() && !state.cache.empty()) write_solver_cache(out, state.cache);
 }

@@ -1,6 +1,8 @@
 // Sizes, ranges and tools of states; tools and numbers of events.
 #include "formats/session/checks.h"
 
+#include <cmath>
+
 #include "base/error.h"
 #include "history/event_limits.h"
 #include "history/tool_trajectory.h"
@@ -24,6 +26,9 @@ void check_state(const ModelState &current) {
              "in a state of the file the speed of node %zu is no number, or over %g m/s", k,
              most_speed);
   }
+  MVS_MUST(std::abs(state.load.pressure) <= limits::pressure, MVS_E_FORMAT, "state",
+           "a state of the file has a pressure of %g Pa, it has to be within %g Pa",
+           state.load.pressure, limits::pressure);
   const double fraction = state.load.boundary_fraction;
   MVS_MUST(fraction >= 0 && fraction <= 1, MVS_E_FORMAT, "state",
            "a state of the file has a boundary fraction of %g, it has to be 0 to 1", fraction);

@@ -1,7 +1,9 @@
 /* Loading and saving a valve with its state, from and to files or memory.
  *
- * Formats are chosen by MVS_FORMAT_* or, where AUTO, by the ending of the path. Files are written
- * beside their target and then renamed: a target is either the old file or the complete new one. */
+ * Formats are chosen by MVS_FORMAT_* or, where AUTO, by the ending of the path, in small or capital
+ * letters. Files are written beside their target and then renamed: a target is either the old file
+ * or the complete new one. The target of a symbolic link is written, also where it does not exist
+ * yet; the link stays. */
 #ifndef MVS_FILE_H
 #define MVS_FILE_H
 
@@ -17,7 +19,9 @@ extern "C" {
 enum mvs_format_e {
   MVS_FORMAT_AUTO = 0,
   MVS_FORMAT_OBJ = 1, /* extended OBJ (formats/FORMAT.md), read and write, exact round
-                         trip of valve and state without tools and history */
+                         trip of valve and state without tools and history. A state that
+                         the file says is at rest, but whose largest out-of-balance force is
+                         above its tolerance, is not at rest: MVS_LOG_WARNING with both */
   MVS_FORMAT_VTP = 2, /* VTK XML PolyData, write only: for ParaView and Slicer */
   MVS_FORMAT_H5 = 3,  /* HDF5, read and write, with the history for undo and redo; ParaView and h5py
                          can open it. MVS_E_UNSUPPORTED in a build without HDF5 */

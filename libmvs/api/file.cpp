@@ -7,7 +7,9 @@
 
 #include "api/sim_call.h"
 #include "formats/formats.h"
+#include "formats/surface/cursor.h"
 #include "session/simulator.h"
+#include "solve/rest_claim.h"
 
 using namespace mvs::core;
 
@@ -15,10 +17,6 @@ namespace {
 
 const char *const ending_hint =
     "known endings are .obj, .h5, .vtkhdf, .vtp, .vtm, .inp and .feb, or name the format";
-
-bool ends_with(std::string_view text, std::string_view ending) {
-  return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
-}
 
 uint32_t checked_format(uint32_t format_given) {
   MVS_MUST(format_given <= MVS_FORMAT_VTM, MVS_E_ARGUMENT, "format",
@@ -30,12 +28,13 @@ uint32_t format_of(const char *path, uint32_t format_given) {
   must_point(path, "path");
   MVS_MUST(*path, MVS_E_ARGUMENT, "path", "the path is empty");
   if (checked_format(format_given) != MVS_FORMAT_AUTO) return format_given;
-  if (ends_with(path, ".obj")) return MVS_FORMAT_OBJ;
-  if (ends_with(path, ".vtp")) return MVS_FORMAT_VTP;
-  if (ends_with(path, ".vtm")) return MVS_FORMAT_VTM;
-  if (ends_with(path, ".h5") || ends_with(path, ".vtkhdf")) return MVS_FORMAT_H5;
-  if (ends_with(path, ".inp")) return MVS_FORMAT_INP;
-  if (ends_with(path, ".feb")) return MVS_FORMAT_FEB;
+  const std::string small = in_small_letters(path);
+  if (small.ends_with(".obj")) return MVS_FORMAT_OBJ;
+  if (small.ends_with(".vtp")) return MVS_FORMAT_VTP;
+  if (small.ends_with(".vtm")) return MVS_FORMAT_VTM;
+  if (small.ends_with(".h5") || small.ends_with(".vtkhdf")) return MVS_FORMAT_H5;
+  if (small.ends_with(".inp")) return MVS_FORMAT_INP;
+  if (small.ends_with(".feb")) return MVS_FORMAT_FEB;
   fail(MVS_E_ARGUMENT, "path", "the ending names no known format: %s", ending_hint);
 }
 
@@ -44,6 +43,17 @@ void load_inp(mvs_sim &sim, std::string_view bytes) {
   ModelPtr model = make_model(std::move(imported.loaded.valve));
   for (const Note &note : imported.notes) sim.log(note.level, "%s", note.text.c_str());
   replace_valve(sim, {{std::move(model), std::move(imported.loaded.state)}, {}});
+}
+
+// A file that people edit may still say that its state is at rest.
+void check_rest(const mvs_sim &sim, const Model &model, State &state) {
+  const std::string fault = fault_of_rest(model, state);
+  if (fault.empty()) return;
+  sim.log(MVS_LOG_WARNING,
+          "the file says that its valve is at rest within %g N, but %s: it counts as not at rest, "
+          "settle it",
+          state.rest_tolerance, fault.c_str());
+  state.rest_tolerance = 0;
 }
 
 void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
@@ -56,6 +66,7 @@ void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   if (format_given == MVS_FORMAT_INP) return load_inp(sim, bytes);
   Loaded loaded = read_obj(bytes);
   ModelPtr model = make_model(std::move(loaded.valve), sim.model());
+  check_rest(sim, *model, loaded.state);
   replace_valve(sim, {{std::move(model), std::move(loaded.state)}, {}});
 }
 
@@ -144,7 +155,8 @@ VtkBlock coaptation_block(const mvs_snapshot &s) {
 
 // Writes the index last: it refers to files that are complete.
 void save_vtm(const mvs_snapshot &s, const std::string &path) {
-  const std::string stem = ends_with(path, ".vtm") ? path.substr(0, path.size() - 4) : path;
+  const bool is_named = in_small_letters(path).ends_with(".vtm");
+  const std::string stem = is_named ? path.substr(0, path.size() - 4) : path;
   const size_t slash = stem.rfind('/');
   const std::string folder = slash == std::string::npos ? "" : stem.substr(0, slash + 1),
                     name = stem.substr(folder.size());

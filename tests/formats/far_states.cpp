@@ -36,7 +36,31 @@ TEST_CASE("an_obj_file_with_a_far_or_fast_node_is_refused_with_its_line") {
   CHECK_GT(refused_line(state, "speed"), 0);
 }
 
+TEST_CASE("a_pressure_that_no_load_may_have_is_refused") {
+  State state = moving_example().state;
+  for (const double pressure : {400e3, -400e3}) {
+    state.load.pressure = pressure;
+    CHECK_EQ(refused_line(state, ""), 0);
+    state.load.pressure = 1.001 * pressure;
+    CHECK_GT(refused_line(state, "within 400000 Pa"), 0);
+  }
+}
+
 #ifdef MVS_HAVE_HDF5
+TEST_CASE("a_session_with_such_a_pressure_or_with_a_name_that_is_not_utf8_is_refused") {
+  const Pair pair = moving_example();
+  const auto model = std::make_shared<const Model>(pair.model);
+  Snapshot snapshot{{model, pair.state}, {}};
+  snapshot.current.state.load.pressure = 1e9;
+  CHECK_THROWS_WITH_AS(read_session(write_session(snapshot, {})), doctest::Contains("1e+09 Pa"),
+                       Error);
+  Model renamed = pair.model;
+  renamed.valve.heads[0].name = "Kopf\xe9";
+  snapshot = {{std::make_shared<const Model>(renamed), pair.state}, {}};
+  CHECK_THROWS_WITH_AS(read_session(write_session(snapshot, {})),
+                       doctest::Contains("not UTF-8, near \"Kopf\""), Error);
+}
+
 TEST_CASE("a_session_with_a_far_or_fast_node_is_refused_with_its_number") {
   const Pair pair = moving_example();
   const auto model = std::make_shared<const Model>(pair.model);
