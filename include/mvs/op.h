@@ -4,7 +4,7 @@
  * mvs_apply_op return the same result and sentence. An operation may be applied to an open, a
  * closed or a moving valve; positions and velocities do not change (except that a clip and a
  * resection open the valve), and the next settle or step moves the valve to its new equilibrium.
- * Lengths are in m.
+ * Lengths are in m. Names are UTF-8, as those of parts (valve.h).
  *
  * Every operation can be undone. The history belongs to snapshots, so that restoring a snapshot
  * restores its history; a new valve starts a new history. */
@@ -117,7 +117,9 @@ typedef struct mvs_op_chord_transfer {
 } mvs_op_chord_transfer;
 
 /* Scales the annulus about its centroid in its own frame, open and under load: to model pathologies
- * and to size rings. */
+ * and to size rings. At least one of its fields is given. MVS_E_OP if a ring or band holds the
+ * annulus, or if its perimeter under load would be below 25 % or above 300 % of that at rest, the
+ * limits of a ring. */
 typedef struct mvs_op_annulus_scale {
   mvs_op op;
   double factor; /* in every direction [1] */
@@ -221,7 +223,8 @@ typedef struct mvs_op_patch {
 
 /* Checks whether an operation can be applied now; nothing changes. MVS_E_OP for an impossible
  * operation, MVS_E_ID for a missing part or a part of another kind, MVS_E_ARGUMENT for a value out
- * of its range; the sentence names the operation, the part and the remedy. */
+ * of its range or left out; the sentence names the operation, the part and the remedy. It reads the
+ * present snapshot, so that it may be called from any thread at any time. */
 MVS_API mvs_result mvs_check_op(const mvs_sim *sim, const mvs_op *op);
 
 /* Applies an operation and stores the id of the part that it made in *made (nullable; 0: it made no

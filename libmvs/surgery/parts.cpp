@@ -1,5 +1,6 @@
 // Finds parts by id; adds and removes nodes, sutures and rings.
 #include "base/error.h"
+#include "measure/annulus/landmarks.h"
 #include "model/part_names.h"
 #include "model/valve_arrays.h"
 #include "surgery/surgery.h"
@@ -114,6 +115,29 @@ void set_ring(Surgery &s, const char *name, const char *default_name, RingKind k
   ring.kind = kind;
   ring.curve = std::move(curve);
   s.valve.rings = {std::move(ring)};
+}
+
+void must_have_no_ring(const Surgery &s, const char *remedy) {
+  if (s.valve.rings.empty()) return;
+  const Ring &ring = s.valve.rings.get()[0];
+  const char *kind = ring.kind == RingKind::band ? "band" : "ring";
+  fail(MVS_E_OP, std::string(kind) + " " + ring.name, "%s: %s %s holds the annulus, %s", s.op_name,
+       kind, ring.name.c_str(), remedy);
+}
+
+// A quarter is the smallest share that is tested to close (OPERATIONS.md), 3 the largest factor of
+// annulus_scale.
+void must_be_a_perimeter(const Surgery &s, double perimeter, const char *what) {
+  constexpr double least = 0.25, largest = 3;
+  const double share = perimeter / Loop(s.before.valve.annulus, s.before.valve.rest).length();
+  MVS_MUST(share >= least, MVS_E_OP, s.op_name,
+           "%s: a perimeter of %.1f mm is %.0f %% of the annulus's at rest: the tissue cannot be "
+           "gathered below %.0f %%, take a larger %s",
+           s.op_name, 1e3 * perimeter, 100 * share, 100 * least, what);
+  MVS_MUST(share <= largest, MVS_E_OP, s.op_name,
+           "%s: a perimeter of %.1f mm is %.0f %% of the annulus's at rest: at most %.0f %% are "
+           "possible, take a smaller %s",
+           s.op_name, 1e3 * perimeter, 100 * share, 100 * largest, what);
 }
 
 }  // namespace mvs::core

@@ -61,6 +61,13 @@ bool has_chord_named(const Surgery &s, const std::string &name);
 void set_ring(Surgery &s, const char *name, const char *default_name, RingKind kind,
               std::vector<Vec3> curve);
 
+// Throws MVS_E_OP if a ring or band holds the annulus; `remedy` goes on in the sentence.
+void must_have_no_ring(const Surgery &s, const char *remedy);
+
+// Throws MVS_E_OP if the annulus would get this perimeter under load, m, and it is outside of 25 to
+// 300 % of that at rest; `what` is what to take larger or smaller.
+void must_be_a_perimeter(const Surgery &s, double perimeter, const char *what);
+
 // Throws if a chord joins these nodes.
 void must_not_be_tied(const Surgery &s, uint32_t a, uint32_t b);
 

@@ -44,6 +44,8 @@ static void what_cannot_be_done_is_said(void) {
   REFUSED(length, MVS_E_ID, "no part of this valve ever had id 123456");
   length.chord = 0;
   REFUSED(length, MVS_E_ID, "chord is not given");
+  length.op.kind = 0;
+  REFUSED(length, MVS_E_ARGUMENT, "op.kind is not set");
   length.op.kind = 999;
   REFUSED(length, MVS_E_VERSION, "op.kind is 999");
   length.op.struct_size = 3;
@@ -55,6 +57,8 @@ static void what_cannot_be_done_is_said(void) {
   REFUSED(add, MVS_E_ID, "node 1000000");
   add.site = (mvs_site){MVS_SITE_TRIANGLE, 3, 0, {0.2, 0.2, 0.2}};
   REFUSED(add, MVS_E_ARGUMENT, "sum up to 0.6");
+  add.site = (mvs_site){MVS_SITE_ANATOMICAL, 0, 0, {0.5, 0.5, 0}};
+  REFUSED(add, MVS_E_ID, "chord_add: site.scallop is not given");
   const mvs_snapshot *snapshot = present();
   mvs_view view;
   MUST(mvs_snapshot_get_array(snapshot, MVS_ARRAY_ANNULUS_NODES, &view));

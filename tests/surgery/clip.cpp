@@ -171,6 +171,14 @@ TEST_CASE("a_second_clip_has_a_distinct_name") {
   refused(second.current, op, MVS_E_OP, "joins these two places");
 }
 
+TEST_CASE("a_clip_of_one_stitch_has_no_width_in_its_title") {
+  auto op = clip();
+  op.width = op.reach = 1 * mm;
+  const Operated done = apply(shipped(), op);
+  REQUIRE(stitches(*done.current.model).size() == 1);
+  CHECK(done.title == "Join A2 and P2 by clip, 1 stitch");
+}
+
 TEST_CASE("impossible_clips_are_refused") {
   const ModelState valve = shipped();
   const Valve &parts = valve.model->valve;

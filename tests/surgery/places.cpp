@@ -2,6 +2,7 @@
 // head.
 #include <cmath>
 
+#include "measure/annulus/landmarks.h"
 #include "tests/about.h"
 #include "tests/surgery/operated.h"
 
@@ -61,6 +62,32 @@ TEST_CASE("an_annulus_is_scaled_along_its_axes_open_and_loaded") {
   }
   tissue_is_untouched(before, done.current);
   CHECK(done.title == "Scale the annulus to 80 % (AP) and 110 % (CC)");
+}
+
+TEST_CASE("an_annulus_that_a_ring_or_band_holds_is_not_scaled") {
+  auto ring = op_of<mvs_op_ring>(MVS_OP_RING);
+  ring.size = 34 * mm;
+  auto band = op_of<mvs_op_band>(MVS_OP_BAND);
+  band.factor = 0.9;
+  refused(apply(shipped(), ring).current, scaled(0.9, 0, 0), MVS_E_OP,
+          "ring ring holds the annulus");
+  refused(apply(shipped(), band).current, scaled(0, 1.1, 0), MVS_E_OP,
+          "band band holds the annulus");
+  // before the ring it may be
+  apply(apply(shipped(), scaled(1.2, 0, 0)).current, ring);
+}
+
+TEST_CASE("an_annulus_is_scaled_between_the_limits_of_a_ring") {
+  const ModelState before = shipped();
+  const double rest = Loop(before.model->valve.annulus, before.model->valve.rest).length();
+  const double share = loaded_annulus(before).perimeter / rest;
+  apply(before, scaled(0.251 / share, 0, 0));
+  refused(before, scaled(0.249 / share, 0, 0), MVS_E_OP, "cannot be gathered below 25 %");
+  ModelState current = apply(before, scaled(0.5, 0, 0)).current;
+  refused(current, scaled(0.4, 0, 0), MVS_E_OP, "take a larger factor");
+  current = apply(before, scaled(1.9, 0, 0)).current;
+  refused(current, scaled(1.9, 0, 0), MVS_E_OP,
+          "at most 300 % are possible, take a smaller factor");
 }
 
 TEST_CASE("a_head_moves_along_the_axes_of_the_scene_or_of_the_valve") {

@@ -133,11 +133,7 @@ void gather(const Surgery &s, const Stretch &stretch, CowVector<Vec3> &places) {
 }  // namespace
 
 void plicate(Surgery &s, const Vec3 &at, double width) {
-  MVS_MUST(
-      s.valve.rings.empty(), MVS_E_OP, "ring " + s.valve.rings.get()[0].name,
-      "%s: ring %s holds the annulus, which a quadrangle has to gather: resect first, or cut a "
-      "triangle",
-      s.op_name, s.valve.rings.get()[0].name.c_str());
+  must_have_no_ring(s, "which a quadrangle has to gather: resect first, or cut a triangle");
   const Stretch stretch = stretch_around(s, at, width);
   gather(s, stretch, s.valve.open);
   gather(s, stretch, s.valve.loaded);

@@ -173,8 +173,10 @@ void operate(Surgery &s, const mvs_op_clip &op) {
   const std::string name = free_clip_name(s, op.name);
   sew_pairs(s, pairs, name);
   open_the_valve(s);
-  s.title = format("Join %s and %s by %s, %zu stitches over %.1f mm", scallops[a].name.c_str(),
-                   scallops[p].name.c_str(), name.c_str(), pairs.size(), 1e3 * width);
+  s.title = format("Join %s and %s by %s, ", scallops[a].name.c_str(), scallops[p].name.c_str(),
+                   name.c_str());
+  s.title += pairs.size() == 1 ? "1 stitch"
+                               : format("%zu stitches over %.1f mm", pairs.size(), 1e3 * width);
   if (op.position != 0) s.title += ", " + place_in_words(s, a, sides.anterior);
   if (op.angle != 0)
     s.title += format(", turned by %.0f degrees", 180 / std::numbers::pi * op.angle);

@@ -15,10 +15,6 @@ namespace {
 // Physio II 34 as measured: 34.7 mm CC, 26.1 mm AP, saddle 4.7 mm (OPERATIONS.md).
 constexpr double ap_over_cc = 26.1 / 34.7, saddle_over_cc = 4.7 / 34.7;
 
-// Perimeter of a ring over that of the annulus at rest: a quarter is the smallest value that is
-// tested to close (OPERATIONS.md), 3 the limit of annulus_scale.
-constexpr double least_share = 0.25, largest_share = 3;
-
 std::vector<Vec3> given_curve(const mvs_op_ring &op) {
   const bool curve = op.curve.count != 0, size = op.size != 0;
   MVS_MUST(curve || size, MVS_E_ARGUMENT, "ring",
@@ -67,17 +63,7 @@ Rigid by_landmarks(const std::vector<Vec3> &from, const std::vector<Vec3> &to, d
 
 void must_fit_the_annulus(const Surgery &s, const Loop &ring, const Loop &annulus,
                           const Rigid &motion) {
-  const double rest = Loop(s.before.valve.annulus, s.before.valve.rest).length();
-  const double share = ring.length() / rest;
-  MVS_MUST(share >= least_share, MVS_E_OP, "ring",
-           "ring: its perimeter of %.1f mm is %.0f %% of the annulus's at rest: the tissue cannot "
-           "be gathered below %.0f %%, take a larger ring",
-           1e3 * ring.length(), 100 * share, 100 * least_share);
-  MVS_MUST(
-      share <= largest_share, MVS_E_OP, "ring",
-      "ring: its perimeter of %.1f mm is %.0f %% of the annulus's at rest: at most %.0f %% are "
-      "possible, take a smaller ring",
-      1e3 * ring.length(), 100 * share, 100 * largest_share);
+  must_be_a_perimeter(s, ring.length(), "ring");
   Vec3 offset = Vec3::Zero();
   for (int k = 0; k < 8; ++k) {
     offset += (motion(ring.at(ring.length() * k / 8)) - annulus.at(annulus.length() * k / 8)) / 8;
