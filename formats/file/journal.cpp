@@ -2,6 +2,7 @@
 #include "formats/file/journal.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -73,7 +74,8 @@ std::string journal_line(std::string_view text) {
 Journal Journal::create(const std::string &path, std::string_view first) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
   MVS_MUST(file.number() >= 0 || errno != EEXIST, MVS_E_STATE, "journal",
-           "the journal %s is there already: recover it, or move it away", path.c_str());
+           "the journal %s is there already: recover it, or move it away",
+           shown_path(path).c_str());
   if (file.number() < 0) fail_journal("create", path, errno);
   try {
     sync_folder(folder_of(path));
@@ -93,12 +95,22 @@ Journal Journal::reopen(const std::string &path, size_t bytes) {
   return {path, std::move(file), bytes};
 }
 
+void Journal::must_exist() const {
+  struct stat found;
+  if (::fstat(file_.number(), &found) != 0) fail_journal("read", path_, errno);
+  MVS_MUST(found.st_nlink > 0, MVS_E_IO, "journal",
+           "the journal %s was deleted while it was open, and its records are lost: save the "
+           "session, close the journal, and open another",
+           shown_path(path_).c_str());
+}
+
 void Journal::append(std::string_view text) {
+  must_exist();
   const std::string line = journal_line(text);
   MVS_MUST(line.size() <= max_file_bytes - size_, MVS_E_STATE, "journal",
            "the journal %s would have more than %zu bytes, which libmvs does not read: save the "
            "session, close the journal, and open another",
-           path_.c_str(), max_file_bytes);
+           shown_path(path_).c_str(), max_file_bytes);
   size_t written = 0;
   while (written < line.size()) {
     const ssize_t count = ::pwrite(file_.number(), line.data() + written, line.size() - written,

@@ -33,9 +33,11 @@ class Journal {
   // Opens a file for appending after its first `bytes` and drops the rest.
   static Journal reopen(const std::string &path, size_t bytes);
 
-  // Appends a record. If this fails, throws MVS_E_IO, or MVS_E_STATE if the file would be too long
-  // to be read again, and leaves it unchanged.
+  // Appends a record. If this fails, throws MVS_E_IO, also if the file was deleted, or MVS_E_STATE
+  // if the file would be too long to be read again, and leaves it unchanged.
   void append(std::string_view text);
+  // Throws MVS_E_IO if the file was deleted.
+  void must_exist() const;
   const std::string &path() const { return path_; }
 
  private:

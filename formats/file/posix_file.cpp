@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "base/utf8.h"
 
 namespace mvs::core {
 
@@ -24,6 +25,8 @@ const char *remedy_of(int error) {
     case EPERM:
     case EROFS:
       return "; choose another folder, or get the right to write there (chmod, chown)";
+    case ELOOP:
+      return "; remove the link, which leads back to itself";
     case ENOSPC:
     case EDQUOT:
       return "; free space on the disk";
@@ -39,12 +42,18 @@ std::string reason_of(int error) {
 
 }  // namespace
 
+std::string shown_path(const std::string &path) {
+  constexpr size_t longest = 140;
+  return without_middle(path, longest);
+}
+
 void fail_io(const char *verb, const std::string &what, int error, const char *part) {
-  fail(MVS_E_IO, part, "cannot %s %s: %s", verb, what.c_str(), reason_of(error).c_str());
+  fail(MVS_E_IO, part, "cannot %s %s: %s", verb, shown_path(what).c_str(),
+       reason_of(error).c_str());
 }
 
 void fail_to_write(const char *verb, const std::string &what, int error) {
-  fail(MVS_E_IO, "", "cannot %s %s: %s%s", verb, what.c_str(), reason_of(error).c_str(),
+  fail(MVS_E_IO, "", "cannot %s %s: %s%s", verb, shown_path(what).c_str(), reason_of(error).c_str(),
        remedy_of(error));
 }
 

@@ -26,6 +26,9 @@ class Descriptor {
   int number_;
 };
 
+// A path for a sentence: without the middle of a long one, so that the reason after it is not cut.
+std::string shown_path(const std::string &path);
+
 // Throws MVS_E_IO, "cannot VERB WHAT: the system's reason"; `error` is errno.
 [[noreturn]] void fail_io(const char *verb, const std::string &what, int error,
                           const char *part = "");

@@ -41,12 +41,22 @@ void write_all(const Descriptor &file, std::string_view bytes, const std::string
   }
 }
 
-// Resolves links, so that the target is replaced and the link stays.
-std::string follow_links(const std::string &path) {
-  char *const resolved = ::realpath(path.c_str(), nullptr);
-  if (!resolved) return path;
-  const std::unique_ptr<char, decltype(&std::free)> keep(resolved, &std::free);
-  return resolved;
+// Resolves links, so that the target is replaced and the link stays. realpath() resolves those to a
+// file that exists, readlink() those to a new one.
+std::string follow_links(std::string path) {
+  constexpr int most_links = 40;  // as Linux
+  for (int k = 0; k < most_links; ++k) {
+    const std::unique_ptr<char, decltype(&std::free)> found(::realpath(path.c_str(), nullptr),
+                                                            &std::free);
+    if (found) return found.get();
+    if (errno == ELOOP) break;
+    char target[4096];
+    const ssize_t length = ::readlink(path.c_str(), target, sizeof target);
+    if (length < 0) return path;
+    const std::string_view next(target, static_cast<size_t>(length));
+    path = next.starts_with('/') ? std::string(next) : folder_of(path) + "/" + std::string(next);
+  }
+  fail_to_write("write", path, ELOOP);
 }
 
 // Returns whether a file exists that is to be replaced, and its status.
@@ -54,7 +64,7 @@ bool find_old(const std::string &target, Status &old) {
   if (::stat(target.c_str(), &old) != 0) return false;
   if (S_ISDIR(old.st_mode)) fail_to_write("write", target, EISDIR);
   MVS_MUST(S_ISREG(old.st_mode), MVS_E_IO, "", "cannot write %s: it is a device or pipe, no file",
-           target.c_str());
+           shown_path(target).c_str());
   if (::access(target.c_str(), W_OK) != 0) fail_to_write("write", target, errno);
   return true;
 }
@@ -99,10 +109,10 @@ size_t size_to_read(const Descriptor &file, const std::string &path, size_t limi
   if (::fstat(file.number(), &status) != 0) fail_io("read", path, errno);
   if (S_ISDIR(status.st_mode)) fail_io("read", path, EISDIR);
   MVS_MUST(S_ISREG(status.st_mode) || S_ISFIFO(status.st_mode), MVS_E_IO, "",
-           "cannot read %s: it is a device, no file", path.c_str());
+           "cannot read %s: it is a device, no file", shown_path(path).c_str());
   const auto size = static_cast<uint64_t>(std::max<off_t>(status.st_size, 0));
-  MVS_MUST(size <= limit, MVS_E_MEMORY, "", "%s has %llu bytes, the limit is %zu", path.c_str(),
-           static_cast<unsigned long long>(size), limit);
+  MVS_MUST(size <= limit, MVS_E_MEMORY, "", "%s has %llu bytes, the limit is %zu",
+           shown_path(path).c_str(), static_cast<unsigned long long>(size), limit);
   return static_cast<size_t>(size);
 }
 
@@ -119,7 +129,7 @@ std::string read_whole_file(const std::string &path, size_t limit) {
     if (got < 0) fail_io("read", path, errno);
     filled += static_cast<size_t>(got);
     MVS_MUST(filled <= limit, MVS_E_MEMORY, "", "%s has more than %zu bytes, the limit",
-             path.c_str(), limit);
+             shown_path(path).c_str(), limit);
     if (got == 0) {
       bytes.resize(filled);
       return bytes;

@@ -21,8 +21,8 @@ extern "C" {
 typedef struct mvs_plan_options {
   uint32_t struct_size;
   uint32_t measures;  /* 1: the measures before and after each operation */
-  const char *author; /* nullable */
-  const char *notes;  /* nullable */
+  const char *author; /* UTF-8, nullable */
+  const char *notes;  /* UTF-8, nullable */
 } mvs_plan_options;
 
 /* Write the plan of a snapshot, from the valve that was set or loaded to the snapshot: to a file,
@@ -48,16 +48,18 @@ typedef struct mvs_replay {
 MVS_API mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size,
                                    mvs_replay *replay);
 
-/* Checks whether mvs_replay_plan would apply every operation of a plan. The simulator does not
- * change; settling is not replayed. */
+/* Checks whether mvs_replay_plan would apply every operation of a plan, and that its tools exist
+ * where it moves or removes them. The simulator does not change; settling is not replayed. */
 MVS_API mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t size,
                                   mvs_replay *replay);
 
 /* Start and end a journal of the present valve in a new file. While it is open, each operation,
  * undo, redo and checkpoint is on the disk before its call returns, or the call fails with MVS_E_IO
- * and nothing changes. The history so far is written first, with its undone operations and its
- * checkpoints. MVS_E_STATE if the file exists; if the call fails, no file remains. A journal of
- * more than 1 GiB could not be read: the call that would make it so long fails with MVS_E_STATE.
+ * and nothing changes. It fails as well if the file was deleted meanwhile, and so does
+ * mvs_close_journal, which closes the journal all the same. The history so far is written first,
+ * with its undone operations and its checkpoints. MVS_E_STATE if the file exists; if the call
+ * fails, no file remains. A journal of more than 1 GiB could not be read: the call that would make
+ * it so long fails with MVS_E_STATE.
  *
  * A new valve ends the journal, with a warning in the log: also the same valve with other tissue
  * (mvs_set_leaflet) or another mesh, and a snapshot of another valve that is restored. Operations

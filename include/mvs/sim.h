@@ -3,8 +3,8 @@
  * Different simulators are independent. One simulator is used by one thread at a time: a second
  * call during a call, from another thread or from a callback, gives MVS_E_STATE. A callback may
  * call mvs_get_stats and mvs_get_profile, which give the figures before the call. mvs_get_snapshot,
- * all functions of a const mvs_snapshot *, mvs_move_tool, mvs_move_tool_pose and mvs_get_tool may
- * be called from any thread at any time. */
+ * all functions of a const mvs_snapshot *, mvs_check_op, mvs_check_plan, mvs_move_tool,
+ * mvs_move_tool_pose and mvs_get_tool may be called from any thread at any time. */
 #ifndef MVS_SIM_H
 #define MVS_SIM_H
 
@@ -211,8 +211,10 @@ MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, m
 
 /* Begins a settle in slices, for a host whose only thread has to answer in between (the worker of a
  * browser, a window). The result has the same bits as that of mvs_settle. Until the end the valve
- * is as before: it may be read, and another call that changes it cancels the settle. Replaces a
- * settle already begun. `options` is nullable. */
+ * is as before: it may be read. A call that replaces the present snapshot cancels the settle: one
+ * that changes valve, state, tools or history, also mvs_set_load with the same load,
+ * mvs_begin_group, mvs_set_checkpoint, mvs_replay_plan and mvs_recover_journal. Replaces a settle
+ * already begun. `options` is nullable. */
 MVS_API mvs_result mvs_begin_settle(mvs_sim *sim, const mvs_settle_options *options);
 
 /* Advances the settle for `seconds`, 0 to 3600, and at least one iteration of Newton's method or

@@ -126,7 +126,8 @@ mvs_result mvs_open_journal(mvs_sim *sim, const char *path) {
 mvs_result mvs_close_journal(mvs_sim *sim) {
   return call_at_boundary(sim, [](mvs_sim &s) {
     MVS_MUST(s.journal, MVS_E_STATE, "journal", "no journal is open");
-    s.journal.reset();
+    const std::unique_ptr<const Journal> closed = std::move(s.journal);
+    closed->must_exist();
   });
 }
 

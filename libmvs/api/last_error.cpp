@@ -6,6 +6,7 @@
 
 #include "api/exception_boundary.h"
 #include "base/utf8.h"
+#include "formats/file/posix_file.h"
 #include "linalg/direct_solver.h"
 
 namespace {
@@ -27,11 +28,14 @@ mvs_result record_failure(mvs_result code, int32_t line, const char *part,
 
 Error about_file(const Error &error, const std::string &path) {
   if (path.empty()) return error;
-  // keeps the end of a long path, which has the file name, and leaves room for the reason
-  constexpr size_t longest = 150;
-  std::string where = path.size() > longest ? "..." + path.substr(path.size() - longest) : path;
+  std::string where = shown_path(path), sentence = error.what();
+  // "cannot open a.obj: ..." becomes "a.obj: cannot open it: ...": the path stands once
+  const size_t at = sentence.find(" " + where);
+  if (at != std::string::npos && sentence.find_first_of(": ", at + 1) == at + 1 + where.size()) {
+    sentence.replace(at + 1, where.size(), "it");
+  }
   if (error.line > 0) where += ":" + std::to_string(error.line);
-  return {error.code, error.part, where + ": " + error.what(), error.line};
+  return {error.code, error.part, where + ": " + sentence, error.line};
 }
 
 }  // namespace mvs::core

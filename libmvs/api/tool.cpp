@@ -87,7 +87,10 @@ mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id *tool) {
           read_list(read.bodies, read.body_count, read.body_stride, "desc.bodies", body_of);
       shape = read_bodies(bodies, "desc", read.strict_hulls == 1, warnings);
     }
-    must_be_near(*s.present().get(), read);
+    const SnapshotPtr now = s.present();
+    if (read.kind != MVS_TOOL_KIND_GRASP) {  // within reach of a node, or anywhere with by_node
+      must_be_near(now->model->valve, read_place(read.position, "desc.position"), "desc.position");
+    }
     *tool = add_tool_now(s, read, shape);
     for (const std::string &warning : warnings) s.log(MVS_LOG_WARNING, "%s", warning.c_str());
   });

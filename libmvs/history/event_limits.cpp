@@ -46,10 +46,17 @@ std::string fault_of_solver(const RecordedEvent &event) {
   return "";
 }
 
+std::string fault_of_place(const Vec3 &place) {
+  if ((place.cwiseAbs().array() <= limits::coordinate).all()) return "";
+  return format("the position is (%g, %g, %g) m: each has to be a number within %g", place.x(),
+                place.y(), place.z(), limits::coordinate);
+}
+
 std::string fault_of_tool(const Tool &tool) {
   constexpr double least = 1e-12;  // of a device's own tool
-  std::string fault =
-      fault_of_size("the stiffness", tool.stiffness, {least, limits::tool_stiffness.most});
+  std::string fault = fault_of_place(tool.position);
+  if (fault.empty())
+    fault = fault_of_size("the stiffness", tool.stiffness, {least, limits::tool_stiffness.most});
   if (fault.empty())
     fault =
         fault_of_size("the largest force", tool.max_force, {least, limits::tool_max_force.most});
@@ -73,6 +80,7 @@ std::string fault_of(const RecordedEvent &event) {
     case RecordedEvent::tool_add:
       return event.tools.empty() ? "" : fault_of_tool(event.tools.get()[0]);
     case RecordedEvent::tool_move:
+      return event.tools.empty() ? "" : fault_of_place(event.tools.get()[0].position);
     case RecordedEvent::tool_remove:
       break;
   }

@@ -22,6 +22,8 @@ inline constexpr Range dt = {1e-9, 1};           // s
 inline constexpr Range damping = {1e-6, 1e6};    // 1/s
 // Passes over the energy terms: a step needs four.
 inline constexpr uint32_t least_budget = 4, most_budget = 10000;
+// m, of a place in space, along each axis: a larger one is probably in another unit.
+inline constexpr double coordinate = 10;
 inline constexpr Range tool_radius = {1e-4, 0.02};      // m, of a ball or rod
 inline constexpr Range rod_length = {1e-3, 0.3};        // m
 inline constexpr Range tool_stiffness = {1, 1e5};       // N/m

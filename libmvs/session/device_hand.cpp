@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/option_checks.h"
+#include "history/event_limits.h"
 #include "linalg/eigenvalues.h"
 #include "session/nearest.h"
 #include "session/tools.h"
@@ -239,7 +240,8 @@ void Hand::follow(mvs_sim &sim) {
     if (!add(sim, describe(kind))) events_ |= MVS_EVENT_BLOCKED;
   } else if (held) {
     Tool moved = *held;
-    moved.position = place_;
+    // a scale of the view may carry it beyond the places that a recorded move may have
+    moved.position = place_.cwiseMax(-limits::coordinate).cwiseMin(limits::coordinate);
     if (moved.kind == ToolKind::rod) moved.axis = axis();
     if (moved.kind == ToolKind::convex) moved.axis = rodrigues_of(turn());
     sim.hands.post(moved, moved.kind == ToolKind::rod || moved.kind == ToolKind::convex);

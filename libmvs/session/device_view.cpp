@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/option_checks.h"
+#include "history/event_limits.h"
 #include "linalg/eigenvalues.h"
 #include "session/tools.h"
 
@@ -13,9 +14,9 @@ DeviceView DeviceView::read(const mvs_device_view &given) {
   must_be_zero(given.reserved, "view.reserved");
   DeviceView view;
   view.origin_ = Vec3::Map(given.origin);
-  MVS_MUST((view.origin_.array().abs() <= max_coordinate).all(), MVS_E_ARGUMENT, "view.origin",
+  MVS_MUST((view.origin_.array().abs() <= limits::coordinate).all(), MVS_E_ARGUMENT, "view.origin",
            "view.origin is (%g, %g, %g) m: each has to be a number within %g", given.origin[0],
-           given.origin[1], given.origin[2], max_coordinate);
+           given.origin[1], given.origin[2], limits::coordinate);
   const double *const q = given.rotation;
   const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
   // the stable norm of a NaN beside numbers may be finite

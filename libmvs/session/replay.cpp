@@ -9,6 +9,7 @@
 #include "history/tool_trajectory.h"
 #include "session/commit.h"
 #include "session/recorded_event.h"
+#include "session/tools.h"
 #include "solve/static/mesh_hierarchy.h"
 
 namespace mvs::core {
@@ -97,8 +98,12 @@ void Replay::execute(RecordedEvent event, const Json &place) {
   if (!exact_ && !place.is_null()) {
     event.tools[0].node = node_at_place(*now.current.model, place);
   }
-  if (!run_event_) return;
-  const Id added = event.kind == RecordedEvent::tool_add ? event.tools.get()[0].id : 0;
+  const bool is_add = event.kind == RecordedEvent::tool_add;
+  if (is_add && !exact_ && event.tools.get()[0].kind != ToolKind::grasp) {
+    must_be_near(now.current.model->valve, event.tools.get()[0].position, "position_m");
+  }
+  if (!run_event_) return note_tools(event);
+  const Id added = is_add ? event.tools.get()[0].id : 0;
   const Id next = first_tool_id + now.current.state.tools_made;
   if (added != 0) tools_[added] = next;
   for (size_t k = 0; k < event.tools.size(); ++k) {
@@ -106,6 +111,17 @@ void Replay::execute(RecordedEvent event, const Json &place) {
     if (known != tools_.end() && known->first != known->second) event.tools[k].id = known->second;
   }
   now = run_event_(now, event);
+}
+
+// Keeps the ids of the tools that a plan would have here; throws where it moves or removes another.
+void Replay::note_tools(const RecordedEvent &event) {
+  if (event.kind == RecordedEvent::tool_add) added_.insert(event.tools.get()[0].id);
+  const bool is_remove = event.kind == RecordedEvent::tool_remove;
+  for (const Tool &tool : event.tools.get()) {
+    if (added_.count(tool.id) > 0) continue;
+    tool_of(now.current.state, tool.id, is_remove ? "remove" : "move");
+  }
+  if (is_remove) added_.erase(event.tools.get()[0].id);
 }
 
 void Replay::run(const std::vector<PlanStep> &steps) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "formats/plan/plan.h"
 #include "session/simulator.h"
@@ -29,10 +30,12 @@ class Replay {
  private:
   void operate(const PlanStep &step);
   void execute(RecordedEvent event, const Json &place);
+  void note_tools(const RecordedEvent &event);
 
   bool exact_;
   RunEvent run_event_;
   std::map<Id, Id> tools_;  // recorded tool id -> id in this simulator
+  std::set<Id> added_;      // recorded ids of tools, where events are skipped
   std::string group_;       // of the last operation
   uint64_t group_id_ = 0, number_ = 0;
 };

@@ -81,9 +81,9 @@ void apply_at_once(mvs_sim &sim, const RecordedEvent &event) {
 
 Vec3 read_place(const double given[3], const char *what) {
   Vec3 place(given[0], given[1], given[2]);
-  MVS_MUST((place.cwiseAbs().array() <= max_coordinate).all(), MVS_E_ARGUMENT, what,
+  MVS_MUST((place.cwiseAbs().array() <= limits::coordinate).all(), MVS_E_ARGUMENT, what,
            "%s is (%g, %g, %g) m: each has to be a number within %g", what, place.x(), place.y(),
-           place.z(), max_coordinate);
+           place.z(), limits::coordinate);
   return place;
 }
 
@@ -109,14 +109,12 @@ double read_reach(double given, double fallback, const std::string &of) {
   return value_or(given, fallback);
 }
 
-void must_be_near(const mvs_snapshot &now, const mvs_tool_desc &desc) {
-  if (desc.kind == MVS_TOOL_KIND_GRASP) return;  // within reach of a node, or anywhere with by_node
-  const Vec3 place = read_place(desc.position, "desc.position");
-  const Extent extent = extent_of(now.model->valve);
-  MVS_MUST(!is_far(extent, place), MVS_E_ARGUMENT, "desc.position",
-           "desc.position lies %.3g m from the middle of a valve of %.3g m: positions are in m, in "
-           "the frame of the valve",
-           (place - extent.centre).norm(), extent.size);
+void must_be_near(const Valve &valve, const Vec3 &place, const char *what) {
+  const Extent extent = extent_of(valve);
+  MVS_MUST(!is_far(extent, place), MVS_E_ARGUMENT, what,
+           "%s lies %.3g m from the middle of a valve of %.3g m: positions are in m, in the frame "
+           "of the valve",
+           what, (place - extent.centre).norm(), extent.size);
 }
 
 Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc, const ToolShapePtr &shape) {

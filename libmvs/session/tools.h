@@ -20,17 +20,14 @@ struct ToolSizes {
 ToolSizes read_tool_sizes(const ToolSizes &given, const std::string &of);
 double read_reach(double given, double fallback, const std::string &of);
 
-// m, bound of all coordinates: a larger one is probably in another unit.
-inline constexpr double max_coordinate = 10;
-
-// Reads a point with coordinates within max_coordinate, and a direction, which is normalised; both
-// throw MVS_E_ARGUMENT.
+// Reads a point with coordinates within limits::coordinate, and a direction, which is normalised;
+// both throw MVS_E_ARGUMENT.
 Vec3 read_place(const double given[3], const char *what);
 Vec3 read_axis(const double given[3], const char *what);
 
 // Throws MVS_E_ARGUMENT if a tool that pushes is far from the valve: its position is in mm, or of
 // another frame.
-void must_be_near(const mvs_snapshot &now, const mvs_tool_desc &desc);
+void must_be_near(const Valve &valve, const Vec3 &place, const char *what);
 
 // `shape`: of a convex tool, in place of the bodies of `desc`.
 Id add_tool_now(mvs_sim &sim, const mvs_tool_desc &desc, const ToolShapePtr &shape = {});

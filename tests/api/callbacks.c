@@ -26,6 +26,10 @@ static int32_t take_progress(void *user, double share, double residual) {
   h->residual = residual;
   /* the simulator is busy: it refuses another call, but returns its latest snapshot */
   h->reentered |= mvs_step(h->sim, NULL) != MVS_E_STATE;
+  /* an operation can be checked, as from any thread: it reads the latest snapshot */
+  const mvs_op_annulus_scale op = {{sizeof op, MVS_OP_ANNULUS_SCALE}, 0.9, 0, 0};
+  CHECK(mvs_check_op(h->sim, &op.op) == MVS_OK);
+  CHECK(mvs_apply_op(h->sim, &op.op, NULL) == MVS_E_STATE);
   const mvs_snapshot *snapshot = NULL;
   h->seen += mvs_get_snapshot(h->sim, &snapshot) == MVS_OK;
   mvs_snapshot_release(snapshot);

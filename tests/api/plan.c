@@ -221,6 +221,31 @@ static void plans_that_cannot_be_done_are_told(void) {
   mvs_destroy(sim);
 }
 
+#define BALL(x)                                                                        \
+  "{\"do\":\"tool_add\",\"tool\":281474976710656,\"kind\":\"ball\",\"position_m\":[" x \
+  ",0,0.02],\"radius_m\":0.002,\"stiffness_N/m\":200,\"max_force_N\":5}"
+#define MOVE(x) "{\"do\":\"tool_move\",\"tool\":281474976710656,\"position_m\":[" x ",0,0.02]}"
+#define REMOVE_SECOND "{\"do\":\"tool_remove\",\"tool\":281474976710657}"
+#define REMOVE "{\"do\":\"tool_remove\",\"tool\":281474976710656}"
+
+/* As mvs_add_tool and mvs_move_tool refuse them. */
+static void tools_far_away_or_of_no_valve_are_told(void) {
+  static const char good[] = PLAN(BALL("0") "," MOVE("0.001") "," REMOVE "," BALL("0.001"));
+  mvs_sim *sim = new_valve(0);
+  refused(sim, PLAN(BALL("1e10")), MVS_E_FORMAT, "step 1: tool_add: the position is (1e+10, ");
+  refused(sim, PLAN(BALL("0") "," MOVE("11")), MVS_E_FORMAT, "step 2: tool_move: the position is");
+  refused(sim, PLAN(BALL("5")), MVS_E_ARGUMENT, "step 1 of the plan: position_m lies 5 m from");
+  refused(sim, PLAN(MOVE("0")), MVS_E_ID, "step 1 of the plan: move: tool 281474976710656");
+  refused(sim, PLAN(BALL("0") "," REMOVE "," MOVE("0")), MVS_E_ID, "step 3 of the plan: move: ");
+  refused(sim, PLAN(REMOVE), MVS_E_ID, "step 1 of the plan: remove: tool 281474976710656");
+  MUST(mvs_check_plan(sim, good, strlen(good), NULL));
+  MUST(mvs_replay_plan(sim, good, strlen(good), NULL));
+  /* the second tool of the plan is present now */
+  MUST_FAIL(mvs_check_plan(sim, PLAN(REMOVE), strlen(PLAN(REMOVE)), NULL), MVS_E_ID, "remove: ");
+  MUST(mvs_check_plan(sim, PLAN(REMOVE_SECOND), strlen(PLAN(REMOVE_SECOND)), NULL));
+  mvs_destroy(sim);
+}
+
 int main(void) {
   a_plan_replays_to_the_same_bits();
   a_replayed_plan_is_written_as_it_was_read();
@@ -228,5 +253,6 @@ int main(void) {
   steps_keep_their_budget();
   a_cancelled_replay_changes_nothing();
   plans_that_cannot_be_done_are_told();
+  tools_far_away_or_of_no_valve_are_told();
   return finish("plan");
 }

@@ -21,6 +21,19 @@ TEST_CASE("a_record_of_any_length_is_read_again") {
   CHECK(cut.torn);
 }
 
+TEST_CASE("a_journal_whose_file_was_deleted_takes_no_record") {
+  const Folder folder;
+  const std::string path = folder.file("a.journal"), other = folder.file("other.journal");
+  Journal journal = Journal::create(path, "{}");
+  journal.append("{}");
+  CHECK(::rename(path.c_str(), other.c_str()) == 0);
+  journal.append("{}");  // a file that was renamed is still there
+  CHECK(read_journal(read_whole_file(other)).texts.size() == 3);
+  CHECK(::unlink(other.c_str()) == 0);
+  CHECK(contains(failure(MVS_E_IO, [&] { journal.append("{}"); }), "was deleted"));
+  CHECK(contains(failure(MVS_E_IO, [&] { journal.must_exist(); }), "was deleted"));
+}
+
 TEST_CASE("a_journal_that_cannot_begin_leaves_no_file") {
   const Folder folder;
   const std::string path = folder.file("a.journal");

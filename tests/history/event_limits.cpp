@@ -40,12 +40,20 @@ RecordedEvent ball_of(double radius, double stiffness, double force) {
   return event;
 }
 
+RecordedEvent at(RecordedEvent::Kind kind, const Vec3 &place) {
+  RecordedEvent event = ball_of(3e-3, 200, 5);
+  event.kind = kind;
+  event.tools[0].position = place;
+  return event;
+}
+
 }  // namespace
 
 TEST_CASE("events_within_the_ranges_of_the_interface_are_read") {
   for (const RecordedEvent &event :
        {step_of(0), step_of(1e-9), step_of(1, 1e6, 4), step_of(1e-3, 1e-6, 10000),
-        load_of(400e3, 1), load_of(-400e3, 0), ball_of(1e-4, 1e5, 100), ball_of(0.02, 0.5, 1e-3)}) {
+        load_of(400e3, 1), load_of(-400e3, 0), ball_of(1e-4, 1e5, 100), ball_of(0.02, 0.5, 1e-3),
+        at(RecordedEvent::tool_add, {10, -10, 0}), at(RecordedEvent::tool_move, {0, 10, -10})}) {
     CHECK(fault_of(event) == "");
     CHECK_NOTHROW(check_event(event));
     Json steps = Json::array();
@@ -76,6 +84,8 @@ TEST_CASE("events_out_of_range_are_refused_by_plans_and_sessions") {
       {ball_of(4, 200, 5), "the radius is 4: it has to be 0.0001 to 0.02"},
       {ball_of(3e-3, 1e300, 5), "the stiffness is 1e+300"},
       {ball_of(3e-3, 200, 1e9), "the largest force is 1e+09"},
+      {at(RecordedEvent::tool_add, {10.1, 0, 0}), "the position is (10.1, 0, 0) m"},
+      {at(RecordedEvent::tool_move, {0, 0, -1e300}), "each has to be a number within 10"},
   };
   for (const Case &one : cases) {
     CAPTURE(one.sentence);

@@ -560,7 +560,8 @@ export const Format = {
   auto: 0,
   /**
    * extended OBJ (formats/FORMAT.md), read and write, exact round trip of valve and state without
-   * tools and history
+   * tools and history. A state that the file says is at rest, but whose largest out-of-balance
+   * force is above its tolerance, is not at rest: MVS_LOG_WARNING with both
    */
   obj: 1,
   /** VTK XML PolyData, write only: for ParaView and Slicer */

@@ -1118,8 +1118,10 @@ export class Functions extends Calls {
   /**
    * Begins a settle in slices, for a host whose only thread has to answer in between (the worker of
    * a browser, a window). The result has the same bits as that of mvs_settle. Until the end the
-   * valve is as before: it may be read, and another call that changes it cancels the settle.
-   * Replaces a settle already begun. `options` is nullable.
+   * valve is as before: it may be read. A call that replaces the present snapshot cancels the
+   * settle: one that changes valve, state, tools or history, also mvs_set_load with the same load,
+   * mvs_begin_group, mvs_set_checkpoint, mvs_replay_plan and mvs_recover_journal. Replaces a settle
+   * already begun. `options` is nullable.
    */
   mvs_begin_settle(sim: SimHandle, options?: SettleOptions | null): void {
     return this.invoke(signatures.mvs_begin_settle!, [sim, options]) as never;
@@ -1336,7 +1338,8 @@ export class Functions extends Calls {
   /**
    * Checks whether an operation can be applied now; nothing changes. MVS_E_OP for an impossible
    * operation, MVS_E_ID for a missing part or a part of another kind, MVS_E_ARGUMENT for a value
-   * out of its range; the sentence names the operation, the part and the remedy.
+   * out of its range or left out; the sentence names the operation, the part and the remedy. It
+   * reads the present snapshot, so that it may be called from any thread at any time.
    */
   mvs_check_op(sim: SimHandle, op: Operation): void {
     return this.invoke(signatures.mvs_check_op!, [sim, op]) as never;
@@ -1445,8 +1448,8 @@ export class Functions extends Calls {
   }
 
   /**
-   * Checks whether mvs_replay_plan would apply every operation of a plan. The simulator does not
-   * change; settling is not replayed.
+   * Checks whether mvs_replay_plan would apply every operation of a plan, and that its tools exist
+   * where it moves or removes them. The simulator does not change; settling is not replayed.
    */
   mvs_check_plan(sim: SimHandle, data: Uint8Array | string): Replay {
     return this.invoke(signatures.mvs_check_plan!, [sim, data]) as never;

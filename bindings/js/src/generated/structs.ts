@@ -734,7 +734,9 @@ export interface OpChordTransfer {
 
 /**
  * Scales the annulus about its centroid in its own frame, open and under load: to model pathologies
- * and to size rings.
+ * and to size rings. At least one of its fields is given. MVS_E_OP if a ring or band holds the
+ * annulus, or if its perimeter under load would be below 25 % or above 300 % of that at rest, the
+ * limits of a ring.
  */
 export interface OpAnnulusScale {
   /** in every direction [1] */
@@ -914,9 +916,9 @@ export interface OpInfo {
 export interface PlanOptions {
   /** 1: the measures before and after each operation */
   measures?: number | boolean;
-  /** nullable */
+  /** UTF-8, nullable */
   author?: string | null;
-  /** nullable */
+  /** UTF-8, nullable */
   notes?: string | null;
 }
 
@@ -1464,7 +1466,9 @@ export interface OperationValues {
   };
   /**
    * Scales the annulus about its centroid in its own frame, open and under load: to model
-   * pathologies and to size rings.
+   * pathologies and to size rings. At least one of its fields is given. MVS_E_OP if a ring or band
+   * holds the annulus, or if its perimeter under load would be below 25 % or above 300 % of that at
+   * rest, the limits of a ring.
    */
   annulus_scale: {
     /** in every direction [1] */
