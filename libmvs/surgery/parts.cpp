@@ -128,13 +128,13 @@ void must_have_no_ring(const Surgery &s, const char *remedy) {
 // A quarter is the smallest share that is tested to close (OPERATIONS.md), 3 the largest factor of
 // annulus_scale.
 void must_be_a_perimeter(const Surgery &s, double perimeter, const char *what) {
-  constexpr double least = 0.25, largest = 3;
+  constexpr double least = 0.25, largest = 3, rounding = 1e-9;
   const double share = perimeter / Loop(s.before.valve.annulus, s.before.valve.rest).length();
-  MVS_MUST(share >= least, MVS_E_OP, s.op_name,
+  MVS_MUST(share >= least - rounding, MVS_E_OP, s.op_name,
            "%s: a perimeter of %.1f mm is %.0f %% of the annulus's at rest: the tissue cannot be "
            "gathered below %.0f %%, take a larger %s",
            s.op_name, 1e3 * perimeter, 100 * share, 100 * least, what);
-  MVS_MUST(share <= largest, MVS_E_OP, s.op_name,
+  MVS_MUST(share <= largest + rounding, MVS_E_OP, s.op_name,
            "%s: a perimeter of %.1f mm is %.0f %% of the annulus's at rest: at most %.0f %% are "
            "possible, take a smaller %s",
            s.op_name, 1e3 * perimeter, 100 * share, 100 * largest, what);

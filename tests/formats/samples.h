@@ -131,11 +131,30 @@ class RandomBits {
   }
   std::string name(uint32_t number) {
     std::string text = std::to_string(number) + ":";
-    for (uint32_t k = below(12); k > 0; --k) text += static_cast<char>(bits() & 255);
+    for (uint32_t k = below(12); k > 0; --k) text += character(bits());
     return text;
   }
 
  private:
+  // A character of UTF-8 of one to four bytes.
+  static std::string character(uint64_t bits) {
+    const auto number = static_cast<uint32_t>(bits >> 8);
+    const auto low = [&](uint32_t code, int shift) {
+      return static_cast<char>(0x80 | ((code >> shift) & 0x3f));
+    };
+    if (bits % 4 == 0) return {static_cast<char>(number % 0x80)};
+    if (bits % 4 == 1) {
+      const uint32_t code = 0x80 + number % 0x780;
+      return {static_cast<char>(0xc0 | code >> 6), low(code, 0)};
+    }
+    if (bits % 4 == 2) {
+      const uint32_t code = 0x800 + number % 0xd000;
+      return {static_cast<char>(0xe0 | code >> 12), low(code, 6), low(code, 0)};
+    }
+    const uint32_t code = 0x10000 + number % 0x100000;
+    return {static_cast<char>(0xf0 | code >> 18), low(code, 12), low(code, 6), low(code, 0)};
+  }
+
   std::mt19937_64 engine_;
 };
 
@@ -220,7 +239,8 @@ inline void draw_numbers(RandomBits &random, Pair &pair) {
   valve.next_id = random.bits();
   pair.state.time = random.number();
   pair.state.steps = random.bits();
-  pair.state.load = {random.number(), std::ldexp(static_cast<double>(random.bits() >> 11), -53)};
+  pair.state.load = {4e5 * random.near()[0],
+                     std::ldexp(static_cast<double>(random.bits() >> 11), -53)};
 }
 
 // Anything that fits the types and has indices in range; not a valid valve.

@@ -60,8 +60,10 @@ Snapshot with_ring(const Snapshot &now) {
 }
 
 Snapshot start() {
-  Pair pair = moving_valve();
-  return {{std::make_shared<const Model>(pair.model), pair.state}, {}};
+  const Pair pair = moving_valve();
+  Valve valve = pair.model.valve;
+  valve.rings = {};  // they would hold the annulus
+  return {{make_model(std::move(valve)), pair.state}, {}};
 }
 
 // Operations with fields of many types, a group, checkpoints, something undone.
