@@ -48,6 +48,23 @@ void remove_near(const Vec3 &centre, double radius, ClosedSurface &surface) {
   });
 }
 
+// A disc whose anterior leaflet stands away from the other one along both of their borders.
+ClosedSurface parted(double by) {
+  const Disc disc(0.2 * mm);
+  const Valve &valve = disc.model->valve;
+  ClosedSurface surface{disc.x(), {}};
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    Tri corners = valve.triangles[t];
+    for (uint32_t &i : corners) {
+      if (valve.triangle_leaflet[t] != 0) continue;
+      surface.points.push_back(surface.points[i] + Vec3(by, 0, 0));
+      i = static_cast<uint32_t>(surface.points.size() - 1);
+    }
+    surface.triangles.push_back(corners);
+  }
+  return surface;
+}
+
 }  // namespace
 
 TEST_CASE("a_gap_that_the_valve_closes_is_measured_on_the_surface") {
@@ -99,7 +116,8 @@ TEST_CASE("gaps_of_a_surface_without_a_leaflet_are_not_measured") {
 }
 
 TEST_CASE("narrow_gaps_are_errors_of_a_surface_and_small_ones_show_nothing") {
-  CHECK(gaps_of(ring(16 * mm, 0.55 * mm)).gaps.empty());  // 1.1 mm wide
+  CHECK(gaps_of(ring(16 * mm, 0.85 * mm)).gaps.empty());      // 1.7 mm wide
+  CHECK(gaps_of(ring(16 * mm, 0.95 * mm)).gaps.size() == 1);  // 1.9 mm wide
   const ShownGaps small = gaps_of(ring(16 * mm, 1.6 * mm));
   REQUIRE(small.gaps.size() == 1);
   CHECK(small.area == about(hole_area(1.6 * mm), 2e-3));  // 8 mm2, less than 12
@@ -109,6 +127,16 @@ TEST_CASE("narrow_gaps_are_errors_of_a_surface_and_small_ones_show_nothing") {
   CHECK(findings[0].value == std::vector<double>{small.area});
   CHECK(findings[0].sentence.find("errors of a surface show as much") != std::string::npos);
   CHECK(!is_doubtful(findings[0]));
+}
+
+TEST_CASE("a_long_slit_as_wide_as_the_largest_of_ten_errors_is_no_gap") {
+  // it ends 10 mm from the free edge on both sides
+  const ShownGaps narrow = gaps_of(parted(1.6 * mm)), wide = gaps_of(parted(2.1 * mm));
+  CHECK(narrow.gaps.empty());
+  CHECK(narrow.most == 0);
+  REQUIRE(wide.gaps.size() == 1);
+  CHECK(wide.gaps[0].area == about(2 * 10 * mm * 2.1 * mm, 0.1));
+  CHECK(wide.gaps[0].width == about(2.1 * mm, 0.03));
 }
 
 TEST_CASE("gaps_that_the_fitted_valve_closes_are_doubtful") {
@@ -149,14 +177,14 @@ TEST_CASE("a_gap_does_not_count_where_the_missing_tissue_would_close_it") {
   const auto measured = [&](const ClosedSurface &given) {
     return shown_gaps(given, *p.model, closed.state.x, g);
   };
-  // the posterior leaflet, 13 to 15 mm high, lacks all but 9 mm, without which it overlapped the
+  // the posterior leaflet, 13 to 15 mm high, lacks all but 8 mm, without which it overlapped the
   // anterior one; or it has all and stands 5 mm away
   const Valve &valve = p.model->valve;
   ClosedSurface eaten{closed.state.x, {}}, apart{closed.state.x, g.sheet.triangles};
   for (size_t t = 0; t < valve.triangles.size(); ++t) {
     const Tri &c = valve.triangles[t];
     const bool is_posterior = valve.triangle_leaflet[t] == 1;
-    const auto is_high = [&](uint32_t i) { return g.coordinates.height[i] <= 9 * mm; };
+    const auto is_high = [&](uint32_t i) { return g.coordinates.height[i] <= 8 * mm; };
     if (!is_posterior || std::all_of(c.begin(), c.end(), is_high)) eaten.triangles.push_back(c);
     for (const uint32_t i : c) {
       const double share = std::min(1.0, g.coordinates.height[i] / (5 * mm));

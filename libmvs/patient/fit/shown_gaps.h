@@ -7,9 +7,10 @@
 // free edge, fills them, as leaflets do not part there.
 //
 // Errors of the surface open gaps as well: errors of segmentation networks (0.45 mm in the mean,
-// 3.6 mm 95 % Hausdorff) make narrow ones of little area, holes in one leaflet, and gaps beside
-// which leaflets end far from where their free edges are (leaflet_reach.h). They do not count
-// (tests/validation/shown_gaps.py).
+// 3.6 mm 95 % Hausdorff) make gaps that are narrower than the largest error along the line where
+// leaflets meet, gaps of little area, holes in one leaflet, and gaps beside which leaflets end far
+// from where their free edges are (leaflet_reach.h). They do not count
+// (tests/validation/shown_gaps.py). Wide false gaps remain, which look like true ones.
 #pragma once
 
 #include <string>
