@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
 
 #include "patient/findings.h"
 #include "patient/fit/leak_report.h"
@@ -42,6 +43,28 @@ TEST_CASE("a_closure_that_diverged_has_no_leak") {
   Findings sure;
   report_leaks(three_closures(3, false), {}, 0, sure);
   CHECK(range->confidence < find_finding(sure, "leak_interval")->confidence);
+}
+
+// The interval of a valve with guessed heads was narrower than with given ones, and nothing said why.
+TEST_CASE("landmarks_that_were_not_given_are_named_as_left_out_of_the_interval") {
+  const auto said = [](FindingSource tips, FindingSource commissures) {
+    Findings findings{{"papillary_tips", tips, 0.3, "", {}, "m"},
+                      {"commissures", commissures, 0.5, "", {}, "m"}};
+    report_leaks(three_closures(3, false), {}, 0, findings);
+    return find_finding(findings, "leak_interval")->sentence + "\n" +
+           find_finding(findings, "leak_limits")->sentence;
+  };
+  const std::string both = said(FindingSource::assumed, FindingSource::guessed);
+  CHECK(both.find("errors of the papillary heads and commissures, which were not given") !=
+        std::string::npos);
+  CHECK(both.find("errors of the guessed papillary heads and commissures, are not in it: give") !=
+        std::string::npos);
+  const std::string heads = said(FindingSource::assumed, FindingSource::given);
+  CHECK(heads.find("errors of the papillary heads, which") != std::string::npos);
+  CHECK(heads.find("commissures") == std::string::npos);
+  const std::string given = said(FindingSource::given, FindingSource::given);
+  CHECK(given.find("errors of") == std::string::npos);
+  CHECK(given.find("not given") == std::string::npos);
 }
 
 TEST_CASE("without_a_closure_at_rest_the_leak_is_not_determined") {

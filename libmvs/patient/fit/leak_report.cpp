@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "base/error.h"
+#include "patient/findings.h"
 
 namespace mvs::core {
 namespace {
@@ -45,6 +48,23 @@ std::string ranges_of(const LeakInterval &interval, const EdgeRange &edge, doubl
   return ranges;
 }
 
+// Landmarks of a list of findings that were not given, in words; empty: all were given, or the list
+// has none, as that of a valve without a surface.
+std::string not_given_words(const Findings &findings) {
+  constexpr std::pair<const char *, const char *> landmarks[] = {
+      {"papillary_tips", "papillary heads"}, {"commissures", "commissures"}};
+  std::string words;
+  for (const auto &[name, meaning] : landmarks) {
+    const Finding *found = find_finding(findings, name);
+    if (found == nullptr || (found->source != FindingSource::guessed &&
+                             found->source != FindingSource::assumed)) {
+      continue;
+    }
+    words += (words.empty() ? "" : " and ") + std::string(meaning);
+  }
+  return words;
+}
+
 Finding leaks_by_length(const LeakInterval &interval, double confidence, bool at_rest) {
   const auto &[f0, f1, f2] = interval.factor;
   Finding finding{
@@ -75,6 +95,7 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
       known ? std::min(1.0, (interval.most - interval.least) / unknown_leak) : 1.0;
   const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
   findings.push_back(leaks_by_length(interval, confidence, at_rest));
+  const std::string not_given = not_given_words(findings);
   const std::string ranges = ranges_of(interval, edge, thickness_error);
   Finding finding{"leak_interval", FindingSource::measured, confidence, {}, {}, "m2"};
   if (known) {
@@ -94,6 +115,9 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
       finding.sentence +=
           format("; that surface itself has gaps of %.1f to %.1f mm2", narrow * 1e6, wide * 1e6);
     }
+    if (!not_given.empty()) {
+      finding.sentence += "; errors of the " + not_given + ", which were not given, are not in it";
+    }
     finding.value = {interval.least, interval.most};
   } else {
     finding.sentence = format(
@@ -109,8 +133,10 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
        format(
            "meshes of one valve leak alike to %.1f mm2; an interval of %.0f mm2 says nothing, "
            "as grades of regurgitation are that far apart; leaks of ruptured or missing chordae, "
-           "and of other insertions than those of this valve, are not in it",
-           sealed_leak * 1e6, unknown_leak * 1e6),
+           "and of other insertions than those of this valve%s%s, are not in it%s",
+           sealed_leak * 1e6, unknown_leak * 1e6,
+           not_given.empty() ? "" : ", and errors of the guessed ", not_given.c_str(),
+           not_given.empty() ? "" : ": give them as landmarks"),
        {sealed_leak, unknown_leak},
        "m2"});
 }

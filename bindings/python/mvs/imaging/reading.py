@@ -13,8 +13,10 @@ from typing import Any, Optional, Union
 import numpy as np
 from numpy.typing import NDArray
 
-from mvs import ArgumentError, FormatError, IoError
+from mvs import FormatError, IoError
 from .needs import need
+from .segments import own_name, read_segments
+from .voxels import check_voxels
 from .whole_image import check_nifti, check_numbers, check_slices
 
 PathLike = Union[str, "os.PathLike[str]"]
@@ -41,14 +43,11 @@ class LabelMap:
 def read_volume(path: PathLike) -> Any:
     """Reads a grey volume as float32 (SimpleITK.Image); a folder is read as a DICOM series.
 
-    FormatError if the file is no volume of three dimensions, ArgumentError for a voxel size that no
-    image of a heart valve has.
+    FormatError if the file is no volume of three dimensions or has skewed axes, ArgumentError for a voxel
+    size that no image of a heart valve has.
     """
     image = _read(path)
     sitk = need("SimpleITK")
-    if image.GetNumberOfComponentsPerPixel() != 1:
-        raise FormatError(f"{os.fspath(path)}: has {image.GetNumberOfComponentsPerPixel()} values at "
-                          "each voxel: give a volume with one, or a .seg.nrrd file", "image")
     check_voxels(image, os.fspath(path))
     return sitk.Cast(image, sitk.sitkFloat32)
 
@@ -60,7 +59,8 @@ def read_labels(path: PathLike, names: Optional[dict[int, str]] = None) -> Label
         A signed label image (negative outside, positive inside) is one segment called "1"
     """
     if os.fspath(path).lower().endswith((".seg.nrrd", ".seg.nhdr")):
-        return _read_segments(path)
+        image, segments = read_segments(os.fspath(path))
+        return LabelMap(image, {one.name: one.mask for one in segments}, {one.name: one.value for one in segments})
     return labels_of(_read(path), names, os.fspath(path))
 
 
@@ -75,23 +75,31 @@ def labels_of(image: Any, names: Optional[dict[int, str]] = None, path: str = "i
         raise FormatError(f"{path}: the voxels are no whole numbers: this is a grey volume and no "
                           "label map", "labels")
     found = [int(k) for k in np.unique(values) if k != 0]
-    if len(found) > 64:
+    if len(found) > MOST_LABELS:
         raise FormatError(f"{path}: has {len(found)} different values: this is a grey volume and no "
-                          "label map (at most 64 labels)", "labels")
-    named = {k: (names or {}).get(k, str(k)) for k in found}
-    return LabelMap(image, {named[k]: np.asarray(values == k) for k in found},
-                    {named[k]: k for k in found})
+                          f"label map (at most {MOST_LABELS} labels)", "labels")
+    masks: dict[str, NDArray[np.bool_]] = {}
+    numbers: dict[str, int] = {}
+    for k in found:
+        name = own_name((names or {}).get(k, str(k)), masks)
+        masks[name], numbers[name] = np.asarray(values == k), k
+    return LabelMap(image, masks, numbers)
+
+
+MOST_LABELS = 64
+"""Labels of a label map beside the background; grey volumes have more values"""
 
 
 def is_label_map(image: Any) -> bool:
-    """Whether a volume holds at most 16 different whole numbers, or signs of inside and outside."""
+    """Whether a volume holds at most MOST_LABELS whole numbers beside 0, or signs of inside and outside."""
     values = need("SimpleITK").GetArrayViewFromImage(image)
     if is_signed(values):
         return True
     sample = np.unique(values.ravel()[:: max(1, values.size // 200_000)])
-    if len(sample) > 16 or (sample != np.rint(sample)).any():
+    if len(sample) > MOST_LABELS + 1 or (sample != np.rint(sample)).any():
         return False
-    return len(np.unique(values)) <= 16
+    found = np.unique(values)
+    return int((found != 0).sum()) <= MOST_LABELS and bool((found == np.rint(found)).all())
 
 
 SIGNED_MOST = 10.0
@@ -108,28 +116,6 @@ def is_signed(values: NDArray[Any]) -> bool:
     if not low < 0 < high <= SIGNED_MOST or abs(low + high) > 0.05 * high:
         return False
     return bool((np.abs(sample) > 0.9 * high).mean() > 0.5)
-
-
-def check_voxels(image: Any, path: str) -> None:
-    """Refuses voxel sizes that no image of a heart valve has: 0.005 to 3 mm are taken as mm."""
-    spacing = np.array(image.GetSpacing())
-    extent = spacing * np.array(image.GetSize())
-    words = " x ".join(f"{s:.3g}" for s in spacing)
-    if image.GetDimension() != 3:
-        raise FormatError(f"{path}: has {image.GetDimension()} dimensions: give one volume of 3", "image")
-    if (spacing < 0.005).any() and extent.max() < 1:
-        raise ArgumentError(
-            f"{path}: the voxels measure {words} mm and the whole image {extent.max():.3g} mm: the "
-            "spacing looks like metres. Multiply it by 1000 in the header", "spacing")
-    if extent.max() < 20:
-        raise ArgumentError(
-            f"{path}: the whole image measures {extent.max():.3g} mm, less than a mitral valve: the "
-            "spacing looks like cm or an image of a part. Give spacing in mm and the whole valve",
-            "spacing")
-    if (spacing > 3).any() or (spacing < 0.005).any():
-        raise ArgumentError(
-            f"{path}: the voxels measure {words} mm: leaflets are 1 mm thick and need voxels of at "
-            "most 3 mm on each side. Check the spacing in the header", "spacing")
 
 
 def _read(path: PathLike) -> Any:
@@ -173,33 +159,3 @@ def _read_dicom(folder: str) -> Any:
     image = reader.Execute()
     check_numbers(image, folder)
     return image
-
-
-def _read_segments(path: PathLike) -> LabelMap:
-    """The segments of a .seg.nrrd file, each of its own layer, placed by its header."""
-    sitk = need("SimpleITK")
-    name = os.fspath(path)
-    if not Path(name).exists():
-        raise IoError(f"{name}: there is no such file", "path")
-    try:
-        segmentation = need("slicerio").read_segmentation(name)
-        voxels, to_lps = segmentation["voxels"], np.array(segmentation["ijkToLPS"], float)
-        segments = segmentation["segments"]
-    except (OSError, ValueError, KeyError, IndexError) as error:
-        raise FormatError(f"{name}: is no segmentation of 3D Slicer ({error})", "path") from error
-    spacing = np.linalg.norm(to_lps[:3, :3], axis=0)
-    first = voxels[0] if voxels.ndim == 4 else voxels
-    image = sitk.GetImageFromArray(np.ascontiguousarray(first.T))
-    image.SetSpacing(spacing.tolist())
-    image.SetOrigin(to_lps[:3, 3].tolist())
-    image.SetDirection((to_lps[:3, :3] / spacing).ravel().tolist())
-    check_voxels(image, name)
-    masks, values = {}, {}
-    for segment in segments:
-        layer = voxels[int(segment.get("layer", 0))] if voxels.ndim == 4 else voxels
-        title, copy = segment.get("name") or segment["id"], 2
-        while title in masks:
-            title, copy = f"{segment['name']} {copy}", copy + 1
-        masks[title] = np.ascontiguousarray((layer == int(segment["labelValue"])).T)
-        values[title] = int(segment["labelValue"])
-    return LabelMap(image, masks, values)

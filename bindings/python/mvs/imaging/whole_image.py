@@ -12,9 +12,11 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mvs import FormatError
 from .needs import need
+from .voxels import MOST_SKEW, RESAMPLE
 
 NIFTI = (".nii", ".nii.gz")
 CHUNK = 1 << 24
@@ -61,10 +63,17 @@ def nifti_length(header: bytes) -> int:
     return int(offset) + voxels * bits // 8
 
 
+MOST_SHIFT = 0.25
+"""Voxels: by which the slices of a whole series may shift sideways, as coordinates are rounded"""
+
+
 def check_slices(folder: str, files: Sequence[str]) -> None:
-    """Refuses a DICOM series whose slices are not at equal distances."""
+    """Refuses a DICOM series whose slices do not lie behind one another at equal distances.
+
+    ITK puts them there: a series of a tilted gantry, whose slices shift sideways, would be sheared.
+    """
     sitk = need("SimpleITK")
-    places = []
+    places, axes, spacing = [], [], 1.0
     reader = sitk.ImageFileReader()
     for name in files:
         reader.SetFileName(name)
@@ -72,11 +81,25 @@ def check_slices(folder: str, files: Sequence[str]) -> None:
             reader.ReadImageInformation()
         except RuntimeError as error:
             raise FormatError(f"{name}: is no slice that can be read: copy or export it again", "path") from error
-        across = np.array(reader.GetDirection()).reshape(reader.GetDimension(), -1)[:3, 2]
-        places.append(float(across @ np.array(reader.GetOrigin())[:3]))
-    if len(places) < 3:
+        axes.append(np.array(reader.GetDirection()).reshape(reader.GetDimension(), -1)[:3, :3])
+        places.append(np.array(reader.GetOrigin())[:3])
+        spacing = min(reader.GetSpacing()[:2])
+    if len(places) < 2:
         return
-    at = np.sort(places)
+    if max(float(np.abs(one - axes[0]).max()) for one in axes) > MOST_SKEW:
+        raise FormatError(f"{folder}: the slices are not parallel to one another: give a series of parallel slices, or "
+                          "resample it", "axes")
+    across = axes[0][:, 2]
+    order = np.argsort(np.array(places) @ across, kind="stable")
+    placed = np.array(places)[order]
+    _check_gaps(folder, placed @ across)
+    _check_tilt(folder, placed, across, spacing)
+
+
+def _check_gaps(folder: str, at: NDArray[np.float64]) -> None:
+    """Refuses positions (n,) of slices along their normal, mm, in order, with gaps or several at one place."""
+    if len(at) < 3:
+        return
     gaps = np.diff(at)
     usual = float(np.median(gaps))
     widest = int(gaps.argmax())
@@ -87,6 +110,25 @@ def check_slices(folder: str, files: Sequence[str]) -> None:
     if gaps.min() < 0.01 * usual or usual <= 0:
         raise FormatError(f"{folder}: several slices lie in one place: this is a series of several volumes. Give one "
                           "of them", "path")
+
+
+def _check_tilt(folder: str, places: NDArray[np.float64], across: NDArray[np.float64], spacing: float) -> None:
+    """Refuses slices that shift sideways.
+
+    places: (n, 3) mm, LPS, first voxels of the slices in order
+    across: (3,), the normal of the slices
+    spacing: mm, of the voxels within a slice
+    """
+    steps = places - places[0]
+    aside = steps - np.outer(steps @ across, across)
+    shift = np.linalg.norm(aside, axis=1)
+    widest = int(shift.argmax())
+    if shift[widest] <= MOST_SHIFT * spacing:
+        return
+    angle = np.degrees(np.arctan2(shift[widest], abs(float(steps[widest] @ across))))
+    raise FormatError(
+        f"{folder}: the slices shift sideways by {shift[widest]:.1f} mm, {angle:.1f} degrees, as those of a tilted gantry: "
+        f"read as a straight stack the valve would be sheared. Before use, {RESAMPLE}", "axes")
 
 
 def check_numbers(image: Any, name: str) -> None:
