@@ -18,7 +18,7 @@ from mvs.imaging import mesh, open_valve  # noqa: E402
 from mvs.imaging.page import distance_histogram  # noqa: E402
 from mvs.imaging.requests import edge_of_labels, thickness_of_labels  # noqa: E402
 from mvs.imaging.tissue_sheet import fitted_sheet, grid_step, tissue_on_grid  # noqa: E402
-from mvs.imaging.valve import check_closed, distance_from_image  # noqa: E402
+from mvs.imaging.valve import check_closed, distance_from_image, distances_from_image, weighted_percentile  # noqa: E402
 
 def away_from_cone(points):
     """Distance (mm) of points from the cone's mid-surface."""
@@ -215,10 +215,27 @@ def test_the_histogram_of_the_page_shows_the_distance_of_the_table(monkeypatch):
     part = np.asarray(closed.triangle_nodes)[::7]  # the other way leads to the gaps as well
     loaded = mesh.Sheet(np.asarray(closed.node_position) + [0, 0, 1e-3], part)
     drawn, axvline = [], axes.Axes.axvline
+    shown, hist = [], axes.Axes.hist
+    monkeypatch.setattr(axes.Axes, "hist", lambda self, *given, **how: shown.append(hist(self, *given, **how)[:2]))
     monkeypatch.setattr(axes.Axes, "axvline",
                         lambda self, x, **how: (drawn.append(x), axvline(self, x, **how)))
     distance_histogram(types.SimpleNamespace(closed=closed, loaded=loaded))
     assert drawn == [pytest.approx(1e3 * distance_from_image(closed, loaded).values[0])]
+    ((counts, bins),) = shown
+    away, weights = distances_from_image(closed, loaded)
+    assert counts.sum() == pytest.approx(100)  # nothing is cut off
+    assert bins[-1] == pytest.approx(max(2, 1e3 * away.max()))
+    within = distance_from_image(closed, loaded).values[1]
+    assert weights[away <= within].sum() >= 0.95 > weights[away < within].sum()
+
+
+def test_a_percentile_of_two_surfaces_does_not_depend_on_their_numbers_of_points():
+    """Of 1,000 points at 1 mm and 10 at 3 mm, each group with a half of the weight, half lie within 1 mm."""
+    values = np.repeat([1e-3, 3e-3], [1000, 10])
+    weights = np.repeat([0.5 / 1000, 0.5 / 10], [1000, 10])
+    assert weighted_percentile(values, weights, 50) == 1e-3
+    assert weighted_percentile(values, weights, 95) == weighted_percentile(values, weights, 100) == 3e-3
+    assert weighted_percentile(np.arange(20.0), np.ones(20), 95) == 18
 
 
 @pytest.mark.parametrize(("voxel", "lost"), [(0.2e-3, 1.4e-3), (0.7e-3, 1.4e-3), (1e-3, 2e-3), (4e-3, 5e-3)])

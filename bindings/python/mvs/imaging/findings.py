@@ -16,6 +16,9 @@ import mvs
 CLOSED = ("closed_annulus", "closed_tips")
 POINTS = ("annulus", "commissures", "anterior", "papillary_tips", *CLOSED)
 LENGTHS = ("thickness", "edge_error", "edge_lost", "thickness_error")
+RANGES = {"edge": (2e-4, 5e-3), "thickness": (1e-4, 5e-3), "coaptation_length": (1e-3, 20e-3), "edge_error": (1e-6, 5e-3),
+          "edge_lost": (1e-6, 5e-3), "thickness_error": (1e-6, 2e-3), "chords": (20, 400)}
+"""Ranges of the options of a build (include/mvs/build.h), m; of `chords` a number"""
 LAW = "tissue"
 INPUTS = (*POINTS, *LENGTHS, LAW)
 """Findings that are an input of a build; lengths are one number each, m, the law is that of `mvs.LeafletLaw`."""
@@ -109,6 +112,10 @@ def known_values(path: Union[str, "os.PathLike[str]"], rows: Iterable[dict[str, 
         if values.ndim != 1 or not len(values) or len(values) % count or not np.isfinite(values).all():
             raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" needs finite numbers: points need "
                                   "x, y, z each, the others one", row["name"])
+        least, most = RANGES.get(row["name"], (-np.inf, np.inf))
+        if row["name"] in LENGTHS and not least <= values[0] <= most:
+            raise mvs.FormatError(f"{os.fspath(path)}: the finding \"{row['name']}\" has the value {values[0]:g} m: it has "
+                                  f"to be {least * 1e3:g} to {most * 1e3:g} mm", row["name"])
         known[row["name"]] = (float(values[0]) if row["name"] in LENGTHS else _law(path, values[0])
                               if row["name"] == LAW else values.reshape(-1, 3).copy())
     return known

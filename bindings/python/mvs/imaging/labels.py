@@ -60,15 +60,16 @@ def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None
                     image: str = "image") -> dict[str, int]:
     """The leaflet of each segment that is a part of the leaflets.
 
-    chosen: leaflet by name of segment, as the caller knows it; else by the names, or, if no name
-        means a leaflet and there is one segment, that one. ArgumentError names the segments otherwise
+    chosen: leaflet by name of segment, as the caller knows it, the other leaflet by name where it holds one only;
+        else by the names, or, if no name means a leaflet and there is one segment, that one. ArgumentError
+        names the segments otherwise
     """
     known = ", ".join(f'"{name}"' for name in labels.masks) or "none"
     if chosen:
         lost = [name for name in chosen if name not in labels.masks]
         if lost:
             raise ArgumentError(f'there is no segment "{lost[0]}"; the {image} has: {known}', "labels")
-        return dict(chosen)
+        return _with_other_leaflet(labels, chosen, known, image)
     filled = [name for name, mask in labels.masks.items() if mask.any()]
     if not filled:
         raise ArgumentError(f"the {image} has no valve in it: every voxel is background. Give the label map of the leaflets", "labels")
@@ -90,6 +91,22 @@ def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None
              f"one leaflet is missing: the {image} has {known}, and no segment of the {missing} leaflet. ")
             + "A valve needs both; if one segment holds both leaflets, say --leaflet-label", "labels")
     return meant
+
+
+def _with_other_leaflet(labels: LabelMap, chosen: Mapping[str, int], known: str, image: str) -> dict[str, int]:
+    """The chosen segments, and where they are of one leaflet those whose names mean the other."""
+    got = set(chosen.values())
+    if got not in ({ANTERIOR}, {POSTERIOR}):
+        return dict(chosen)
+    label = other_leaflet(max(got))
+    word, given = ("anterior", "posterior") if label == ANTERIOR else ("posterior", "anterior")
+    found = {name: label for name, mask in labels.masks.items()
+             if name not in chosen and mask.any() and leaflet_of(name) == label}
+    if not found:
+        raise ArgumentError(
+            f"the {given} leaflet alone is given, and no name of another segment means the {word} one (the {image} has: "
+            f"{known}): give --{word}-label as well, or --leaflet-label if one segment holds both leaflets", "labels")
+    return {**chosen, **found}
 
 
 def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,

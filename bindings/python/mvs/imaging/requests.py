@@ -11,12 +11,12 @@ import mvs
 from .console import Console
 from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, known_values, read_rows
 from .grid import spacing_of
-from .labels import ANTERIOR, POSTERIOR, UNKNOWN, Leaflets, leaflets_in
+from .labels import ANTERIOR, POSTERIOR, UNKNOWN, choose_segments, leaflets_in
 from .landmarks import read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
 from .open_valve import check_open_valve
-from .reading import LabelMap, is_label_map, labels_of, read_labels, read_volume
+from .reading import MOST_LABELS, LabelMap, is_label_map, labels_of, read_labels, read_volume
 from .tissue_sheet import LabelSettings
 from .valve import ImageValve, build, scanned
 
@@ -41,25 +41,31 @@ def _valve_of_request(chosen: argparse.Namespace, landmarks: dict[str, Any], con
     law = {"leaflet": landmarks.pop(LAW)} if LAW in landmarks else {}
     landmarks.update(_landmarks(chosen, ""))
     options = {**lengths, **law, **_options(chosen)}
+    own = _landmarks(chosen, "loaded_")
     console.stage("reading images")
-    image = _image(chosen.image)
-    loaded = _image(chosen.loaded) if chosen.loaded else None
+    image = _image(chosen.image, chosen)
+    loaded = _image(chosen.loaded, chosen) if chosen.loaded else None
     if not isinstance(image, LabelMap):
         from .microct.valve import valve_of_volumes
 
-        return valve_of_volumes(image, loaded, landmarks, _landmarks(chosen, "loaded_"),
-                                chosen.register, console, name=chosen.image.stem, **options)
+        _check_grey(chosen, loaded)
+        return valve_of_volumes(image, loaded, landmarks, own, chosen.register, console, name=chosen.image.stem,
+                                **options)
     if loaded is not None and not isinstance(loaded, LabelMap):
         raise mvs.ArgumentError("the open image is a label map and the loaded one a grey volume: give "
                                 "the labels of the loaded leaflets", "loaded")
-    return _valve_of_labels(chosen, image, loaded, landmarks, {**under_load, **options}, console)
+    return _valve_of_labels(chosen, image, loaded, landmarks, own, {**under_load, **options}, console)
 
 
 def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Optional[LabelMap],
-                     landmarks: dict[str, Any], options: dict[str, Any],
+                     landmarks: dict[str, Any], own: dict[str, Any], options: dict[str, Any],
                      console: Console) -> ImageValve:
+    """own: the landmarks of the loaded image."""
     settings = LabelSettings() if chosen.hole is None else LabelSettings(hole=chosen.hole * 1e-3)
     segments = _segments(chosen)
+    motion, how = motion_between(chosen.register or "none", landmarks, own)
+    if loaded is not None:
+        choose_segments(loaded, segments, "loaded image")  # refused before the work on the open one
     leaflets = leaflets_in(image, segments, settings,
                            lambda step: console.stage(f"open leaflets: {step}"))
     console.stage("open leaflets: rims and holes")
@@ -71,16 +77,12 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
     assumed = {name: value for name, value in assumed.items() if name not in options}
     options.update({name: float(one.values[0]) for name, one in assumed.items()})
     surface: Optional[Sheet] = None
-    motion = Motion.none()
     found: list[mvs.Finding] = []
     if loaded is not None:
         surface, found = closed_surface(loaded, segments, settings,
                                         lambda step: console.stage(f"closed leaflets: {step}"))
-        motion, how = motion_between(chosen.register or "none", landmarks,
-                                     _landmarks(chosen, "loaded_"))
         surface.points = motion(surface.points)
         found.append(how)
-        own = _landmarks(chosen, "loaded_")
         for part, name in (("annulus", "closed_annulus"), ("papillary_tips", "closed_tips")):
             if part in own:
                 options[name] = np.ascontiguousarray(motion(np.atleast_2d(own[part])))
@@ -182,12 +184,32 @@ def motion_between(how: str, landmarks: dict[str, Any],
         [*motion.turn.ravel(), *motion.shift])
 
 
-def _image(path: Any) -> Any:
-    """A label map, or a grey volume."""
+SEGMENT_OPTIONS = ("anterior_label", "posterior_label", "leaflet_label")
+
+
+def _image(path: Any, chosen: argparse.Namespace) -> Any:
+    """A label map, also wherever options name its segments, or a grey volume."""
     if str(path).lower().endswith((".seg.nrrd", ".seg.nhdr")):
         return read_labels(path)
     volume = read_volume(path)
-    return labels_of(volume, path=str(path)) if is_label_map(volume) else volume
+    if is_label_map(volume):
+        return labels_of(volume, path=str(path))
+    named = [option for option in SEGMENT_OPTIONS if getattr(chosen, option) is not None]
+    if named:
+        option = f"--{named[0].replace('_', '-')}"
+        raise mvs.ArgumentError(f"{path}: is a grey volume, and {option} names a segment of a label map (at most "
+                                f"{MOST_LABELS} whole numbers): give the label map, or leave {option} out", "labels")
+    return volume
+
+
+def _check_grey(chosen: argparse.Namespace, loaded: Any) -> None:
+    """Refuses what a grey volume of the open valve has no use for."""
+    if chosen.hole is not None:
+        raise mvs.ArgumentError(f"{chosen.image}: is a grey volume, and --hole is about holes in labels: leave it out, or "
+                                "give a label map", "hole")
+    if isinstance(loaded, LabelMap):
+        raise mvs.ArgumentError("the open image is a grey volume and the loaded one a label map: give two grey volumes, or "
+                                "the labels of both", "loaded")
 
 
 def _landmarks(chosen: argparse.Namespace, prefix: str) -> dict[str, Any]:
