@@ -12,7 +12,8 @@ pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
 from label_images import NAMES, funnel, image_of  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
-from mvs.imaging.labels import ANTERIOR, POSTERIOR, UNKNOWN, choose_segments, leaflet_of  # noqa: E402
+from mvs.imaging.labels import choose_segments  # noqa: E402
+from mvs.imaging.names import ANTERIOR, POSTERIOR, UNKNOWN, leaflet_of  # noqa: E402
 
 
 @pytest.mark.parametrize("ending", [".nii", ".nii.gz"])
@@ -29,6 +30,24 @@ def test_a_nifti_file_that_is_cut_short_is_refused(tmp_path, ending):
         path.write_bytes(gzip.compress(gzip.decompress(whole)[:-100]))
         with pytest.raises(mvs.FormatError, match="its header says"):
             imaging.read_labels(path)
+
+
+@pytest.mark.parametrize("ending", [".nrrd", ".nhdr", ".mha", ".mhd"])
+def test_damage_in_compressed_voxels_is_found_by_their_checksum(tmp_path, ending):
+    """ITK reads what zlib unpacked before the damage, and says nothing."""
+    path = tmp_path / f"a{ending}"
+    values = np.random.default_rng(0).integers(0, 3, (30, 30, 30)).astype(np.uint8)
+    image = sitk.GetImageFromArray(values)
+    sitk.WriteImage(image, str(path), True)
+    assert np.array_equal(sitk.GetArrayFromImage(imaging.read_labels(path).image), values)
+    (voxels,) = [one for one in tmp_path.iterdir() if one != path] or [path]
+    whole = voxels.read_bytes()
+    for damaged in (whole[:-8] + bytes([whole[-8] ^ 1]) + whole[-7:], whole[:-2000] + bytes(40) + whole[-1960:]):
+        voxels.write_bytes(damaged)
+        with pytest.raises(mvs.FormatError, match="voxels are (damaged|cut short)|SimpleITK"):
+            imaging.read_labels(path)
+    sitk.WriteImage(image, str(path), False)  # not compressed: no checksum
+    assert imaging.read_labels(path).image.GetSize() == (30, 30, 30)
 
 
 def write_series(folder, at):
@@ -81,8 +100,14 @@ def test_tissue_at_the_border_of_the_image_is_a_doubtful_finding():
 
 @pytest.mark.parametrize("name, leaflet", [
     ("Anterior papillary muscle", None), ("mitral annulus", None), ("posterior wall", None), ("aorta", None),
-    ("AnteriorLeaflet", ANTERIOR), ("posterior_leaflet", POSTERIOR), ("PML", POSTERIOR), ("mitral valve", UNKNOWN)])
-def test_names_of_other_parts_mean_no_leaflet(name, leaflet):
+    ("Left anterior descending", None), ("Hinterwand", None), ("commissure antérieure", None), ("LAD", None),
+    ("anterior tricuspid leaflet", None), ("AnteriorLeaflet", ANTERIOR), ("posterior_leaflet", POSTERIOR),
+    ("PML", POSTERIOR), ("mitral valve", UNKNOWN), ("A2", ANTERIOR), ("P3", POSTERIOR), ("AMVL", ANTERIOR),
+    ("PMVL", POSTERIOR), ("MV_ant.", ANTERIOR), ("MV_post.", POSTERIOR), ("Anteriore", ANTERIOR),
+    ("Lembo posteriore", POSTERIOR), ("feuillet ant\u00e9rieur", ANTERIOR), ("valve poste\u0301rieure", POSTERIOR),
+    ("Vorderes Mitralsegel", ANTERIOR), ("hinteres Segel", POSTERIOR), ("posterior (mitral)", POSTERIOR),
+    ("anterior and posterior leaflet", UNKNOWN), ("LeafletP1", POSTERIOR), ("tissue", None)])
+def test_names_of_segments_mean_leaflets_or_other_parts(name, leaflet):
     assert leaflet_of(name) == leaflet
 
 

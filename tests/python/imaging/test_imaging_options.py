@@ -1,6 +1,9 @@
 """mvs.imaging: what the command refuses before the work: ranges in mm, outputs, options that contradict one another."""
 
+import json
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import mvs
@@ -15,8 +18,9 @@ from label_images import NAMES, funnel, image_of  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging import requests  # noqa: E402
 from mvs.imaging.command import main, parser_of  # noqa: E402
-from mvs.imaging.findings import RANGES, read_known  # noqa: E402
+from mvs.imaging.findings import RANGES, finding, read_known, with_limits  # noqa: E402
 from mvs.imaging.labels import choose_segments  # noqa: E402
+from mvs.imaging.landmarks import anterior_on_label  # noqa: E402
 
 
 @pytest.fixture(autouse=True)
@@ -155,3 +159,57 @@ def test_labels_of_many_organs_are_no_grey_volume(tmp_path, monkeypatch):
         main([str(tmp_path / "many.nrrd"), "--anterior-label", "1", "--posterior-label", "2", "--quiet",
               "-o", str(tmp_path / "a.h5")])
     assert seen == [(20, {"1": 1, "2": 2})]
+
+
+def points_file(path, points):
+    rows = [{"id": str(k), "position": [float(c) for c in p], "positionStatus": "defined"} for k, p in enumerate(points)]
+    path.write_text(json.dumps({"markups": [{"type": "Fiducial", "coordinateSystem": "LPS", "coordinateUnits": "mm",
+                                             "controlPoints": rows}]}))
+    return str(path)
+
+
+@pytest.mark.parametrize("given, words", [
+    ({"--tips": [[12, 0, -20], [12, 0, -20]]}, "points 1 and 2 lie at one place"),
+    ({"--commissures": [[12, 0, 0]]}, "commissures: 1 point given: a mitral valve has two"),
+    ({"--anterior": [[0, 12, 0], [0, 11, 0]]}, "anterior: 2 points given"),
+    ({"--tips": [[12, 0, -20], [-12, 0, -20]], "--loaded-tips": [[12, 0, -20]]}, "--loaded-tips has 1")])
+def test_numbers_of_landmarks_are_checked_before_images_are_read(tmp_path, capsys, open_image, given, words):
+    call = [str(open_image), "--loaded", str(open_image), "-o", str(tmp_path / "a.h5"), "--quiet"]
+    for option, points in given.items():
+        call += [option, points_file(tmp_path / f"{option[2:]}.mrk.json", points)]
+    assert main(call) == 1
+    assert words in capsys.readouterr().err
+
+
+def test_an_anterior_point_on_the_posterior_label_is_a_doubtful_finding():
+    centres, leaflet = np.array([[0, 0.01, 0], [0, -0.01, 0]]), np.array([1, 2], np.uint32)
+    assert anterior_on_label(np.array([[0, 0.012, 0]]), centres, leaflet) == ()
+    (found,) = anterior_on_label(np.array([[0, -0.012, 0]]), centres, leaflet)
+    assert found.doubtful and "exchange --anterior-label and --posterior-label" in found.sentence
+    assert anterior_on_label(np.array([[0, -0.012, 0]]), centres, 0 * leaflet) == ()
+
+
+def test_libraries_below_write_nothing_before_the_sentence(tmp_path):
+    """GDCM and ITK warned of files that are not theirs."""
+    for k in range(3):
+        (tmp_path / f"{k}.dcm").write_bytes(bytes(128) + b"DICM" + bytes(range(200)))
+    (tmp_path / "a.nrrd").write_bytes(b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 30 30 30\nencoding: raw\n\nshort")
+    for image in (tmp_path, tmp_path / "a.nrrd"):
+        done = subprocess.run([sys.executable, "-m", "mvs.imaging", str(image), "-o", str(tmp_path / "a.h5"), "--quiet"],
+                              capture_output=True, text=True)
+        assert done.returncode == 1
+        assert done.stderr.startswith("mvs-image: ") and done.stderr.count("\n") == 1
+
+
+def test_guessed_landmarks_are_named_as_left_out_of_the_interval_of_leaks():
+    """Also those of an earlier run, which a build takes for given."""
+    def findings(tips, said=""):
+        return [finding("papillary_tips", tips, 0.2, ""), finding("leak_interval", mvs.FindingSource.MEASURED, 1, said, [0, 1]),
+                finding("leak_limits", mvs.FindingSource.ASSUMED, 1, "")]
+
+    _, interval, limits = with_limits(findings(mvs.FindingSource.ASSUMED))
+    assert "errors of the papillary heads, which were not given" in interval.sentence
+    assert "errors of the guessed papillary heads are not in it" in limits.sentence
+    assert [one.sentence for one in with_limits(findings(mvs.FindingSource.GIVEN))] == ["", "", ""]
+    again = with_limits(with_limits(findings(mvs.FindingSource.GUESSED)))
+    assert again[1].sentence.count("not given") == again[2].sentence.count("errors of") == 1

@@ -120,6 +120,7 @@ def _print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None
         print(f"after {facts['operations']} operations: "
               f"{'at rest' if facts['converged'] else 'NOT at rest'}, "
               f"{facts['regurgitant_orifice_area_mm2']:.1f} mm2")
+    print(f"  {'finding':<18} {'from':<9} sure   what was seen, and what to give if it is wrong")
     for row in rows:
         print(f"  {row['name']:<18} {row['source']:<9} {100 * row['confidence']:3.0f} %  "
               f"{row['sentence']}")

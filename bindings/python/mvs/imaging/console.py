@@ -1,9 +1,12 @@
-"""Progress of long work on stderr: the name of a stage, its share where it is known, and times."""
+"""What the command shows on stderr: the progress of long work, and nothing of the libraries below."""
 
 from __future__ import annotations
 
+import contextlib
+import os
 import sys
 import time
+from collections.abc import Iterator
 from typing import Optional, TextIO
 
 
@@ -48,3 +51,24 @@ class Console:
         if self._name and not self._quiet and self._stream.isatty():
             self._stream.write("\n")
             self._stream.flush()
+
+
+@contextlib.contextmanager
+def silenced() -> Iterator[None]:
+    """Drops what C++ libraries write to stderr, such as warnings of ITK and GDCM before they raise an error, whose
+    sentence is shown."""
+    sys.stderr.flush()
+    try:
+        kept = os.dup(2)
+    except OSError:  # a process without stderr
+        yield
+        return
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, 2)
+        yield
+    finally:
+        sys.stderr.flush()
+        os.dup2(kept, 2)
+        os.close(kept)
+        os.close(nowhere)

@@ -139,6 +139,28 @@ def keep_doubts(rows: Iterable[dict[str, Any]], findings: Iterable[mvs.Finding])
     return tuple(kept(one) for one in findings)
 
 
+UNVARIED = {"papillary_tips": "papillary heads", "commissures": "commissures"}
+
+
+def with_limits(findings: Iterable[mvs.Finding]) -> tuple[mvs.Finding, ...]:
+    """Findings in which the interval of leaks names the landmarks that are guessed or assumed, whose errors are not in
+    it. A build says so of its own guesses; not of those of an earlier run, nor beside chordae of an image."""
+    kept = tuple(findings)
+    unsure = (mvs.FindingSource.GUESSED, mvs.FindingSource.ASSUMED)
+    words = " and ".join(meaning for name, meaning in UNVARIED.items()
+                         if any(one.name == name and one.source in unsure for one in kept))
+    said = {"leak_interval": f"; errors of the {words}, which were not given, are not in it",
+            "leak_limits": f"; errors of the guessed {words} are not in it: give them as landmarks"}
+
+    def limited(one: mvs.Finding) -> mvs.Finding:
+        known = "which were not given" in one.sentence or "errors of the guessed" in one.sentence
+        if not words or known or one.name not in said or one.name == "leak_interval" and not len(one.values):
+            return one
+        return dataclasses.replace(one, sentence=one.sentence + said[one.name])
+
+    return tuple(limited(one) for one in kept)
+
+
 def _law(path: Union[str, "os.PathLike[str]"], number: float) -> mvs.LeafletLaw:
     try:
         return mvs.LeafletLaw(number)

@@ -7,7 +7,6 @@ what is mended is a finding, and what no rule mends is refused with a sentence.
 from __future__ import annotations
 
 import dataclasses
-import re
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional
 
@@ -18,13 +17,10 @@ from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Grid, Volume, spacing_of
 from .mesh import Sheet, areas, handles, in_largest_piece, is_crumpled, largest_piece, loop_length, loops_by_length
+from .names import ANTERIOR, POSTERIOR, UNKNOWN, leaflet_of
 from .needs import need
 from .reading import LabelMap
 from .tissue_sheet import LabelSettings, Tell, check_sheet, fitted_sheet, grid_step, silent, tissue_on_grid
-
-UNKNOWN, ANTERIOR, POSTERIOR = 0, 1, 2
-WORDS = {ANTERIOR: ("anterior", "aml", "ant", "a"), POSTERIOR: ("posterior", "pml", "post", "p")}
-
 
 @dataclasses.dataclass(eq=False)
 class Leaflets:
@@ -33,22 +29,6 @@ class Leaflets:
     sheet: Sheet
     leaflet: NDArray[np.uint32]
     findings: list[Finding]
-
-
-OTHER_PARTS = ("papill", "annul", "muscl", "chord", "ventric", "atrium", "aort", "commiss", "wall", "tendon")
-"""Beginnings of the names of other parts: "anterior papillary muscle", "mitral annulus"."""
-
-
-def leaflet_of(name: str) -> Optional[int]:
-    """The leaflet that the name of a segment means; 0: leaflets without distinction; None: neither."""
-    apart = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name)  # AnteriorLeaflet
-    words = apart.lower().replace("_", " ").replace("-", " ").split()
-    if any(word.startswith(OTHER_PARTS) for word in words):
-        return None
-    for label, known in WORDS.items():
-        if any(word in known for word in words):
-            return label
-    return UNKNOWN if any(w.startswith(("leaflet", "valve", "mitral", "mv")) for w in words) else None
 
 
 def other_leaflet(label: int) -> int:

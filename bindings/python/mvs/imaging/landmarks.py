@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 from collections.abc import Mapping
 from typing import Any, Optional, Union
@@ -10,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mvs
+from .findings import finding
+from .names import POSTERIOR
 
 Points = NDArray[np.float64]
 PARTS = ("annulus", "commissures", "anterior", "papillary_tips")
@@ -33,6 +36,44 @@ def read_part(path: Union[str, "os.PathLike[str]"], part: str,
     if not len(points):
         raise mvs.ArgumentError(f"{os.fspath(path)}: has no points", part)
     return points
+
+
+COUNTS = {"commissures": (2, 2, "a mitral valve has two"), "anterior": (1, 1, "give one point of that leaflet"),
+          "papillary_tips": (1, 64, "give at most 64")}
+SAME = 1e-4
+"""m: tips of papillary muscles that are nearer to one another are one point twice"""
+
+
+def check_counts(points: Mapping[str, Any], words: str = "") -> None:
+    """Refuses too few or too many points of a part, and one tip twice.
+
+    points: (n, 3) m by part; words: before the name of a part in a sentence, such as "loaded "
+    """
+    for part, (least, most, hint) in COUNTS.items():
+        if points.get(part) is None:
+            continue
+        given = np.atleast_2d(points[part])
+        if not least <= len(given) <= most:
+            raise mvs.ArgumentError(f"{words}{part}: {len(given)} point{'s' if len(given) > 1 else ''} given: {hint}", part)
+        for k in range(1, len(given)) if part == "papillary_tips" else ():
+            twin = np.linalg.norm(given[:k] - given[k], axis=1)
+            if twin.min() < SAME:
+                raise mvs.ArgumentError(f"{words}{part}: points {int(twin.argmin()) + 1} and {k + 1} lie at one place: give "
+                                        "each tip once, at least one of each papillary muscle", part)
+
+
+def anterior_on_label(point: Points, centres: Points, leaflet: NDArray[np.uint32]) -> tuple[mvs.Finding, ...]:
+    """A doubtful finding if the point of the anterior leaflet lies on the label of the posterior one.
+
+    point: (1, 3) m; centres: (m, 3) m, of triangles; leaflet: (m,) 0 unknown, 1 anterior, 2 posterior
+    """
+    if leaflet[int(nearest_tree(centres).query(np.atleast_2d(point))[1][0])] != POSTERIOR:
+        return ()
+    return (dataclasses.replace(finding(
+        "anterior_label", mvs.FindingSource.MEASURED, 0.2,
+        "the point of the anterior leaflet lies on the segment of the posterior one; the point was taken, not the names "
+        "of the segments: if they are right, correct the point, else exchange --anterior-label and --posterior-label"),
+        doubtful=True),)
 
 
 def check_near(points: Mapping[str, Any], tissue: Points, name: str = "the tissue") -> None:

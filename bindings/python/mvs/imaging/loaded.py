@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Floats, Points, spacing_of
-from .labels import ANTERIOR, POSTERIOR, choose_segments
+from .labels import choose_segments
 from .mesh import Sheet, areas, largest_piece
+from .names import ANTERIOR, POSTERIOR
 from .needs import need
 from .reading import LabelMap
 from .spurs import without_spurs

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from mvs import FormatError, IoError
 from .needs import need
+from .packed import check_packed
 from .segments import own_name, read_segments
 from .voxels import check_voxels
 from .whole_image import check_nifti, check_numbers, check_slices
@@ -126,6 +127,7 @@ def _read(path: PathLike) -> Any:
     if not Path(name).exists():
         raise IoError(f"{name}: there is no such file", "path")
     check_nifti(name)
+    check_packed(name)
     try:
         image = sitk.ReadImage(name)
     except RuntimeError as error:

@@ -8,13 +8,14 @@ from typing import Any, Optional
 import numpy as np
 
 import mvs
-from .console import Console
-from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, known_values, read_rows
+from .console import Console, silenced
+from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, known_values, read_rows, with_limits
 from .grid import spacing_of
-from .labels import ANTERIOR, POSTERIOR, UNKNOWN, choose_segments, leaflets_in
-from .landmarks import read_part
+from .labels import choose_segments, leaflets_in
+from .landmarks import anterior_on_label, check_counts, read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
+from .names import ANTERIOR, POSTERIOR, UNKNOWN
 from .open_valve import check_open_valve
 from .reading import MOST_LABELS, LabelMap, is_label_map, labels_of, read_labels, read_volume
 from .tissue_sheet import LabelSettings
@@ -30,7 +31,7 @@ def valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve
     made = _valve_of_request(chosen, known_values(chosen.known, rows), console)
     given = {*_options(chosen), *(part for option, part in PARTS.items() if getattr(chosen, option)),
              *((LAW,) if chosen.leaflet else ())}
-    made.findings = keep_doubts([row for row in rows if row["name"] not in given], made.findings)
+    made.findings = with_limits(keep_doubts([row for row in rows if row["name"] not in given], made.findings))
     return made
 
 
@@ -42,6 +43,7 @@ def _valve_of_request(chosen: argparse.Namespace, landmarks: dict[str, Any], con
     landmarks.update(_landmarks(chosen, ""))
     options = {**lengths, **law, **_options(chosen)}
     own = _landmarks(chosen, "loaded_")
+    _check_landmarks(landmarks, own)
     console.stage("reading images")
     image = _image(chosen.image, chosen)
     loaded = _image(chosen.loaded, chosen) if chosen.loaded else None
@@ -78,11 +80,14 @@ def _valve_of_labels(chosen: argparse.Namespace, image: LabelMap, loaded: Option
     options.update({name: float(one.values[0]) for name, one in assumed.items()})
     surface: Optional[Sheet] = None
     found: list[mvs.Finding] = []
+    if landmarks.get("anterior") is not None:
+        sheet = leaflets.sheet
+        found += anterior_on_label(landmarks["anterior"], sheet.points[sheet.triangles].mean(axis=1), leaflets.leaflet)
     if loaded is not None:
-        surface, found = closed_surface(loaded, segments, settings,
-                                        lambda step: console.stage(f"closed leaflets: {step}"))
+        surface, of_surface = closed_surface(loaded, segments, settings,
+                                             lambda step: console.stage(f"closed leaflets: {step}"))
         surface.points = motion(surface.points)
-        found.append(how)
+        found += [*of_surface, how]
         for part, name in (("annulus", "closed_annulus"), ("papillary_tips", "closed_tips")):
             if part in own:
                 options[name] = np.ascontiguousarray(motion(np.atleast_2d(own[part])))
@@ -144,8 +149,8 @@ def thickness_of_labels(sheet: Sheet, voxel: float) -> dict[str, mvs.Finding]:
         "thickness": finding(
             "thickness", mvs.FindingSource.ASSUMED, 0.4,
             f"{assumed * 1e3:.2f} mm everywhere, as of normal leaflets: the labels are "
-            f"{width * 1e3:.2f} mm wide, {width / voxel:.1f} voxels, and such labels are as wide on thinner "
-            "tissue; give --thickness if it is known", [assumed], "m"),
+            f"{width * 1e3:.2f} mm wide, {np.floor(100 * width / voxel) / 100:.2f} voxels and less than {RESOLVED:g}, and such "
+            "labels are as wide on thinner tissue; give --thickness if it is known", [assumed], "m"),
         "thickness_error": finding(
             "thickness_error", mvs.FindingSource.ASSUMED, 0.4,
             f"the leaflets may be {NORMAL_RANGE * 1e3:.2f} mm thicker or thinner; the interval of leaks "
@@ -190,8 +195,10 @@ SEGMENT_OPTIONS = ("anterior_label", "posterior_label", "leaflet_label")
 def _image(path: Any, chosen: argparse.Namespace) -> Any:
     """A label map, also wherever options name its segments, or a grey volume."""
     if str(path).lower().endswith((".seg.nrrd", ".seg.nhdr")):
-        return read_labels(path)
-    volume = read_volume(path)
+        with silenced():
+            return read_labels(path)
+    with silenced():
+        volume = read_volume(path)
     if is_label_map(volume):
         return labels_of(volume, path=str(path))
     named = [option for option in SEGMENT_OPTIONS if getattr(chosen, option) is not None]
@@ -215,6 +222,16 @@ def _check_grey(chosen: argparse.Namespace, loaded: Any) -> None:
 def _landmarks(chosen: argparse.Namespace, prefix: str) -> dict[str, Any]:
     return {part: read_part(getattr(chosen, prefix + option), part, chosen.frame)
             for option, part in PARTS.items() if getattr(chosen, prefix + option)}
+
+
+def _check_landmarks(landmarks: dict[str, Any], loaded: dict[str, Any]) -> None:
+    """Refuses faulty numbers of points before images are read."""
+    check_counts(landmarks)
+    check_counts(loaded, "loaded ")
+    tips = [len(np.atleast_2d(part["papillary_tips"])) for part in (landmarks, loaded) if "papillary_tips" in part]
+    if len(tips) == 2 and tips[0] != tips[1]:
+        raise mvs.ArgumentError(f"--tips has {tips[0]} points and --loaded-tips has {tips[1]}: give the same tips in the same "
+                                "order", "papillary_tips")
 
 
 def _segments(chosen: argparse.Namespace) -> Optional[dict[str, int]]:

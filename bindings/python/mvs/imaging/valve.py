@@ -15,7 +15,7 @@ import mvs
 from .findings import finding
 from .grid import Floats, Grid, Points, crop, isotropic
 from .labels import Leaflets
-from .landmarks import PARTS, check_near
+from .landmarks import PARTS, check_counts, check_near
 from .loaded import Motion
 from .mesh import Sheet
 from .needs import need
@@ -91,6 +91,7 @@ def build(leaflets: Leaflets, landmarks: Mapping[str, Any], loaded: Optional[She
     sheet = leaflets.sheet
     given = {part: np.ascontiguousarray(landmarks[part]) for part in PARTS
              if landmarks.get(part) is not None}
+    check_counts(given)
     check_near(given, sheet.points, "the leaflets in the image")
     arguments: dict[str, Any] = {**options, **given}
     arguments.setdefault("thickness", np.ascontiguousarray(sheet.values["thickness"]))

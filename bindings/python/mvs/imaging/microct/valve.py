@@ -63,7 +63,8 @@ def valve_of_volumes(image: Any, loaded: Optional[Any], landmarks: Mapping[str, 
     made = build(leaflets, given, None, name, lambda done, _: console.share(done),
                  findings=tuple(other.findings if other else ()), leak=not network.heads, **options)
     if network.heads:
-        made = with_chords(made, network, other, console, "leaflet" in options)
+        made = with_chords(made, network, other, console, "leaflet" in options, options.get("thickness_error"))
+        made.findings += _unused(options)
     made.image = scanned(image)
     if other is not None and loaded is not None:
         made.loaded, made.loaded_image = other.surface, scanned(loaded, other.motion)
@@ -86,8 +87,11 @@ def leaflets_of_run(run: Run) -> Leaflets:
 
 
 def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded], console: Console,
-                tissue_known: bool = False) -> ImageValve:
-    """The valve with the chordae of the image in the place of assumed ones, closed again."""
+                tissue_known: bool = False, thickness_error: Optional[float] = None) -> ImageValve:
+    """The valve with the chordae of the image in the place of assumed ones, closed again.
+
+    thickness_error: m, for the interval of leaks; None: the thickness is exact
+    """
     valve = mvs.valve_of(made.opened)
     vertex, moved = _vertices_of(made.opened, network)
     _set_chords(valve, made.opened, network, vertex)
@@ -110,7 +114,7 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
         found = [one for one in found if one.name not in replaced] + measured
     opened, closed, stats = closure
     console.stage("leak over the errors of the lengths")
-    found += _leaks(opened, console)
+    found += _leaks(opened, console, thickness_error)
     assumed = ("chordae", "leak", "leak_interval", "leak_limits", "edge_error", "edge_lost", "thickness_error",
                "papillary_tips")
     kept = [one for one in made.findings if one.name not in assumed]
@@ -136,11 +140,27 @@ def _with_unseen_and_fitted(valve: mvs.Valve, normal: mvs.Snapshot, closure: Clo
     return (bare, of_bare) if away[0] < away[1] else (filled, unseen + fitted)
 
 
-def _leaks(opened: mvs.Snapshot, console: Console) -> tuple[mvs.Finding, ...]:
+UNUSED = {"edge_error": "--edge-error", "edge_lost": "--edge-lost", "chords": "--chords",
+          "coaptation_length": "--coaptation-length"}
+"""Options of a build without use where chordae are those of the image"""
+
+
+def _unused(options: Mapping[str, Any]) -> tuple[mvs.Finding, ...]:
+    """A doubtful finding on options that change nothing."""
+    given = [option for name, option in UNUSED.items() if name in options]
+    if not given:
+        return ()
+    return (dataclasses.replace(finding(
+        "unused_options", mvs.FindingSource.GIVEN, 1.0,
+        f"{', '.join(given)} {'has' if len(given) == 1 else 'have'} no effect here: the chordae are those of the image, "
+        "and the interval of leaks is that of their lengths and of the thickness"), doubtful=True),)
+
+
+def _leaks(opened: mvs.Snapshot, console: Console, thickness_error: Optional[float]) -> tuple[mvs.Finding, ...]:
     """Findings `leak`, `leak_interval` and `leak_limits` over the errors of the lengths."""
     with mvs.Simulator(workers=usable_cores()) as sim:
         sim.restore(opened)
-        return sim.find_leak_interval(lengths=LENGTH_ERROR, single=SINGLE_ERROR,
+        return sim.find_leak_interval(lengths=LENGTH_ERROR, single=SINGLE_ERROR, thickness=thickness_error,
                                       progress=lambda done, _: console.share(done))
 
 
