@@ -1,5 +1,7 @@
 """mvs.imaging: images whose axes are not at right angles, and series of tilted slices, are refused."""
 
+import struct
+
 import mvs
 import numpy as np
 import pytest
@@ -76,6 +78,23 @@ def test_sheared_directions_of_a_file_are_refused(tmp_path, ending):
             continue
         with pytest.raises(mvs.FormatError, match=words + ".*resample it"):
             imaging.read_labels(path)
+
+
+@pytest.mark.parametrize("qform", [0, 1])
+def test_a_sheared_sform_of_a_nifti_file_is_refused_also_beside_a_qform(tmp_path, qform):
+    """ITK reads the qform then, which cannot hold a shear."""
+    path = tmp_path / "a.nii"
+    sitk.WriteImage(image_of(funnel(2.0)[0], 2.0), str(path))
+    written = bytearray(path.read_bytes())
+    for degrees in (0, 5):
+        struct.pack_into("<hh", written, 252, qform, 1)
+        for row, values in enumerate(sheared(degrees)):
+            struct.pack_into("<4f", written, 280 + 16 * row, *values, 0)
+        path.write_bytes(written)
+        if not degrees:
+            assert len(imaging.read_labels(path).masks) == 2
+    with pytest.raises(mvs.FormatError, match="miss a right angle by 5.0 degrees"):
+        imaging.read_labels(path)
 
 
 def test_axes_in_memory_may_be_turned_and_mirrored_and_not_sheared():

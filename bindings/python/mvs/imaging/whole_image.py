@@ -9,21 +9,22 @@ import gzip
 import struct
 import zlib
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mvs import FormatError
 from .needs import need
-from .voxels import MOST_SKEW, RESAMPLE
+from .voxels import MOST_SKEW, RESAMPLE, check_axes
 
 NIFTI = (".nii", ".nii.gz")
 CHUNK = 1 << 24
 
 
 def check_nifti(name: str) -> None:
-    """Refuses a NIfTI file with fewer bytes than its header says (nifti1.h, nifti2.h; Cox et al. 2004)."""
+    """Refuses a NIfTI file with fewer bytes than its header says, or with sheared axes (nifti1.h, nifti2.h; Cox et
+    al. 2004), such as those of dcm2niix for a tilted gantry: ITK takes the qform in their place, which has no shear."""
     if not name.lower().endswith(NIFTI):
         return
     with open(name, "rb") as file:
@@ -34,10 +35,26 @@ def check_nifti(name: str) -> None:
             there = len(header) + sum(map(len, iter(lambda: file.read(CHUNK), b"")))
     except (EOFError, OSError, zlib.error) as error:
         raise FormatError(f"{name}: is cut short or damaged ({error}): copy or export it again", "path") from error
+    axes = nifti_axes(header)
+    if axes is not None and (lengths := np.linalg.norm(axes, axis=0)).min() > 0:
+        check_axes(axes / lengths, name)
     wanted = nifti_length(header)
     if there < wanted:
         raise FormatError(f"{name}: has {there} bytes, and its header says {wanted}: it is cut short. Copy or "
                           "export it again", "path")
+
+
+def nifti_axes(header: bytes) -> Optional[NDArray[np.float64]]:
+    """The columns (3, 3) of the sform of a NIfTI file, mm in RAS; None without one."""
+    for order in "<>":
+        for size, code_at, code, rows_at, row in ((348, 254, "h", 280, "4f"), (540, 348, "i", 400, "4d")):
+            if len(header) < size or struct.unpack(order + "i", header[:4])[0] != size:
+                continue
+            if struct.unpack_from(order + code, header, code_at)[0] <= 0:
+                return None
+            wide = struct.calcsize(order + row)
+            return np.array([struct.unpack_from(order + row, header, rows_at + k * wide)[:3] for k in range(3)])
+    return None
 
 
 def nifti_length(header: bytes) -> int:
