@@ -45,7 +45,8 @@ TEST_CASE("a_closure_that_diverged_has_no_leak") {
   CHECK(range->confidence < find_finding(sure, "leak_interval")->confidence);
 }
 
-// The interval of a valve with guessed heads was narrower than with given ones, and nothing said why.
+// The interval of a valve with guessed heads was narrower than with given ones, and nothing said
+// why.
 TEST_CASE("landmarks_that_were_not_given_are_named_as_left_out_of_the_interval") {
   const auto said = [](FindingSource tips, FindingSource commissures) {
     Findings findings{{"papillary_tips", tips, 0.3, "", {}, "m"},

@@ -56,8 +56,8 @@ std::string not_given_words(const Findings &findings) {
   std::string words;
   for (const auto &[name, meaning] : landmarks) {
     const Finding *found = find_finding(findings, name);
-    if (found == nullptr || (found->source != FindingSource::guessed &&
-                             found->source != FindingSource::assumed)) {
+    if (found == nullptr ||
+        (found->source != FindingSource::guessed && found->source != FindingSource::assumed)) {
       continue;
     }
     words += (words.empty() ? "" : " and ") + std::string(meaning);
