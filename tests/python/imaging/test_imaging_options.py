@@ -213,3 +213,11 @@ def test_guessed_landmarks_are_named_as_left_out_of_the_interval_of_leaks():
     assert [one.sentence for one in with_limits(findings(mvs.FindingSource.GIVEN))] == ["", "", ""]
     again = with_limits(with_limits(findings(mvs.FindingSource.GUESSED)))
     assert again[1].sentence.count("not given") == again[2].sentence.count("errors of") == 1
+
+
+def test_options_without_effect_beside_chordae_of_an_image_are_named():
+    from mvs.imaging.microct.valve import _unused
+
+    assert _unused({"thickness_error": 1e-4, "edge": 2e-3}) == ()
+    (one,) = _unused({"edge_error": 1e-4, "chords": 50})
+    assert one.doubtful and one.sentence.startswith("--edge-error, --chords have no effect here")
