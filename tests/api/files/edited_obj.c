@@ -1,4 +1,4 @@
-/* An OBJ file that was edited: what it says about its state is believed only where it is so. */
+/* An edited OBJ file: its state is at rest only where the forces balance. */
 #include <stdlib.h>
 
 #include "tests/api/check.h"

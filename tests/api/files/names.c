@@ -5,7 +5,7 @@
 
 #include "tests/api/check.h"
 #include "tests/api/funnel.h"
-#include "tests/founding.h"
+#include "tests/api/repair.h"
 
 #define LATIN "Kopf\xe9"
 #define CUT "\xe4\xb8"
@@ -39,19 +39,10 @@ static void parts_of_a_valve(void) {
                f.desc.ring_count = 1; f.desc.ring_stride = sizeof ring, "ring 0");
 }
 
-static mvs_id named(uint32_t kind, const char *name) {
-  const mvs_snapshot *snapshot = NULL;
-  mvs_part part = {0};
-  MUST(mvs_get_snapshot(sim, &snapshot));
-  MUST(mvs_snapshot_find_part(snapshot, kind, name, &part));
-  mvs_snapshot_release(snapshot);
-  return part.id;
-}
-
 static mvs_op_neochord neochord(const char *name) {
   mvs_op_neochord op = {.op = {sizeof op, MVS_OP_NEOCHORD}, .name = name};
-  op.head = named(MVS_PART_HEAD, "PM2");
-  op.site = (mvs_site){MVS_SITE_ANATOMICAL, 0, named(MVS_PART_SCALLOP, "P2"), {0.5, 1, 0}};
+  op.head = named(sim, MVS_PART_HEAD, "PM2");
+  op.site = (mvs_site){MVS_SITE_ANATOMICAL, 0, named(sim, MVS_PART_SCALLOP, "P2"), {0.5, 1, 0}};
   return op;
 }
 
@@ -126,8 +117,8 @@ static void names_of_any_script_are_kept(void) {
   remove(path);
   MUST(mvs_open_journal(sim, path));
   mvs_op_neochord op = {.op = {sizeof op, MVS_OP_NEOCHORD}, .name = CJK};
-  op.head = named(MVS_PART_HEAD, CJK);
-  op.site = (mvs_site){MVS_SITE_ANATOMICAL, 0, named(MVS_PART_SCALLOP, "P2"), {0.5, 1, 0}};
+  op.head = named(sim, MVS_PART_HEAD, CJK);
+  op.site = (mvs_site){MVS_SITE_ANATOMICAL, 0, named(sim, MVS_PART_SCALLOP, "P2"), {0.5, 1, 0}};
   MUST(mvs_begin_group(sim, CJK));
   MUST(mvs_apply_op(sim, &op.op, NULL));
   MUST(mvs_end_group(sim));

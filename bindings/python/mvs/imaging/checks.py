@@ -1,5 +1,5 @@
-"""What `mvs-image` refuses before the work: inputs that are not there, outputs that would overwrite something,
-options that contradict one another."""
+"""Checks of `mvs-image` before the work: missing inputs, outputs that would overwrite something, options that
+contradict one another."""
 
 from __future__ import annotations
 

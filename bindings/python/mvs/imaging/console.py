@@ -1,4 +1,4 @@
-"""What the command shows on stderr: the progress of long work, and nothing of the libraries below."""
+"""Output of the command on stderr: progress of long work; lines of ITK are left out."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ LANDMARKS = {"annulus": "points or a curve along the annulus; tissue beyond it i
              "anterior": "a point of the anterior leaflet", "tips": "tips of the papillary muscles"}
 VALVE_ENDINGS = (".h5", ".vtkhdf", ".obj", ".vtp", ".vtm", ".feb")
 WIDEST_HOLE = 30.0
-"""mm: a larger hole than the orifice of a valve is none"""
+"""mm: a larger opening is the orifice of the valve"""
 
 
 def add_build(commands: Any) -> argparse.ArgumentParser:

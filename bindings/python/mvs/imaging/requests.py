@@ -210,7 +210,7 @@ def _image(path: Any, chosen: argparse.Namespace) -> Any:
 
 
 def _check_grey(chosen: argparse.Namespace, loaded: Any) -> None:
-    """Refuses what a grey volume of the open valve has no use for."""
+    """Refuses options and a loaded image that do not apply to a grey volume of the open valve."""
     if chosen.hole is not None:
         raise mvs.ArgumentError(f"{chosen.image}: is a grey volume, and --hole is about holes in labels: leave it out, or "
                                 "give a label map", "hole")
