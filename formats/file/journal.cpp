@@ -95,10 +95,14 @@ Journal Journal::reopen(const std::string &path, size_t bytes) {
   return {path, std::move(file), bytes};
 }
 
-void Journal::must_exist() const {
+uint64_t Journal::links() const {
   struct stat found;
   if (::fstat(file_.number(), &found) != 0) fail_journal("read", path_, errno);
-  MVS_MUST(found.st_nlink > 0, MVS_E_IO, "journal",
+  return found.st_nlink;
+}
+
+void Journal::must_exist() const {
+  MVS_MUST(!has_links_ || links() > 0, MVS_E_IO, "journal",
            "the journal %s was deleted while it was open, and its records are lost: save the "
            "session, close the journal, and open another",
            shown_path(path_).c_str());

@@ -5,6 +5,7 @@
 // checksum in 32 hexadecimal digits.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -42,11 +43,14 @@ class Journal {
 
  private:
   Journal(std::string path, Descriptor file, size_t size)
-      : path_(std::move(path)), file_(std::move(file)), size_(size) {}
+      : path_(std::move(path)), file_(std::move(file)), size_(size), has_links_(links() > 0) {}
+  // The names that the file has; 0 if it was deleted.
+  uint64_t links() const;
 
   std::string path_;
   Descriptor file_;
   size_t size_ = 0;
+  bool has_links_;  // false on a file system that does not count them
 };
 
 }  // namespace mvs::core

@@ -21,7 +21,7 @@ enum mvs_format_e {
   MVS_FORMAT_OBJ = 1, /* extended OBJ (formats/FORMAT.md), read and write, exact round
                          trip of valve and state without tools and history. A state that
                          the file says is at rest, but whose largest out-of-balance force is
-                         above its tolerance, is not at rest: MVS_LOG_WARNING with both */
+                         above twice its tolerance, is not at rest: MVS_LOG_WARNING */
   MVS_FORMAT_VTP = 2, /* VTK XML PolyData, write only: for ParaView and Slicer */
   MVS_FORMAT_H5 = 3,  /* HDF5, read and write, with the history for undo and redo; ParaView and h5py
                          can open it. MVS_E_UNSUPPORTED in a build without HDF5 */

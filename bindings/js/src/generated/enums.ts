@@ -561,7 +561,7 @@ export const Format = {
   /**
    * extended OBJ (formats/FORMAT.md), read and write, exact round trip of valve and state without
    * tools and history. A state that the file says is at rest, but whose largest out-of-balance
-   * force is above its tolerance, is not at rest: MVS_LOG_WARNING with both
+   * force is above twice its tolerance, is not at rest: MVS_LOG_WARNING
    */
   obj: 1,
   /** VTK XML PolyData, write only: for ParaView and Slicer */
