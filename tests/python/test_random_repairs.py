@@ -2,7 +2,7 @@
 
 import random_repairs
 
-SEEDS = (2000, 2001)  # bilinear membrane and springs
+SEEDS = (2000, 2009)  # bilinear membrane and springs
 
 
 def test_random_repairs_come_to_rest_without_crossings():
