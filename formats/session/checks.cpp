@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/utf8.h"
 #include "history/event_limits.h"
 #include "history/tool_trajectory.h"
 #include "model/plausible.h"
@@ -39,6 +40,12 @@ void check_state(const ModelState &current) {
     MVS_MUST(is_valid(*current.model, tool), MVS_E_FORMAT, "state",
              "a state of the file has a tool that cannot be");
   }
+}
+
+void check_text(const std::string &text) {
+  MVS_MUST(is_utf8(text), MVS_E_FORMAT, "mvs",
+           "the file has a name that is not UTF-8, near \"%.63s\": names are UTF-8",
+           only_utf8(text).c_str());
 }
 
 void check_event(const RecordedEvent &event) {

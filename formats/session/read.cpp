@@ -7,7 +7,6 @@
 
 #include "base/bit_cast.h"
 #include "base/error.h"
-#include "base/utf8.h"
 #include "formats/formats.h"
 #include "formats/session/checks.h"
 #include "formats/session/layout.h"
@@ -145,9 +144,7 @@ void SessionReader::number(double &value) {
 void SessionReader::text(std::string &text) {
   const std::span<const uint8_t> bytes = texts_.at(next());
   text.assign(bytes.begin(), bytes.end());
-  MVS_MUST(is_utf8(text), MVS_E_FORMAT, "mvs",
-           "the file has a name that is not UTF-8, near \"%.63s\": names are UTF-8",
-           only_utf8(text).c_str());
+  check_text(text);
 }
 
 template <>
