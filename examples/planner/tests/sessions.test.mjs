@@ -159,7 +159,7 @@ describe('sessions', () => {
       await page.keyboard.press('q');
       await apply(page);
       assert.match((await figures(page)).history.at(-1).title, /turned by 5 degrees/);
-      await begin(page, 'ring');
+      await begin(page, 'annulus_scale');
       await apply(page);
       const path = await save(page);
       assert.equal(repeated(path).hash, (await figures(page)).hash);
