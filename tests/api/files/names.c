@@ -27,8 +27,8 @@ static mvs_sim *sim;
 
 static void parts_of_a_valve(void) {
   static funnel f;
-  const char *scallops[2] = {"A", "P" CUT};
-  mvs_ring_desc ring = {.name = "\xff", .kind = MVS_RING_KIND_RIGID};
+  static const char *scallops[2] = {"A", "P" CUT};
+  static mvs_ring_desc ring = {.name = "\xff", .kind = MVS_RING_KIND_RIGID};
   REFUSED_NAME(f.desc.name = LATIN, "the valve");
   REFUSED_NAME(f.leaflets[1].name = LATIN, "leaflet 1");
   REFUSED_NAME(f.chords[3].name = CUT, "chord 3");
