@@ -13,6 +13,7 @@ import {
   open,
   openLeaflets,
   openPanel,
+  undo,
 } from './fixtures/person.mjs';
 
 /** Whether a line meets a box, by its points. */
@@ -162,9 +163,10 @@ describe('planner to look at', () => {
     await page.keyboard.press('w');
     assert.deepEqual(await shown(), await positions('first'));
     // whatever happens to the present valve shows it again
-    await begin(page, 'annulus_scale');
+    await begin(page, 'clip');
     assert.deepEqual(await shown(), await positions('preview'));
     await page.keyboard.press('Escape');
+    await undo(page);
   });
 
   it('keeps_the_valve_before_in_sight_when_a_preview_comes_late', async () => {
