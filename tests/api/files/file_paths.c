@@ -79,7 +79,7 @@ static void the_path_stands_once_and_the_reason_at_the_end(void) {
   CHECK(count_of(mvs_last_error()->message, "valve.obj") == 1);
   for (size_t length = 100; length < sizeof path; length += 49) {
     memset(path, 'd', length);
-    memcpy(path, "no/", 3);
+    path[2] = '/';
     memcpy(path + length - 10, "/last.obj", 10);
     MUST_FAIL(mvs_load_file(sim, path, 0), MVS_E_IO, "No such file or directory");
     CHECK(strstr(mvs_last_error()->message, "last.obj: ") != NULL);
@@ -89,11 +89,12 @@ static void the_path_stands_once_and_the_reason_at_the_end(void) {
 }
 
 static void a_byte_order_mark_is_skipped(void) {
+  static const unsigned char mark[] = {0xef, 0xbb, 0xbf};
   uint64_t size = 0;
   MUST(mvs_save_memory(snapshot, MVS_FORMAT_OBJ, NULL, 0, &size));
   char *text = malloc(size + 3);
   if (!text) exit(2);
-  memcpy(text, "\xef\xbb\xbf", 3);
+  memcpy(text, mark, sizeof mark);
   MUST(mvs_save_memory(snapshot, MVS_FORMAT_OBJ, text + 3, size, &size));
   MUST(mvs_load_memory(sim, text, size + 3, MVS_FORMAT_OBJ));
   CHECK(same_hash(snapshot_hash(snapshot), sim_hash(sim)));
