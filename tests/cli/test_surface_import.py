@@ -115,6 +115,9 @@ class SurfaceImport(OpenSurface):
             self.assertIn(before[name][0], ("guessed", "assumed"))
             self.assertEqual(after[name], before[name])
         self.assertEqual(after["edge_error"][0], "given")  # by the option
+        for made in (first, again):
+            interval = next(row for row in made["findings"] if row["name"] == "leak_interval")
+            self.assertIn("errors of the papillary heads and commissures, which were not given", interval["sentence"])
         edited = json.loads(findings.read_text())
         for row in edited["findings"]:
             if row["name"] == "papillary_tips":

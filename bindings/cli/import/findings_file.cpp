@@ -111,6 +111,17 @@ std::string names_of_inputs() {
   return names;
 }
 
+// Names landmarks of an earlier import that are still not sure beside the interval of leaks, which
+// has none of their errors. The build takes them for given ones.
+void name_left_out(const std::string &landmarks, mvs::Finding &finding) {
+  if (finding.name == "leak_interval" && !finding.values.empty()) {
+    finding.sentence += "; errors of the " + landmarks + ", which were not given, are not in it";
+  } else if (finding.name == "leak_limits") {
+    finding.sentence +=
+        "; errors of the guessed " + landmarks + " are not in it: give them as landmarks";
+  }
+}
+
 }  // namespace
 
 Json findings_json(const std::vector<mvs::Finding> &findings) {
@@ -201,6 +212,7 @@ KnownValues read_findings(const std::string &path) {
 }
 
 void keep_doubts(const KnownValues &known, std::vector<mvs::Finding> &findings) {
+  bool has_heads = false, has_commissures = false;
   for (mvs::Finding &finding : findings) {
     const auto at = known.unsure.find(finding.name);
     if (at == known.unsure.end() || finding.source != MVS_FINDING_SOURCE_GIVEN) continue;
@@ -209,7 +221,14 @@ void keep_doubts(const KnownValues &known, std::vector<mvs::Finding> &findings) 
     finding.doubtful = finding.doubtful || at->second.doubtful;
     finding.sentence += std::string("; ") + source_name(finding.source) +
                         " in an earlier import: change its source to \"given\" if it is known";
+    has_heads = has_heads || finding.name == "papillary_tips";
+    has_commissures = has_commissures || finding.name == "commissures";
   }
+  if (!has_heads && !has_commissures) return;
+  const std::string left_out = std::string(has_heads ? "papillary heads" : "") +
+                               (has_heads && has_commissures ? " and " : "") +
+                               (has_commissures ? "commissures" : "");
+  for (mvs::Finding &finding : findings) name_left_out(left_out, finding);
 }
 
 }  // namespace cli
