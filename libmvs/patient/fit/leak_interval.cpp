@@ -150,6 +150,16 @@ void set_range(LeakInterval &interval, const std::vector<double> &leaks, bool is
   interval.most = *most + more;
 }
 
+// Widens the interval of a fitted valve, closed at `x`, by the errors and gaps of its surface.
+void reach_to_shape(const Model &model, const std::vector<Vec3> &x, const FittedShape &shape,
+                    LeakInterval &interval, Findings &findings) {
+  interval.shape = leaks_of_shape(model, x, interval.leak[1], shape);
+  add_shape_error(interval);
+  const ShownGaps shown = shown_gaps(*shape.given, model, x, *shape.geometry);
+  report_shown_gaps(shown, interval.leak[1], findings);
+  reach_to(shown, interval);
+}
+
 }  // namespace
 
 bool all_seal(const std::vector<double> &leaks) {
@@ -186,20 +196,6 @@ void reach_to(const ShownGaps &shown, LeakInterval &interval) {
   interval.least = std::min(interval.least, shown.least);
   interval.most = std::max(interval.most, shown.most);
 }
-
-namespace {
-
-// Widens the interval of a fitted valve, closed at `x`, by the errors and gaps of its surface.
-void reach_to_shape(const Model &model, const std::vector<Vec3> &x, const FittedShape &shape,
-                    LeakInterval &interval, Findings &findings) {
-  interval.shape = leaks_of_shape(model, x, interval.leak[1], shape);
-  add_shape_error(interval);
-  const ShownGaps shown = shown_gaps(*shape.given, model, x, *shape.geometry);
-  report_shown_gaps(shown, interval.leak[1], findings);
-  reach_to(shown, interval);
-}
-
-}  // namespace
 
 LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
                            const std::vector<double> &known, Findings &findings,

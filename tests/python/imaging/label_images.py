@@ -42,3 +42,22 @@ def image_of(labels, voxel=VOXEL):
 
 
 NAMES = {1: "anterior leaflet", 2: "posterior leaflet"}
+
+
+def write_dicom(folder, slices, places, orientation="1\\0\\0\\0\\1\\0", names=None, **tags):
+    """One file for each slice, as scanners write them.
+
+    slices: SimpleITK.Image each; places: (n, 3) mm, of the first voxel of each; orientation: of rows and columns, as
+    in the file; names: of the files, else numbers in the order of the slices; tags: by group and element ("0018|0050")
+    """
+    folder.mkdir()
+    writer = sitk.ImageFileWriter()
+    writer.KeepOriginalImageUIDOn()
+    series = f"1.2.826.0.1.3680043.2.1125.{sum(map(ord, folder.name))}"
+    for k, (image, place) in enumerate(zip(slices, places)):
+        for tag, value in {"0020|000e": series, "0020|000d": "1.2.3", "0008|0018": f"{series}.{k + 1}",
+                           "0020|0032": "\\".join(f"{x:.6f}" for x in place), "0020|0037": orientation,
+                           "0020|0013": str(k), "0008|0060": "CT", **tags}.items():
+            image.SetMetaData(tag, value)
+        writer.SetFileName(str(folder / (names[k] if names else f"{k:03d}.dcm")))
+        writer.Execute(image)

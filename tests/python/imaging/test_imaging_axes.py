@@ -9,7 +9,7 @@ import pytest
 sitk = pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleITK)")
 pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
 
-from label_images import funnel, image_of  # noqa: E402
+from label_images import funnel, image_of, write_dicom  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging.whole_image import check_slices  # noqa: E402
 
@@ -26,19 +26,10 @@ def header_of(axes):
 
 def write_tilted(folder, axes, orientation="1\\0\\0\\0\\1\\0", count=12):
     """Slices of 16 x 16 voxels whose first voxels lie along the third column of `axes` (mm)."""
-    folder.mkdir()
-    writer = sitk.ImageFileWriter()
-    writer.KeepOriginalImageUIDOn()
-    for k in range(count):
-        image = sitk.GetImageFromArray(np.full((16, 16), k, np.int16))
+    slices = [sitk.GetImageFromArray(np.full((16, 16), k, np.int16)) for k in range(count)]
+    for image in slices:
         image.SetSpacing([2, 2])
-        place = "\\".join(f"{x:.6f}" for x in k * axes[:, 2])
-        for tag, value in (("0020|000e", "1.2.3.4"), ("0020|000d", "1.2.3"), ("0008|0018", f"1.2.3.4.{k + 1}"),
-                           ("0020|0032", place), ("0020|0037", orientation), ("0020|0013", str(k)),
-                           ("0008|0060", "CT")):
-            image.SetMetaData(tag, value)
-        writer.SetFileName(str(folder / f"{k:03d}.dcm"))
-        writer.Execute(image)
+    write_dicom(folder, slices, [k * axes[:, 2] for k in range(count)], orientation)
 
 
 def test_a_series_of_a_tilted_gantry_is_refused(tmp_path):

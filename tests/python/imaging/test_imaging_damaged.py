@@ -9,7 +9,7 @@ import pytest
 sitk = pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleITK)")
 pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
 
-from label_images import NAMES, funnel, image_of  # noqa: E402
+from label_images import NAMES, funnel, image_of, write_dicom  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
 from mvs.imaging.labels import choose_segments  # noqa: E402
@@ -51,18 +51,9 @@ def test_damage_in_compressed_voxels_is_found_by_their_checksum(tmp_path, ending
 
 
 def write_series(folder, at):
-    folder.mkdir()
-    writer = sitk.ImageFileWriter()
-    writer.KeepOriginalImageUIDOn()
-    for k, place in enumerate(at):
-        image = sitk.GetImageFromArray(np.full((1, 30, 30), k, np.int16))
-        image.SetSpacing([1, 1, 1])
-        image.SetOrigin([0, 0, float(place)])
-        for tag, value in (("0020|000e", "1.2.3.4"), ("0020|000d", "1.2.3"), ("0008|0018", f"1.2.3.4.{k + 1}"),
-                           ("0020|0032", f"0\\0\\{place}"), ("0020|0013", str(k)), ("0008|0060", "CT")):
-            image.SetMetaData(tag, value)
-        writer.SetFileName(str(folder / f"{k:03d}.dcm"))
-        writer.Execute(image)
+    """Slices of 30 x 30 voxels of 1 mm at places along z, mm."""
+    write_dicom(folder, [sitk.GetImageFromArray(np.full((30, 30), k, np.int16)) for k in range(len(at))],
+                [(0, 0, place) for place in at])
 
 
 def test_a_dicom_series_without_some_of_its_slices_is_refused(tmp_path):

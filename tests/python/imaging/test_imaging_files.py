@@ -13,10 +13,11 @@ sitk = pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleI
 pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
 pytest.importorskip("slicerio", reason="needs the extra imaging (slicerio)")
 
-from label_images import NAMES, VOXEL, funnel, image_of  # noqa: E402
+from label_images import NAMES, VOXEL, funnel, image_of, write_dicom  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging import requests  # noqa: E402
-from mvs.imaging.command import check_outputs, main, parser_of  # noqa: E402
+from mvs.imaging.checks import check_outputs  # noqa: E402
+from mvs.imaging.command import main, parser_of  # noqa: E402
 from mvs.imaging.console import Console  # noqa: E402
 from mvs.imaging.findings import finding, read_known, write_findings  # noqa: E402
 
@@ -53,24 +54,11 @@ def test_every_volume_format_gives_the_same_positions(tmp_path):
 
 
 def dicom_series(folder, image):
-    """One file for each slice, as scanners write them."""
-    folder.mkdir()
-    writer = sitk.ImageFileWriter()
-    writer.KeepOriginalImageUIDOn()
-    rows = np.array(image.GetDirection()).reshape(3, 3)
-    for k in range(image.GetDepth()):
-        one = image[:, :, k]
-        place = image.TransformIndexToPhysicalPoint((0, 0, k))
-        for tag, value in {
-            "0020|000e": f"1.2.826.0.1.3680043.2.1125.{sum(map(ord, folder.name))}",
-            "0020|0032": "\\".join(f"{x:.6f}" for x in place),
-            "0020|0037": "\\".join(f"{x:g}" for x in (*rows[:, 0], *rows[:, 1])),
-            "0020|0013": str(k), "0008|0060": "CT", "0018|0050": f"{image.GetSpacing()[2]:g}",
-        }.items():
-            one.SetMetaData(tag, value)
-        # the names are in no order of the slices
-        writer.SetFileName(str(folder / f"{(7 * k) % 100:03d}.dcm"))
-        writer.Execute(one)
+    """The slices of an image, in files whose names are in no order of them."""
+    rows, depth = np.array(image.GetDirection()).reshape(3, 3), range(image.GetDepth())
+    write_dicom(folder, [image[:, :, k] for k in depth], [image.TransformIndexToPhysicalPoint((0, 0, k)) for k in depth],
+                "\\".join(f"{x:g}" for x in (*rows[:, 0], *rows[:, 1])), [f"{(7 * k) % 100:03d}.dcm" for k in depth],
+                **{"0018|0050": f"{image.GetSpacing()[2]:g}"})
 
 
 def test_a_dicom_series_is_read_in_the_order_of_its_slices(tmp_path):

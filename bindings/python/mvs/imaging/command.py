@@ -16,12 +16,11 @@ from pathlib import Path
 from typing import Any, Optional
 
 import mvs
-from .checks import check_outputs, check_request, findings_path
+from .checks import check_request, findings_path
 from .console import Console
 from .needs import in_words
 from .options import add_build
 
-__all__ = ["check_outputs", "main", "parser_of", "run_build"]
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     """Runs the command; 0: done, 1: failed with a sentence on stderr, 2: wrong usage."""
