@@ -38,7 +38,8 @@ bool runs_along(const Rail &sheet, const Vec3 &a, const Vec3 &b) {
   return sheet.tree.is_within(0.5 * (a + b), off_of_length * (b - a).norm());
 }
 
-enum class Hold : uint8_t { free, slides, stays };
+// How a node may move: anywhere, along the rim, or not at all.
+enum class Motion : uint8_t { free, along_rim, none };
 enum class OnRim : uint8_t { unknown, no, yes };
 
 class Shrinking {
@@ -48,7 +49,7 @@ class Shrinking {
   Mesh run(double least_decrease);
 
  private:
-  void hold_rim(size_t on_samples);
+  void restrict_rim(size_t on_samples);
   void list_triangles();
   double sweep();
   double area_around(uint32_t v, const Vec3 &p) const;
@@ -61,7 +62,7 @@ class Shrinking {
   const Rail &sheet_;
   RailSearch search_;
   Mesh mesh_;
-  std::vector<Hold> hold_;
+  std::vector<Motion> motion_;
   std::vector<std::array<uint32_t, 2>> rim_;  // per node: the next ones along the rim, or none
   std::vector<OnRim> on_rim_;                 // per node: whether it lies on a rim of the sheet
   // Per node: the number of the move that brought it here, and of the moves before it failed to
@@ -78,15 +79,16 @@ Shrinking::Shrinking(const Rail &sheet, Mesh mesh, size_t on_samples)
   moved_.assign(mesh_.x.size(), 1);
   failed_.assign(mesh_.x.size(), 0);
   moves_ = 1;
-  hold_rim(on_samples);
+  restrict_rim(on_samples);
   list_triangles();
 }
 
 // Rim nodes slide where the rim runs along the sheet; they stay where it crosses from one sheet to
 // the other at the end of an opening, which would otherwise shrink to nothing.
-void Shrinking::hold_rim(size_t on_samples) {
-  hold_.assign(mesh_.x.size(), Hold::free);
-  std::fill(hold_.begin(), hold_.begin() + static_cast<std::ptrdiff_t>(on_samples), Hold::slides);
+void Shrinking::restrict_rim(size_t on_samples) {
+  motion_.assign(mesh_.x.size(), Motion::free);
+  std::fill(motion_.begin(), motion_.begin() + static_cast<std::ptrdiff_t>(on_samples),
+            Motion::along_rim);
   rim_.assign(mesh_.x.size(), {none, none});
   const std::vector<Side> sides = sorted_sides(mesh_.triangles);
   for_each_edge(sides, [&](size_t first, size_t last) {
@@ -94,10 +96,10 @@ void Shrinking::hold_rim(size_t on_samples) {
     const Edge &e = sides[first].edge;
     const bool along = last == first + 1 && runs_along(sheet_, mesh_.x[e[0]], mesh_.x[e[1]]);
     for (int k = 0; k < 2; ++k) {
-      Hold &hold = hold_[e[k]];
-      hold = along && hold != Hold::stays ? Hold::slides : Hold::stays;
+      Motion &motion = motion_[e[k]];
+      motion = along && motion != Motion::none ? Motion::along_rim : Motion::none;
       std::array<uint32_t, 2> &next = rim_[e[k]];
-      if (next[1] != none) hold = Hold::stays;  // two openings meet here
+      if (next[1] != none) motion = Motion::none;  // two openings meet here
       next[next[0] == none ? 0 : 1] = e[1 - k];
     }
   });
@@ -143,7 +145,7 @@ Vec3 Shrinking::move_of(uint32_t v) {
     stiffness += weight * (Mat3::Identity() - unit * unit.transpose());
     force -= weight * away;
   }
-  if (hold_[v] == Hold::free) {
+  if (motion_[v] == Motion::free) {
     stiffness += 1e-6 * stiffness.trace() * Mat3::Identity();
     return solve_positive(stiffness, force);
   }
@@ -175,9 +177,9 @@ double Shrinking::try_move(uint32_t v, const Vec3 &move) {
   const double before = area_around(v, mesh_.x[v]);
   // a free node overshoots first (successive over-relaxation); one that slides could skip a fold
   for (const double part : {overshoot, 1.0, 0.5, 0.25, 0.125}) {
-    if (part > 1 && hold_[v] != Hold::free) continue;
+    if (part > 1 && motion_[v] != Motion::free) continue;
     Vec3 p = mesh_.x[v] + part * move;
-    if (hold_[v] == Hold::slides) p = slide(v, p);
+    if (motion_[v] == Motion::along_rim) p = slide(v, p);
     if (p == mesh_.x[v]) continue;
     const double after = area_around(v, p);
     if (after >= before) continue;
@@ -204,7 +206,7 @@ bool Shrinking::may_move(uint32_t v) const {
 double Shrinking::sweep() {
   double gain = 0;
   for (uint32_t v = 0; v < mesh_.x.size(); ++v) {
-    if (hold_[v] != Hold::stays && may_move(v)) gain += try_move(v, move_of(v));
+    if (motion_[v] != Motion::none && may_move(v)) gain += try_move(v, move_of(v));
   }
   return gain;
 }
@@ -215,7 +217,7 @@ void Shrinking::continue_motion(const std::vector<Vec3> &from) {
   const std::vector<Vec3> here = mesh_.x;
   double farthest = 0;
   for (uint32_t v = 0; v < here.size(); ++v) {
-    if (hold_[v] == Hold::slides) farthest = std::max(farthest, (here[v] - from[v]).norm());
+    if (motion_[v] == Motion::along_rim) farthest = std::max(farthest, (here[v] - from[v]).norm());
   }
   std::vector<Vec3> best = here;
   double least = area_of(mesh_), times = continued_by;
@@ -225,7 +227,7 @@ void Shrinking::continue_motion(const std::vector<Vec3> &from) {
       mesh_.x[v] = here[v];
       if (motion.isZero(0)) continue;
       const Vec3 p = here[v] + times * motion;
-      mesh_.x[v] = hold_[v] == Hold::slides ? slide(v, p) : p;
+      mesh_.x[v] = motion_[v] == Motion::along_rim ? slide(v, p) : p;
     }
     const double area = area_of(mesh_);
     if (area >= least) break;
