@@ -10,30 +10,27 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/mvs DESTINATION ${CMAKE_INSTALL_
   COMPONENT mvs_development FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 install(FILES ${PROJECT_SOURCE_DIR}/include/mvs-api.json
   DESTINATION ${CMAKE_INSTALL_DATADIR}/mvs COMPONENT mvs_development)
-install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  COMPONENT mvs_runtime)
+
+# The folder of documents: that of this project, also inside another one.
+if(PROJECT_IS_TOP_LEVEL)
+  set(mvs_docs ${CMAKE_INSTALL_DOCDIR})
+else()
+  set(mvs_docs ${CMAKE_INSTALL_DATAROOTDIR}/doc/${PROJECT_NAME})
+endif()
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${mvs_docs} COMPONENT mvs_runtime)
+# Licences of what is compiled into the binaries, where the system has their texts.
+foreach(package libeigen3-dev nlohmann-json3-dev libcli11-dev)
+  if(EXISTS /usr/share/doc/${package}/copyright)
+    install(FILES /usr/share/doc/${package}/copyright DESTINATION ${mvs_docs}/licences
+      RENAME ${package}.txt COMPONENT mvs_runtime)
+  endif()
+endforeach()
 # documents and examples for C programmers and authors of drivers
-# The installed README keeps its links to installed files; of those to the source tree the text stays.
-file(READ ${PROJECT_SOURCE_DIR}/README.md readme)
-string(REGEX REPLACE "!\\[[^]]*\\]\\([^)]*\\)\n+" "" readme "${readme}")
-string(REGEX REPLACE
-  "\\]\\((formats|libmvs/surgery|libmvs/measure|libmvs/anatomy)/(FORMAT|OPERATIONS|DEFINITIONS|PARAMETRIC)\\.md"
-  "](\\2.md" readme "${readme}")
-string(REGEX REPLACE
-  "\\[([^]]*)\\]\\((libmvs|include|bindings|tests|formats|examples/planner|examples/pictures|CONTRIBUTING)[^)]*\\)"
-  "\\1" readme "${readme}")
-file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/installed/README.md CONTENT "${readme}")
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/README.md)
-install(FILES ${PROJECT_BINARY_DIR}/installed/README.md CHANGELOG.md formats/FORMAT.md libmvs/surgery/OPERATIONS.md
-  libmvs/measure/DEFINITIONS.md libmvs/anatomy/PARAMETRIC.md
-  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT mvs_development)
-install(FILES examples/hello.c examples/close.c examples/repair.c
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT mvs_development)
-install(DIRECTORY examples/plans DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples
-  COMPONENT mvs_development)
-install(FILES haptic_drivers/README.md haptic_drivers/template/template.c
-  haptic_drivers/mouse/pointer.h
-  DESTINATION ${CMAKE_INSTALL_DOCDIR}/haptic_drivers COMPONENT mvs_development)
+include(installed_documents)
+mvs_for_pairs(mvs_install_document ${mvs_installed_documents})
+mvs_for_pairs(mvs_install_beside ${mvs_installed_files})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples/plans DESTINATION ${mvs_docs}/examples
+  COMPONENT mvs_development PATTERN README.md EXCLUDE)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/mvs)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/mvsConfig.cmake.in
@@ -53,9 +50,14 @@ foreach(dir LIBDIR INCLUDEDIR)
     set(pc_${dir} "\${prefix}/${CMAKE_INSTALL_${dir}}")
   endif()
 endforeach()
-# A package can be moved: the prefix is found from the place of mvs.pc itself.
-file(RELATIVE_PATH pc_up "/p/${CMAKE_INSTALL_LIBDIR}/pkgconfig" /p)
-string(REGEX REPLACE "/$" "" pc_up "${pc_up}")
+# A package can be moved: the prefix is found from the place of mvs.pc itself, where that is below it.
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(pc_prefix ${CMAKE_INSTALL_PREFIX})
+else()
+  file(RELATIVE_PATH pc_up "/p/${CMAKE_INSTALL_LIBDIR}/pkgconfig" /p)
+  string(REGEX REPLACE "/$" "" pc_up "${pc_up}")
+  set(pc_prefix "\${pcfiledir}/${pc_up}")
+endif()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/mvs.pc.in ${PROJECT_BINARY_DIR}/mvs.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/mvs.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
   COMPONENT mvs_development)

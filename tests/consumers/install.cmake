@@ -24,15 +24,19 @@ foreach(pattern bin/mvs lib*/libmvs.so.${SOVERSION} lib*/cmake/mvs/mvsConfig.cma
   endif()
 endforeach()
 
-# Each link of the installed README leads to an installed file.
-set(docs ${PREFIX}/share/doc/libmvs)
-file(READ ${docs}/README.md readme)
-string(REGEX MATCHALL "\\(([A-Za-z_.]+/)*[A-Za-z_]+\\.(md|c|h|png)\\)" links "${readme}")
-foreach(link ${links})
-  string(REGEX REPLACE "[()]" "" link "${link}")
-  if(NOT EXISTS ${docs}/${link})
-    message(FATAL_ERROR "README.md links to ${link}, which is not installed")
-  endif()
+# Each link of an installed document leads to an installed file.
+file(GLOB_RECURSE documents ${PREFIX}/share/doc/libmvs/*.md)
+foreach(document ${documents})
+  get_filename_component(folder ${document} DIRECTORY)
+  file(READ ${document} text)
+  string(REPLACE "](" "@(" text "${text}")  # as a list, elements with a single bracket would be joined
+  string(REGEX MATCHALL "@\\([^)# ][^)# ]*" links "${text}")
+  foreach(link ${links})
+    string(REPLACE "@(" "" link "${link}")
+    if(NOT link MATCHES "^https?:" AND NOT EXISTS ${folder}/${link})
+      message(FATAL_ERROR "${document} links to ${link}, which is not installed")
+    endif()
+  endforeach()
 endforeach()
 
 # No path of the building machine may occur in installed text files.
