@@ -2,6 +2,7 @@
 #include "formats/file/journal.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -46,6 +47,15 @@ bool take_record(std::string_view &rest, std::string &text) {
   return true;
 }
 
+// Locks the file for one open journal, until its descriptor is closed; file systems without locks
+// are left alone.
+void lock_for_one(const Descriptor &file, const std::string &path) {
+  if (::flock(file.number(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  fail(MVS_E_STATE, "journal",
+       "the journal %s is open in another simulator or program: close it there first",
+       shown_path(path).c_str());
+}
+
 }  // namespace
 
 JournalRecords read_journal(std::string_view bytes) {
@@ -54,6 +64,7 @@ JournalRecords read_journal(std::string_view bytes) {
   std::string text;
   while (take_record(rest, text)) records.texts.push_back(std::move(text));
   records.bytes = bytes.size() - rest.size();
+  records.read = bytes.size();
   records.torn = !rest.empty();
   // a crash cuts only the last line; bytes after its line end show another damage
   const size_t end = rest.find('\n');
@@ -78,6 +89,7 @@ Journal Journal::create(const std::string &path, std::string_view first) {
            shown_path(path).c_str());
   if (file.number() < 0) fail_journal("create", path, errno);
   try {
+    lock_for_one(file, path);
     sync_folder(folder_of(path));
     Journal journal(path, std::move(file), 0);
     journal.append(first);
@@ -88,11 +100,18 @@ Journal Journal::create(const std::string &path, std::string_view first) {
   }
 }
 
-Journal Journal::reopen(const std::string &path, size_t bytes) {
+Journal Journal::reopen(const std::string &path, const JournalRecords &records) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.number() < 0) fail_journal("open", path, errno);
-  if (::ftruncate(file.number(), static_cast<off_t>(bytes)) != 0) fail_journal("cut", path, errno);
-  return {path, std::move(file), bytes};
+  lock_for_one(file, path);
+  struct stat found;
+  if (::fstat(file.number(), &found) != 0) fail_journal("read", path, errno);
+  MVS_MUST(static_cast<size_t>(found.st_size) == records.read, MVS_E_STATE, "journal",
+           "the journal %s has changed since it was read: recover it again",
+           shown_path(path).c_str());
+  const off_t whole = static_cast<off_t>(records.bytes);
+  if (::ftruncate(file.number(), whole) != 0) fail_journal("cut", path, errno);
+  return {path, std::move(file), records.bytes};
 }
 
 uint64_t Journal::links() const {

@@ -18,6 +18,7 @@ namespace mvs::core {
 struct JournalRecords {
   std::vector<std::string> texts;
   size_t bytes = 0;   // up to the end of the last whole record
+  size_t read = 0;    // of the file
   bool torn = false;  // whether an incomplete record follows
 };
 
@@ -31,8 +32,9 @@ class Journal {
  public:
   // Creates a file with its first record; MVS_E_STATE if it exists. If this fails, no file remains.
   static Journal create(const std::string &path, std::string_view first);
-  // Opens a file for appending after its first `bytes` and drops the rest.
-  static Journal reopen(const std::string &path, size_t bytes);
+  // Opens a file for appending after its whole records and drops the rest. MVS_E_STATE if another
+  // simulator or program has the journal open, or the file is longer than what was read of it.
+  static Journal reopen(const std::string &path, const JournalRecords &records);
 
   // Appends a record. If this fails, throws MVS_E_IO, also if the file was deleted, or MVS_E_STATE
   // if the file would be too long to be read again, and leaves it unchanged.

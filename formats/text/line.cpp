@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdarg>
-#include <cstdio>
 #include <cstring>
 
 #include "base/utf8.h"
@@ -12,12 +11,6 @@
 
 namespace mvs::core {
 namespace {
-
-std::string sentence(const char *pattern, va_list arguments) {
-  char text[sizeof(mvs_error::message)];
-  std::vsnprintf(text, sizeof text, pattern, arguments);
-  return text;
-}
 
 bool is_blank(char c) {
   return c == ' ' || c == '\t';
@@ -141,7 +134,7 @@ void Line::end() {
 void Line::fail(const char *pattern, ...) const {
   va_list arguments;
   va_start(arguments, pattern);
-  const std::string text = sentence(pattern, arguments);
+  const std::string text = vformat(pattern, arguments);
   va_end(arguments);
   throw Error(MVS_E_FORMAT, "", text, number_);
 }

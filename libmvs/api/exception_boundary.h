@@ -6,6 +6,7 @@
 
 #include <new>
 
+#include "base/denormals.h"
 #include "base/error.h"
 #include "base/option_checks.h"
 
@@ -18,9 +19,12 @@ mvs_result record_failure(mvs_result code, int32_t line, const char *part,
 // Returns the failure with the path of its file, unless that is empty, before its sentence.
 Error about_file(const Error &error, const std::string &path);
 
-// Runs `work`; converts an exception to a result code and the last failure.
+// Runs `work`; converts an exception to a result code and the last failure. Whatever rounding or
+// trapping the host has set, the work has the floating-point mode of a new process, so that the
+// same input gives the same bits.
 template <typename Work>
 mvs_result at_boundary(Work &&work) noexcept {
+  const FloatingPointMode::Scope mode{FloatingPointMode()};
   try {
     work();
     return MVS_OK;

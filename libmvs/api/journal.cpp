@@ -154,7 +154,7 @@ mvs_result mvs_recover_journal(mvs_sim *sim, const char *path, mvs_replay *repla
             "the last record of the journal is cut short or damaged, and is left out");
     }
     SnapshotPtr next = make_snapshot(std::move(steps.now));
-    s.journal = std::make_unique<Journal>(Journal::reopen(path, records.bytes));
+    s.journal = std::make_unique<Journal>(Journal::reopen(path, records));
     s.replace(std::move(next));
     s.group = {};
     if (replay) write_struct(replay, how, "replay");

@@ -13,6 +13,18 @@ namespace {
 
 thread_local mvs_error last_error = {};
 
+constexpr char optional_parts[] =
+#ifdef MVS_HAVE_HDF5
+    " hdf5"
+#endif
+#ifdef MVS_HAVE_ZLIB
+    " zlib"
+#endif
+#ifdef MVS_HAVE_HAPTICS
+    " haptics"
+#endif
+    "";
+
 }  // namespace
 
 namespace mvs::core {
@@ -87,13 +99,8 @@ uint32_t mvs_version(void) {
 
 const char *mvs_features(void) {
   static const auto names = [] {
-#ifdef MVS_HAVE_HDF5
-    constexpr char hdf5[] = " hdf5";
-#else
-    constexpr char hdf5[] = "";
-#endif
     std::array<char, 64> text;
-    std::snprintf(text.data(), text.size(), "%s%s", mvs::core::factor_names(), hdf5);
+    std::snprintf(text.data(), text.size(), "%s%s", mvs::core::factor_names(), optional_parts);
     return text;
   }();
   return names.data();

@@ -4,11 +4,13 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "base/classic_locale.h"
 #include "base/utf8.h"
 
 namespace mvs::core {
 
 std::string vformat(const char *pattern, va_list arguments) {
+  const ClassicLocale numbers_with_points;
   char text[sizeof(mvs_error::message)];
   std::vsnprintf(text, sizeof text, pattern, arguments);
   return only_utf8(text);

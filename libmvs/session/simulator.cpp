@@ -2,8 +2,8 @@
 #include "session/simulator.h"
 
 #include <cstdarg>
-#include <cstdio>
 
+#include "base/error.h"
 #include "base/option_checks.h"
 #include "session/mesh_warnings.h"
 #include "session/unit_warnings.h"
@@ -67,12 +67,14 @@ void mvs_sim::must_have_valve() const {
 
 void mvs_sim::log(mvs_log_level level, const char *pattern, ...) const {
   if (!desc.log) return;
-  char text[512];
   va_list arguments;
   va_start(arguments, pattern);
-  std::vsnprintf(text, sizeof text, pattern, arguments);
+  const std::string text = vformat(pattern, arguments);
   va_end(arguments);
-  desc.log(desc.user, level, text);
+  try {
+    desc.log(desc.user, level, text.c_str());
+  } catch (...) {  // NOLINT(bugprone-empty-catch): a call that is done does not fail for its log
+  }
 }
 
 Progress mvs_sim::progress() const {

@@ -4,11 +4,11 @@
 #include <mvs/sim.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 #include <numeric>
 #include <string>
 
+#include "base/chars.h"
 #include "base/error.h"
 #include "model/chord_law.h"
 
@@ -158,8 +158,9 @@ void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale) {
 
 // Whether a number has no more than this number of significant digits.
 bool has_few_digits(double value, int most) {
-  const double rounded = std::strtod(format("%.*g", most, value).c_str(), nullptr);
-  return std::abs(rounded - value) < 1e-12 * value;
+  double rounded = 0;
+  return double_from_chars(format("%.*g", most, value), rounded) &&
+         std::abs(rounded - value) < 1e-12 * value;
 }
 
 }  // namespace

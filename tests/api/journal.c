@@ -231,6 +231,8 @@ static void a_group_that_is_open_stays_one(void) {
   scale(sim, 0.95);
   MUST(mvs_end_group(sim));
   MUST(mvs_undo(sim));
+  MUST_FAIL(mvs_recover_journal(again, path, NULL), MVS_E_STATE, "is open in another simulator");
+  MUST(mvs_close_journal(sim));
   MUST(mvs_recover_journal(again, path, NULL));
   CHECK(same_hash(sim_hash(sim), sim_hash(again)));
   MUST(mvs_redo(sim));

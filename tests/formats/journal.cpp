@@ -34,6 +34,23 @@ TEST_CASE("a_journal_whose_file_was_deleted_takes_no_record") {
   CHECK(contains(failure(MVS_E_IO, [&] { journal.must_exist(); }), "was deleted"));
 }
 
+// Two that append to one file would overwrite each other's records.
+TEST_CASE("a_journal_is_open_once") {
+  const Folder folder;
+  const std::string path = folder.file("a.journal");
+  {
+    Journal first = Journal::create(path, "{}");
+    const JournalRecords records = read_journal(read_whole_file(path));
+    CHECK(contains(failure(MVS_E_STATE, [&] { Journal::reopen(path, records); }), "is open in"));
+    first.append("{}");
+    CHECK(read_journal(read_whole_file(path)).texts.size() == 2);
+  }
+  const JournalRecords records = read_journal(read_whole_file(path));
+  Journal::reopen(path, records).append("{}");  // closed again
+  CHECK(contains(failure(MVS_E_STATE, [&] { Journal::reopen(path, records); }), "has changed"));
+  CHECK(read_journal(read_whole_file(path)).texts.size() == 3);
+}
+
 TEST_CASE("a_journal_that_cannot_begin_leaves_no_file") {
   const Folder folder;
   const std::string path = folder.file("a.journal");

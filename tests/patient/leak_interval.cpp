@@ -78,6 +78,19 @@ TEST_CASE("without_a_closure_at_rest_the_leak_is_not_determined") {
   CHECK(range->sentence.find("not determined: none of 3 closures") != std::string::npos);
 }
 
+TEST_CASE("closures_that_creep_count_where_only_the_valve_as_it_is_comes_to_rest") {
+  LeakInterval interval = three_closures(1, false);
+  interval.creeps = true;
+  Findings findings;
+  report_leaks(interval, {}, 0, findings);
+  const Finding *range = find_finding(findings, "leak_interval");
+  REQUIRE(range != nullptr);
+  CHECK(range->value == std::vector<double>{0, 5e-6});
+  CHECK(range->sentence.find("2 of 3 closures did not come to rest and count") !=
+        std::string::npos);
+  CHECK(range->sentence.find("each of these") == std::string::npos);
+}
+
 // Tissue of a hundredth of the stiffness of a leaflet's cannot carry the pressure: closures end at
 // their last iteration, and what earlier fits leaked decides nothing.
 TEST_CASE("leaks_of_a_fit_do_not_stand_for_closures_that_do_not_come_to_rest") {
@@ -91,6 +104,7 @@ TEST_CASE("leaks_of_a_fit_do_not_stand_for_closures_that_do_not_come_to_rest") {
   CHECK(interval.rests == 0);
   CHECK(interval.draws == 0);  // random lengths would not come to rest either
   for (const uint32_t iterations : interval.iterations) CHECK(iterations <= 400);
+  CHECK_FALSE(interval.creeps);
   CHECK(std::isnan(interval.most));
   CHECK(find_finding(findings, "leak_interval")->value.empty());
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "base/error.h"
 #include "base/tasks.h"
@@ -41,7 +42,7 @@ struct ClosureChange {
 };
 
 Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRange &range,
-                  const TellShare &tell) {
+                  const TellShare &tell, uint32_t iterations = most_iterations) {
   const auto &[factor, by, thickness] = change;
   const bool moves = range.geometry && by != 0;
   Valve changed = moves ? with_edge_moved(valve, *range.geometry, by) : valve;
@@ -53,8 +54,8 @@ Closed close_with(const Valve &valve, const ClosureChange &change, const EdgeRan
   };
   Solver solver(Backend::fastest);
   try {
-    const ClosedValve closed = close_open(solver, make_model(std::move(changed)), systolic_pressure,
-                                          progress, most_iterations);
+    const ClosedValve closed =
+        close_open(solver, make_model(std::move(changed)), systolic_pressure, progress, iterations);
     return {measure_orifice(*closed.model, closed.state.x).area, closed.stats.converged,
             closed.stats.iterations, closed.state.x};
   } catch (const Error &error) {
@@ -69,13 +70,21 @@ struct FoundLeaks {
   std::vector<double> all, at_rest;
   uint32_t rests = 0;  // closures that came to rest
 
+  void add(const Closed &c) {
+    all.push_back(c.leak);
+    if (!c.at_rest) return;
+    ++rests;
+    at_rest.push_back(c.leak);
+  }
   void add(const std::vector<Closed> &closed) {
-    for (const Closed &c : closed) {
-      all.push_back(c.leak);
-      if (!c.at_rest) continue;
-      ++rests;
-      at_rest.push_back(c.leak);
-    }
+    for (const Closed &c : closed) add(c);
+  }
+  // Of all closures that have a shape.
+  std::vector<double> finite() const {
+    std::vector<double> found;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(found),
+                 [](double leak) { return !std::isnan(leak); });
+    return found;
   }
 };
 
@@ -211,8 +220,14 @@ LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
       if (tell) tell(begin + share * done);
     };
   };
+  const double singles_share = static_cast<double>(singles.size()) / most;
   std::vector<Closed> closed =
       close_all(valve, singles, edge, workers, tell_from(0, singles.size()));
+  if (std::none_of(closed.begin(), closed.end(), [](const Closed &c) { return c.at_rest; })) {
+    Closed longer = close_with(valve, {}, edge, tell_from(singles_share, draws), 0);
+    interval.creeps = longer.at_rest;
+    if (longer.at_rest) closed[1] = std::move(longer);
+  }
   for (size_t k = 0; k < 3; ++k) {
     interval.leak[k] = closed[k].leak;
     interval.at_rest[k] = closed[k].at_rest;
@@ -226,15 +241,15 @@ LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
   FoundLeaks leaks{known, known};
   leaks.add(closed);
   const bool is_sealed = leaks.rests > 0 && all_seal(leaks.all);
-  if (leaks.rests > 0 && !is_sealed) {
+  if (leaks.rests > 0 && !is_sealed && !interval.creeps) {
     interval.draws = draws;
     leaks.add(close_all(valve, random_changes(*model, unknowns), edge, workers,
-                        tell_from(static_cast<double>(singles.size()) / most, draws)));
+                        tell_from(singles_share, draws)));
   }
   interval.closures = static_cast<uint32_t>(leaks.all.size() - known.size());
   interval.rests = leaks.rests;
   if (interval.rests > 0) {
-    set_range(interval, leaks.at_rest, is_sealed);
+    set_range(interval, interval.creeps ? leaks.finite() : leaks.at_rest, is_sealed);
     if (unknowns.shape.given && !as_it_is.empty()) {
       reach_to_shape(*model, as_it_is, unknowns.shape, interval, findings);
     }

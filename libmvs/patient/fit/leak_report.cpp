@@ -101,13 +101,17 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
   if (known) {
     finding.sentence = format("%.1f to %.1f mm2 for %s", interval.least * 1e6, interval.most * 1e6,
                               ranges.c_str());
-    finding.sentence +=
-        interval.draws == 0
-            ? format(": each of these closures leaks less than %.1f mm2", sealed_leak * 1e6)
-            : format("; %u closures with random ones are among them", interval.draws);
+    if (interval.draws > 0) {
+      finding.sentence += format("; %u closures with random ones are among them", interval.draws);
+    } else if (!interval.creeps) {
+      finding.sentence +=
+          format(": each of these closures leaks less than %.1f mm2", sealed_leak * 1e6);
+    }
     if (!at_rest) {
-      finding.sentence += format("; %u of %u closures did not come to rest and are left out",
-                                 interval.closures - interval.rests, interval.closures);
+      finding.sentence +=
+          format("; %u of %u closures did not come to rest and %s",
+                 interval.closures - interval.rests, interval.closures,
+                 interval.creeps ? "count with the shapes that they have reached" : "are left out");
     }
     if (interval.shape.distance > 0) finding.sentence += shape_words(interval.shape);
     const auto [narrow, wide] = interval.shown;
@@ -131,7 +135,8 @@ void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double th
        FindingSource::assumed,
        1,
        format(
-           "meshes of one valve leak alike to %.1f mm2; an interval of %.0f mm2 says nothing, "
+           "meshes of one sealed valve leak alike to %.1f mm2, those of a leaking one less so: "
+           "compare edges of other lengths; an interval of %.0f mm2 says nothing, "
            "as grades of regurgitation are that far apart; leaks of ruptured or missing chordae, "
            "and of other insertions than those of this valve%s%s, are not in it%s",
            sealed_leak * 1e6, unknown_leak * 1e6,
