@@ -47,8 +47,7 @@ CostOptions read_options(const mvs_cost_options *options) {
   }
   const double extent = aabb_of(read.septum).longest_side();
   MVS_MUST(read.septum.size() < 2 || extent >= least_septum, MVS_E_ARGUMENT, "options.septum",
-           "options.septum: its %zu points lie within %.3g m: give points of the septum in m (to "
-           "the command in mm)",
+           "options.septum: its %zu points lie within %.3g m: give points of the septum in m",
            read.septum.size(), extent);
   return read;
 }

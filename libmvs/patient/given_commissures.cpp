@@ -25,7 +25,7 @@ CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordi
     const SheetPlace place = place_on(sheet, coordinates, points[k]);
     MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "commissures",
              "commissure %zu lies %.1f mm from the surface, at most %.0f mm are accepted: are both "
-             "in one frame (LPS or RAS), of one patient and one phase?%s",
+             "in one frame (LPS or RAS), in m (--unit of a file), of one patient and one phase?%s",
              k + 1, place.distance * 1e3, farthest_landmark * 1e3,
              mirrored_words(place.distance, other, near_landmark).c_str());
     feet[k] = place.foot;

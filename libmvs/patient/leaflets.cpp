@@ -182,7 +182,7 @@ bool decide_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
     const SheetPlace place = place_on(sheet, c, landmarks.anterior[0]);
     MVS_MUST(place.distance <= farthest_landmark, MVS_E_OP, "anterior",
              "the anterior point lies %.1f mm from the surface, at most %.0f mm are accepted: are "
-             "both in one frame (LPS or RAS)?",
+             "both in one frame (LPS or RAS), and in m (--unit of a file)?",
              place.distance * 1e3, farthest_landmark * 1e3);
     const bool anterior = contains(from, to, place.foot, length);
     add_anterior(FindingSource::given, "the leaflet with the given point", shape, anterior,

@@ -48,7 +48,7 @@ class ImportInputs(OpenSurface):
         done = self.run_import("stated.h5", "--unit", "m", surface="mm.ply")
         self.assertEqual(done.returncode, 0, done.stderr)
         done = self.run_import("refused.h5", "--unit", "m", "--tips", path, surface="mm.ply")
-        self.assertIn("are both in one frame (LPS or RAS)", done.stderr)
+        self.assertIn("are both in one frame (LPS or RAS), in m (--unit of a file)", done.stderr)
 
     def test_landmarks_that_are_a_surface_or_no_points_of_a_valve_are_refused(self):
         self.refused("is a surface of triangles", "--annulus", self.dir / "open.stl")

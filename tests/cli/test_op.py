@@ -1,4 +1,5 @@
 """`mvs op`: one surgical operation from the command line."""
+import math
 import re
 import unittest
 
@@ -55,6 +56,28 @@ class Op(Command):
     def test_an_operation_has_its_name_in_plans_too(self):
         fields = ("--chord", "P2/3", "--factor", 0.75)
         self.assertEqual(self.op("chord_length", *fields)["hash"], self.op("chord-length", *fields)["hash"])
+
+    def test_sentences_of_the_library_are_in_the_units_of_the_command(self):
+        angles = [math.pi * k / 6 for k in range(12)]
+        (self.dir / "metres.txt").write_text("".join(
+            "%g,%g,0\n" % (11e-3 * math.cos(a), 15e-3 * math.sin(a)) for a in angles))
+        (self.dir / "microns.txt").write_text("".join(
+            "%g,%g,0\n" % (11e3 * math.cos(a), 15e3 * math.sin(a)) for a in angles))
+        for options, words in (
+            (("head-move", "--head", "PM1", "--by", "500,0,0"),
+             "a coordinate of 500 mm, it has to be within 50 mm: lengths are in mm"),
+            (("chord-length", "--chord", "P2/3", "--drag-to", "900,0,0"),
+             "mm long where it was dragged to: 0.1 to 200 mm are"),
+            (("ring", "--curve", "metres.txt"), "in other units than mm"),
+            (("ring", "--curve", "microns.txt"), "lengths are in mm"),
+        ):
+            with self.subTest(options):
+                said = self.fails("op", "v.obj", *options, "-o", "q.obj").stderr
+                self.assertIn(words, said)
+                self.assertNotRegex(said, r"\d m\b|\bas m\b|\bthan m\b")
+        done = self.ok("op", "v.obj", "neochord", "--head", "PM1", "--site", "P2:0.5:1", "--young",
+                       0.0004, "-o", "q.obj")
+        self.assertRegex(done.stderr, r"chord \S+ bears .*: moduli are in MPa \(1 of them\)")
 
     def test_help_says_which_shape_is_operated_on(self):
         for command in ("op", "sweep"):

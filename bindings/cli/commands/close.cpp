@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "commands/commands.h"
+#include "text/command_units.h"
 #include "text/readouts.h"
 #include "valve/at_rest.h"
 #include "valve/ensemble.h"
@@ -75,7 +76,7 @@ Closed close_valve(const CloseOptions &options, const Console &console) {
     return {ensemble.snapshot(0), ensemble.stats(0), ensemble.profile(0), std::move(ensemble), {},
             pressure_mmhg};
   }
-  sim.set_load(pressure_mmhg * pa_per_mmhg);
+  with_command_units([&] { sim.set_load(pressure_mmhg * pa_per_mmhg); });
   const mvs_stats stats = sim.settle(settle);
   return {sim.snapshot(), stats, mvs::profile_of(sim), {}, {}, pressure_mmhg};
 }

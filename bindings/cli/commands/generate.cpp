@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "commands/commands.h"
+#include "text/command_units.h"
 #include "valve/tissue.h"
 
 namespace cli {
@@ -71,7 +72,7 @@ mvs::Snapshot make_valve(const GenerateOptions &options) {
   desc.shape = options.shape == "founding" ? MVS_SHAPE_FOUNDING : MVS_SHAPE_HEALTHY;
   desc.leaflet_law = law_of(options.leaflet);
   mvs::Simulator sim = make_sim();
-  sim.generate(desc);
+  with_command_units([&] { sim.generate(desc); });
   for (const std::string &given : options.chord_factors) {
     const auto [name, factor] = parse_chord_factor(given);
     mvs_op_chord_length longer = {};

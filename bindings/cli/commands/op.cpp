@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "commands/commands.h"
+#include "text/command_units.h"
 #include "text/op_text.h"
 #include "text/readouts.h"
 #include "valve/at_rest.h"
@@ -36,14 +37,14 @@ Operated operate(const OpRequest &request, const Console &console) {
   const mvs::Snapshot first = sim.snapshot();
   OpText op(request.kind);
   for (const auto &[name, given] : request.fields) op.set(name, given, first);
-  sim.check(op.get());
+  with_command_units([&] { sim.check(op.get()); });
   std::vector<AtRest> at_rest;
   const double pressure_mmhg = pressure_mmhg_of(request.settle_mmhg, sim);
   if (request.settle) {
     at_rest.push_back(settle(sim, pressure_mmhg, request.in + " before"));
     sim.restore(first);
   }
-  const mvs_id made = sim.apply(op.get());
+  const mvs_id made = with_command_units([&] { return sim.apply(op.get()); });
   const std::string title = sim.snapshot().history().done.back().title;
   if (request.settle) {
     at_rest.push_back(settle(sim, pressure_mmhg, request.in + " after"));

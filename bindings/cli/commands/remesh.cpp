@@ -1,5 +1,6 @@
 // `mvs remesh`: writes a finer or coarser mesh level of a valve.
 #include "commands/commands.h"
+#include "text/command_units.h"
 
 namespace cli {
 namespace {
@@ -31,7 +32,11 @@ void run_remesh(const RemeshOptions &options, const Console &console) {
   const Size before = size_of(sim.snapshot());
   for (uint32_t level = 0; level < options.refine; ++level) mvs::refine(sim);
   mvs_coarsening made = {};
-  if (options.refine == 0) made = mvs::coarsen(sim, {0, options.vertices, options.edge * 1e-3});
+  if (options.refine == 0) {
+    made = with_command_units([&] {
+      return mvs::coarsen(sim, {0, options.vertices, options.edge * 1e-3});
+    });
+  }
   const mvs::Snapshot valve = sim.snapshot();
   valve.save(options.out);
   const Size after = size_of(valve);

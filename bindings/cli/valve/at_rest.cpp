@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "text/command_units.h"
 #include "text/readouts.h"
 
 namespace cli {
@@ -38,7 +39,7 @@ void warn_crossing(const mvs_measures &measures, const std::string &name) {
 }
 
 AtRest settle(mvs::Simulator &sim, double pressure_mmhg, const std::string &name) {
-  sim.set_load(pressure_mmhg * pa_per_mmhg);
+  with_command_units([&] { sim.set_load(pressure_mmhg * pa_per_mmhg); });
   const mvs_stats stats = sim.settle();
   warn_unsettled(stats, name);
   mvs::Snapshot valve = sim.snapshot();

@@ -1,5 +1,6 @@
 #include "valve/cost.h"
 
+#include "text/command_units.h"
 #include "text/op_forms.h"
 
 namespace cli {
@@ -47,7 +48,7 @@ mvs::Cost CostMeter::of(const mvs::Snapshot &closed, Progress *progress) const {
     options.progress = Progress::callback;
     options.user = progress;
   }
-  return closed.cost(options);
+  return with_command_units([&] { return closed.cost(options); });
 }
 
 }  // namespace cli

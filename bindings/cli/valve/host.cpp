@@ -5,13 +5,15 @@
 #include <set>
 #include <string>
 
+#include "text/command_units.h"
+
 namespace cli {
 
 // A valve that is changed or closed several times is checked each time: a sentence is said once.
 void log_to_stderr(void *, mvs_log_level level, const char *text) {
   static std::set<std::string> said;
   if (level > MVS_LOG_WARNING || !said.insert(text).second) return;
-  std::fprintf(stderr, "mvs: %s\n", text);
+  std::fprintf(stderr, "mvs: %s\n", CommandUnits::apply() ? in_command_units(text).c_str() : text);
 }
 
 mvs::Simulator make_sim(mvs_sim_desc desc) {

@@ -45,13 +45,15 @@ void check_tip(const Vec3 &tip, size_t number, const AnnulusFrame &frame) {
   const Vec3 local = frame.local(tip);
   MVS_MUST(local.norm() <= farthest_tip, MVS_E_OP, "papillary_tips",
            "papillary tip %zu lies %.0f mm from the centre of the annulus, at most %.0f mm are "
-           "accepted: are both in one frame (LPS or RAS), in m, and of one patient?",
+           "accepted: are both in one frame (LPS or RAS), in m (--unit of a file), and of one "
+           "patient?",
            number, local.norm() * 1e3, farthest_tip * 1e3);
-  MVS_MUST(
-      local[2] <= -least_tip_depth, MVS_E_OP, "papillary_tips",
-      "papillary tip %zu lies %.1f mm %s the plane of the annulus; tips are at least %.0f mm "
-      "below it: are both in one frame (LPS or RAS), and is the annulus the rim at the atrium?",
-      number, std::abs(local[2]) * 1e3, local[2] > 0 ? "above" : "below", least_tip_depth * 1e3);
+  MVS_MUST(local[2] <= -least_tip_depth, MVS_E_OP, "papillary_tips",
+           "papillary tip %zu lies %.1f mm %s the plane of the annulus; tips are at least %.0f mm "
+           "below it: are both in one frame (LPS or RAS) and in m (--unit of a file), and is the "
+           "annulus the rim at the atrium?",
+           number, std::abs(local[2]) * 1e3, local[2] > 0 ? "above" : "below",
+           least_tip_depth * 1e3);
 }
 
 // Loaded tips are the same ones, at most a few millimetres away.

@@ -82,10 +82,12 @@ bool orient(LeafletSheet &sheet, std::vector<RimLoop> &rims, const std::vector<V
     for (const Vec3 &tip : tips) up += axis.dot(annulus.centre - tip);
     up /= static_cast<double>(tips.size());
     const bool agree = (up > 0) == (depth > 0);
-    MVS_MUST(agree || std::abs(depth) < sure_depth, MVS_E_OP, "papillary_tips",
-             "the papillary tips lie %.1f mm from the annulus, and the free edge %.1f mm on the "
-             "other side: tips are below the leaflets; are both in one frame (LPS or RAS)?",
-             std::abs(up) * 1e3, std::abs(depth) * 1e3);
+    MVS_MUST(
+        agree || std::abs(depth) < sure_depth, MVS_E_OP, "papillary_tips",
+        "the papillary tips lie %.1f mm from the annulus, and the free edge %.1f mm on the "
+        "other side: tips are below the leaflets; are both in one frame (LPS or RAS), and in m "
+        "(--unit of a file)?",
+        std::abs(up) * 1e3, std::abs(depth) * 1e3);
     finding.sentence = format(
         "away from the papillary tips, %.1f mm from the annulus; the free edge lies %.1f mm on %s "
         "side",

@@ -62,8 +62,8 @@ bool first_by_points(const LeafletSheet &sheet, const std::vector<RimLoop> &rims
   MVS_MUST(
       near <= farthest_annulus, MVS_E_OP, "annulus",
       "the annulus points lie %.1f mm from the nearest boundary of the surface in the mean, at "
-      "most %.0f mm are accepted: are both in one frame (LPS or RAS), of one patient and one "
-      "phase?%s",
+      "most %.0f mm are accepted: are both in one frame (LPS or RAS), in m (--unit of a file), of "
+      "one patient and one phase?%s",
       near * 1e3, farthest_annulus * 1e3, mirrored_words(near, other(), near_annulus).c_str());
   finding.source = FindingSource::given;
   finding.confidence = far > 0 ? (far - near) / far : 0;
@@ -104,11 +104,13 @@ bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &ti
     const std::array<double, 2> turned = distances_of_tips(rims, mirrored(tips));
     return std::min(turned[0], turned[1]);
   };
-  MVS_MUST(near <= farthest_papillary_tip, MVS_E_OP, "papillary_tips",
-           "the papillary tips lie %.0f mm from the middle of the nearer boundary in the mean, at "
-           "most %.0f mm are accepted: are both in one frame (LPS or RAS)?%s",
-           near * 1e3, farthest_papillary_tip * 1e3,
-           mirrored_words(near, other(), usual_papillary_tip).c_str());
+  MVS_MUST(
+      near <= farthest_papillary_tip, MVS_E_OP, "papillary_tips",
+      "the papillary tips lie %.0f mm from the middle of the nearer boundary in the mean, at "
+      "most %.0f mm are accepted: are both in one frame (LPS or RAS), in m (--unit of a file), "
+      "and of one patient?%s",
+      near * 1e3, farthest_papillary_tip * 1e3,
+      mirrored_words(near, other(), usual_papillary_tip).c_str());
   // the free edge of a normal valve is two thirds as far from the tips
   finding.confidence = std::clamp(3 * (far - near) / far, 0.0, 1.0);
   finding.sentence = format(
