@@ -11,7 +11,7 @@ class Cost(Shell):
         super().setUpClass()
         cls.ok("generate", "-o", "v.obj")
         cls.ok("close", "v.obj", "-o", "closed.obj")
-        (cls.dir / "septum.txt").write_text("# mm\n60, 0, -10\n80, 5, -10\n")
+        (cls.dir / "septum.txt").write_text("# mm\n0, 60, -10\n5, 80, -10\n")
 
     def test_an_open_valve_is_measured_and_written(self):
         found = self.json("cost", "closed.obj", "-o", "opened.obj", "--flow", 250)
@@ -64,6 +64,15 @@ class Cost(Shell):
             self.refused(1, "broken.txt:2: needs three numbers", *cost)
             (self.dir / "broken.txt").write_text(f"{line}\n60, 0, -10\n")
             self.refused(1, "broken.txt:1: needs three numbers", *cost)
+
+    def test_a_row_of_a_sweep_is_of_the_contents_of_the_septum(self):
+        sweep = ("sweep", "v.obj", "--op", "ring size=28", "--csv", "s.csv", "--cost", "--septum",
+                 "moved.txt")
+        (self.dir / "moved.txt").write_text("0, 60, -10\n")
+        self.ok(*sweep)
+        self.assertEqual(self.json(*sweep)["closed_now"], 0)
+        (self.dir / "moved.txt").write_text("0, 50, -10\n")
+        self.refused(1, "files with other contents", *sweep)
 
     def test_wrong_input_is_named(self):
         sweep = ("sweep", "v.obj", "--op", "ring size=28", "--csv", "u.csv")

@@ -92,6 +92,30 @@ class Sweep(Shell):
         self.assertEqual(done.returncode, 1)
         self.assertIn('no chord named "P9/1"', done.stderr)
 
+    def test_rows_of_a_file_with_other_contents_are_refused(self):
+        def curve(width):
+            points = [(0.37 * width * math.cos(a), 0.5 * width * math.sin(a), 0)
+                      for a in (2 * math.pi * k / 60 for k in range(60))]
+            (self.dir / "curve.txt").write_text("".join("%g,%g,%g\n" % p for p in points))
+
+        sweep = ("sweep", "v.obj", "--op", "ring curve=curve.txt", "--csv", "curve.csv")
+        curve(32)
+        first = self.json(*sweep)
+        self.assertEqual((first["closed_now"], self.json(*sweep)["closed_now"]), (1, 0))
+        self.assertRegex(self.rows("curve.csv")[0]["files"], "^[0-9a-f]{16}$")
+        before = self.bytes("curve.csv")
+        curve(30)
+        done = mvs(*sweep, cwd=self.dir)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("files with other contents", done.stderr)
+        self.assertEqual(self.bytes("curve.csv"), before)
+        # a table of a version before has no column of the contents
+        row = self.rows("curve.csv")[0]
+        del row["files"]
+        (self.dir / "curve.csv").write_text(",".join(row) + "\n")
+        done = mvs(*sweep, cwd=self.dir)
+        self.assertIn('other columns than this sweep, no "files": give', done.stderr)
+
     def test_the_table_of_another_sweep_is_not_touched(self):
         before = self.bytes("all.csv")
         for words, line in (("other columns", ["--op", "annulus-scale factor=1.1"]),

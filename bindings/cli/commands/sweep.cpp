@@ -72,6 +72,7 @@ CsvRow row_of(const Sweep &sweep, size_t combination) {
   }
   row.push_back(cell_of(sweep.conditions.pressure_mmhg));
   row.push_back(sweep.conditions.valve);
+  if (sweep.grid.has_files()) row.push_back(sweep.grid.files(combination));
   if (sweep.cost) row.push_back(sweep.conditions.cost);
   row.push_back(error);
   return row;
@@ -151,8 +152,7 @@ void run_sweep(const SweepOptions &options, Console &console) {
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, sim);
   Sweep sweep = {std::move(grid), sim.snapshot(), {hash_of(sim.snapshot()), pressure_mmhg, ""}, {}};
   if (options.cost) {
-    sweep.conditions.cost = words_of(options.cost_options);
-    sweep.cost.emplace(options.cost_options);
+    sweep.conditions.cost = sweep.cost.emplace(options.cost_options).words();
   }
   SweepTable table(sweep.grid, options.csv, sweep.conditions);
   const std::vector<std::string> keys = measure_keys(options.cost);

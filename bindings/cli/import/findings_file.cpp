@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 
+#include "text/content_hash.h"
 #include "text/replace_file.h"
 
 namespace cli {
@@ -26,14 +27,14 @@ mvs_finding_source source_of(const std::string &name) {
   return 0;
 }
 
-// A digest of the bits of the values (FNV-1a): an edited row has another one.
+// A digest of the bits of the values: an edited row has another one.
 std::string digest_of(const std::vector<double> &values) {
-  uint64_t hash = 14695981039346656037u;
+  std::string bytes;
   for (const double value : values) {
     const auto bits = std::bit_cast<uint64_t>(value);
-    for (int k = 0; k < 64; k += 8) hash = (hash ^ ((bits >> k) & 255)) * 1099511628211u;
+    for (int k = 0; k < 64; k += 8) bytes += static_cast<char>((bits >> k) & 255);
   }
-  return text("%016llx", static_cast<unsigned long long>(hash));
+  return content_hash(bytes);
 }
 
 [[noreturn]] void refuse_findings(const std::string &path, const std::string &part,

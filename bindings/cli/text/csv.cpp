@@ -46,6 +46,14 @@ std::vector<std::string> complete_lines(const std::string &bytes) {
   return lines;
 }
 
+// ", no \"files\"": the first of the columns that a table has not; "" if it has all.
+std::string missing_column(const CsvRow &has, const CsvRow &columns) {
+  for (const std::string &column : columns) {
+    if (std::find(has.begin(), has.end(), column) == has.end()) return ", no \"" + column + "\"";
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string csv_line(const CsvRow &row) {
@@ -79,7 +87,10 @@ CsvFile::CsvFile(const std::string &path, const CsvRow &columns) : path_(path), 
       lines.empty() ? csv_line(columns).rfind(bytes, 0) == 0 : read_csv_line(lines[0]) == columns;
   if (!is_ours) {
     fail(MVS_E_FORMAT, "csv",
-         path + ": has other columns than this sweep: give the name of another file", 1);
+         path + ": has other columns than this sweep" +
+             (lines.empty() ? "" : missing_column(read_csv_line(lines[0]), columns)) +
+             ": give the name of another file",
+         1);
   }
   for (size_t k = 1; k < lines.size(); ++k) {
     rows_.push_back(read_csv_line(lines[k]));

@@ -4,7 +4,9 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
+#include "text/content_hash.h"
 #include "valve/host.h"
 
 namespace cli {
@@ -79,10 +81,15 @@ bool read_site(const std::string &text, SiteText &value) {
   return parts.size() == 3 && !value.scallop.empty() && read_shares(parts, 1, value.u);
 }
 
-std::vector<std::array<double, 3>> read_points_file(const std::string &path) {
-  std::ifstream file(path);
-  if (!file) fail(MVS_E_IO, path, "cannot read the points of " + path);
-  std::vector<std::array<double, 3>> points;
+PointsFile read_points_file(const std::string &path) {
+  std::ifstream opened(path, std::ios::binary);
+  std::stringstream file;
+  if (opened.peek() != std::ifstream::traits_type::eof()) file << opened.rdbuf();
+  // a folder can be opened, but not read
+  if (!opened.is_open() || opened.bad()) {
+    fail(MVS_E_IO, path, "cannot read the points of " + path);
+  }
+  Points points;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
@@ -98,10 +105,10 @@ std::vector<std::array<double, 3>> read_points_file(const std::string &path) {
     }
     points.push_back(row);
   }
-  if (file.bad() || points.empty()) {
+  if (points.empty()) {
     fail(MVS_E_FORMAT, path, path + " has no points: it needs three numbers per line, in mm");
   }
-  return points;
+  return {std::move(points), content_hash(file.str())};
 }
 
 }  // namespace cli

@@ -24,10 +24,17 @@ struct SiteText {
 };
 bool read_site(const std::string &text, SiteText &value);
 
-// Reads the points of a text file: three numbers per line, separated by commas, semicolons or
-// blanks. Skips empty lines, lines that begin with '#', and a heading in the first line. Throws
-// mvs::Error with the line number.
-std::vector<std::array<double, 3>> read_points_file(const std::string &path);
+using Points = std::vector<std::array<double, 3>>;
+
+// The points of a text file, and a hash of the bytes that were read.
+struct PointsFile {
+  Points points;
+  std::string hash;
+};
+
+// Reads three numbers per line, separated by commas, semicolons or blanks. Skips empty lines, lines
+// that begin with '#', and a heading in the first line. Throws mvs::Error with the line number.
+PointsFile read_points_file(const std::string &path);
 
 std::vector<std::string> split(const std::string &text, char separator);
 

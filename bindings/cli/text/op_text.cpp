@@ -183,7 +183,7 @@ void OpText::set(const std::string &name, const std::string &given, const mvs::S
                                             : put(field, mvs_point{{at[0], at[1], at[2]}, 1, 0});
     }
     case MVS_FIELD_POINTS:
-      return set_points(field, given);
+      return set_points(field, read_points_file(given).points);
     case MVS_FIELD_TEXT:
       texts_.push_back(given);
       return put(field, texts_.back().c_str());
@@ -217,8 +217,8 @@ mvs_site OpText::site_of(const std::string &given, const mvs::Snapshot &valve) c
   return site;
 }
 
-void OpText::set_points(const mvs_field_info &field, const std::string &given) {
-  points_.push_back(read_points_file(given));
+void OpText::set_points(const mvs_field_info &field, Points points) {
+  points_.push_back(std::move(points));
   for (std::array<double, 3> &point : points_.back()) point = si(field, point);
   put(field, mvs_array{points_.back().data(), points_.back().size(), 3, MVS_TYPE_F64, 0});
 }

@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "text/op_forms.h"
+
 namespace cli {
 
 // The unit of a field in text: mm for m, ...; "" for a pure number.
@@ -42,20 +44,21 @@ class OpText {
   // value out of range (the sentence uses the unit in text), an unknown part, or an unreadable file
   // of points.
   void set(const std::string &name, const std::string &text, const mvs::Snapshot &valve);
+  // Sets a field of points that are in the unit of the text.
+  void set_points(const mvs_field_info &field, Points points);
 
   const mvs_op *get() const { return reinterpret_cast<const mvs_op *>(words_.data()); }
 
  private:
   void set_number(const mvs_field_info &field, const std::string &text);
   mvs_site site_of(const std::string &text, const mvs::Snapshot &valve) const;
-  void set_points(const mvs_field_info &field, const std::string &text);
   template <typename Value>
   void put(const mvs_field_info &field, const Value &value);
 
   mvs::OpKind kind_;
   std::vector<uint64_t> words_;  // the struct, aligned
   std::list<std::string> texts_;
-  std::list<std::vector<std::array<double, 3>>> points_;
+  std::list<Points> points_;
 };
 
 }  // namespace cli

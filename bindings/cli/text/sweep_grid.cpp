@@ -6,6 +6,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "text/command_units.h"
 #include "text/console.h"
 #include "text/op_forms.h"
 
@@ -130,6 +131,12 @@ SweepGrid::SweepGrid(std::vector<SweepOp> ops) : ops_(std::move(ops)) {
           text("more than %zu combinations: give fewer values", most_combinations));
     }
   }
+  for (const SweepOp &op : ops_) {
+    for (const SweepAxis &axis : op.axes) {
+      if (axis.field.type != MVS_FIELD_POINTS) continue;
+      for (const std::string &path : axis.values) files_.emplace(path, read_points_file(path));
+    }
+  }
 }
 
 std::vector<std::string> SweepGrid::columns() const {
@@ -158,14 +165,35 @@ std::vector<std::string> SweepGrid::values(size_t combination) const {
   return values;
 }
 
+std::string SweepGrid::files(size_t combination) const {
+  const std::vector<std::string> all = values(combination);
+  auto value = all.begin();
+  std::string hashes;
+  for (const SweepOp &op : ops_) {
+    for (const SweepAxis &axis : op.axes) {
+      const std::string &given = *value++;
+      if (axis.field.type != MVS_FIELD_POINTS) continue;
+      hashes += (hashes.empty() ? "" : " ") + files_.at(given).hash;
+    }
+  }
+  return hashes;
+}
+
 void SweepGrid::apply(size_t combination, mvs::Simulator &sim) const {
   const std::vector<std::string> all = values(combination);
   auto value = all.begin();
   for (const SweepOp &op : ops_) {
     OpText given(op.kind);
     const mvs::Snapshot valve = sim.snapshot();
-    for (const SweepAxis &axis : op.axes) given.set(axis.field.name, *value++, valve);
-    sim.apply(given.get());
+    for (const SweepAxis &axis : op.axes) {
+      const std::string &word = *value++;
+      if (axis.field.type == MVS_FIELD_POINTS) {
+        given.set_points(axis.field, files_.at(word).points);
+      } else {
+        given.set(axis.field.name, word, valve);
+      }
+    }
+    with_command_units([&] { return sim.apply(given.get()); });
   }
 }
 

@@ -1,6 +1,7 @@
 // The grid of a sweep: operations whose fields have lists of values, and all their combinations.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ SweepOp read_sweep_op(const std::string &text);
 
 class SweepGrid {
  public:
-  // Throws std::invalid_argument for more than 100,000 combinations.
+  // Throws std::invalid_argument for more than 100,000 combinations. Reads the files of points,
+  // each once; throws mvs::Error if one cannot be read.
   explicit SweepGrid(std::vector<SweepOp> ops);
 
   size_t combinations() const { return count_; }
@@ -34,12 +36,18 @@ class SweepGrid {
   std::vector<std::string> columns() const;
   // The values of a combination in the order of columns(); the last axis changes fastest.
   std::vector<std::string> values(size_t combination) const;
+  // Whether a field has files of points.
+  bool has_files() const { return !files_.empty(); }
+  // Hashes of the contents of a combination's files, in the order of columns(), with blanks
+  // between.
+  std::string files(size_t combination) const;
   // Applies the operations of a combination, in the order in which they were given.
   void apply(size_t combination, mvs::Simulator &sim) const;
 
  private:
   std::vector<SweepOp> ops_;
   size_t count_ = 1;
+  std::map<std::string, PointsFile> files_;  // by their names
 };
 
 }  // namespace cli

@@ -13,6 +13,7 @@ CsvRow sweep_columns(const SweepGrid &grid, bool cost) {
   columns.emplace_back("converged");
   for (const std::string &key : measure_keys(cost)) columns.push_back(key);
   for (const char *last : {"pressure_mmHg", "valve"}) columns.emplace_back(last);
+  if (grid.has_files()) columns.emplace_back("files");
   if (cost) columns.emplace_back("cost");
   columns.emplace_back("error");
   return columns;
@@ -40,15 +41,22 @@ SweepTable::SweepTable(const SweepGrid &grid, const std::string &path,
       file_(path, columns_) {
   for (size_t k = 0; k < grid.combinations(); ++k) order_[grid.values(k)] = k;
   for (const CsvRow &row : file_.rows()) {
-    const bool same = cell(row, "valve") == conditions.valve &&
-                      cell(row, "pressure_mmHg") == cell_of(conditions.pressure_mmhg) &&
-                      (conditions.cost.empty() || cell(row, "cost") == conditions.cost);
-    if (same) continue;
+    if (has_conditions(row, grid, conditions)) continue;
     fail(MVS_E_FORMAT, "csv",
          path +
-             ": holds rows of another valve or pressure, or other options of costs: give the "
-             "name of another file");
+             ": holds rows of another valve or pressure, other options of costs, or files with "
+             "other contents: give the name of another file");
   }
+}
+
+bool SweepTable::has_conditions(const CsvRow &row, const SweepGrid &grid,
+                                const SweepConditions &conditions) const {
+  if (cell(row, "valve") != conditions.valve) return false;
+  if (cell(row, "pressure_mmHg") != cell_of(conditions.pressure_mmhg)) return false;
+  if (!conditions.cost.empty() && cell(row, "cost") != conditions.cost) return false;
+  const auto combination = order_.find(key(row));
+  return !grid.has_files() || combination == order_.end() ||
+         cell(row, "files") == grid.files(combination->second);
 }
 
 const std::string &SweepTable::cell(const CsvRow &row, const std::string &column) const {

@@ -25,12 +25,12 @@ struct SweepConditions {
   std::string cost;  // how costs are measured, in words; "": they are not
 };
 
-// Columns: the parameters, "converged", the measures, "pressure_mmHg", "valve", with costs "cost",
-// "error".
+// Columns: the parameters, "converged", the measures, "pressure_mmHg", "valve", with files of
+// points "files", which has the hashes of their contents, with costs "cost", "error".
 class SweepTable {
  public:
-  // Reads the rows of an existing file. Throws mvs::Error if it has other columns, or rows of other
-  // conditions.
+  // Reads the rows of an existing file. Throws mvs::Error if it has other columns, rows of other
+  // conditions, or rows of the grid whose files had other contents.
   SweepTable(const SweepGrid &grid, const std::string &path, const SweepConditions &conditions);
 
   const CsvRow &columns() const { return columns_; }
@@ -48,6 +48,8 @@ class SweepTable {
   void sort();
 
  private:
+  bool has_conditions(const CsvRow &row, const SweepGrid &grid,
+                      const SweepConditions &conditions) const;
   CsvRow key(const CsvRow &row) const;
   size_t place(const CsvRow &row) const;
 

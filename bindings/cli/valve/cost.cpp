@@ -22,18 +22,15 @@ std::array<CLI::Option *, 3> add_cost_options(CLI::App &command, CostOptions &op
   return {diastole, flow, septum};
 }
 
-std::string words_of(const CostOptions &options) {
-  std::string words = text("diastole %g mmHg", options.diastole_mmhg);
-  if (options.flow_ml_s > 0) words += text(", flow %g ml/s", options.flow_ml_s);
-  if (!options.septum.empty()) words += ", septum " + options.septum;
-  return words;
-}
-
 CostMeter::CostMeter(const CostOptions &options) {
   options_.pressure = options.diastole_mmhg * pa_per_mmhg;
   options_.flow = options.flow_ml_s * 1e-6;
+  words_ = text("diastole %g mmHg", options.diastole_mmhg);
+  if (options.flow_ml_s > 0) words_ += text(", flow %g ml/s", options.flow_ml_s);
   if (options.septum.empty()) return;
-  septum_ = read_points_file(options.septum);
+  const PointsFile file = read_points_file(options.septum);
+  words_ += ", septum " + options.septum + " with the contents " + file.hash;
+  septum_ = file.points;
   for (std::array<double, 3> &point : septum_) {
     for (double &x : point) x *= 1e-3;
   }

@@ -18,18 +18,18 @@ struct CostOptions {
 
 std::array<CLI::Option *, 3> add_cost_options(CLI::App &command, CostOptions &options);
 
-// The options in words: "diastole 5 mmHg, flow 250 ml/s".
-std::string words_of(const CostOptions &options);
-
 // Measures costs with the options of a command; the file of the septum is read once.
 class CostMeter {
  public:
   explicit CostMeter(const CostOptions &options);
+  // The options in words: "diastole 5 mmHg, flow 250 ml/s", of the septum also a hash of the file.
+  const std::string &words() const { return words_; }
   mvs::Cost of(const mvs::Snapshot &closed, Progress *progress = nullptr) const;
 
  private:
   mvs_cost_options options_ = {};
   std::vector<std::array<double, 3>> septum_;
+  std::string words_;
 };
 
 }  // namespace cli
