@@ -92,6 +92,16 @@ class Sweep(Shell):
         self.assertEqual(done.returncode, 1)
         self.assertIn('no chord named "P9/1"', done.stderr)
 
+    def test_a_table_without_a_combination_at_rest_is_a_failure(self):
+        lines = self.bytes("all.csv").decode().splitlines(keepends=True)
+        for rows, code in ((lines[1:], 0), (lines[1:6], 0), ([], 1)):
+            moving = [line.replace(",true,", ",false,", 1) for line in lines[1 + len(rows):]]
+            (self.dir / "rest.csv").write_text("".join([lines[0], *rows, *moving]))
+            done = mvs("sweep", "v.obj", *GRID, "--csv", "rest.csv", cwd=self.dir)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertEqual("no combination is at rest" in done.stderr, code == 1)
+            self.assertEqual(f"{len(moving)} are not at rest" in done.stdout, len(moving) > 0)
+
     def test_rows_of_a_file_with_other_contents_are_refused(self):
         def curve(width):
             points = [(0.37 * width * math.cos(a), 0.5 * width * math.sin(a), 0)

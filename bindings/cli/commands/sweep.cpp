@@ -123,11 +123,15 @@ void report(const Sweep &sweep, const SweepTable &table, const SweepOptions &opt
   const auto failed = std::count_if(rows.begin(), rows.end(), [&](const CsvRow &row) {
     return !table.cell(row, "error").empty();
   });
+  const auto at_rest = std::count_if(rows.begin(), rows.end(),
+                                     [&](const CsvRow &row) { return table.is_at_rest(row); });
+  const auto moving = static_cast<ptrdiff_t>(rows.size()) - failed - at_rest;
   Json best = Json::array();
   std::string lines = text("%s: %zu combinations under %g mmHg, %zu of them closed now, in %s",
                            options.file.c_str(), rows.size(), sweep.conditions.pressure_mmhg,
                            closed_now, options.csv.c_str());
   if (failed > 0) lines += text("\n%td cannot be applied: see the column error", failed);
+  if (moving > 0) lines += text("\n%td are not at rest: see the column converged", moving);
   if (!options.sort.empty()) {
     const std::vector<CsvRow> first = table.best(options.sort, options.largest, most_shown);
     for (const CsvRow &row : first) best.push_back(best_json(table, row));
@@ -140,9 +144,28 @@ void report(const Sweep &sweep, const SweepTable &table, const SweepOptions &opt
          {"combinations", rows.size()},
          {"closed_now", closed_now},
          {"failed", failed},
+         {"not_at_rest", moving},
          {"sort", options.sort.empty() ? Json() : Json(options.sort)},
          {"best", best}},
         lines);
+}
+
+// A table in which no combination is at rest is a failure, also if its rows are from a run before.
+void demand_a_row_at_rest(const SweepTable &table, Console &console) {
+  const std::vector<CsvRow> rows = table.rows();
+  if (std::any_of(rows.begin(), rows.end(), [&](const CsvRow &r) { return table.is_at_rest(r); })) {
+    return;
+  }
+  const bool applied = std::any_of(rows.begin(), rows.end(), [&](const CsvRow &row) {
+    return table.cell(row, "error").empty();
+  });
+  if (applied) {
+    std::fprintf(stderr, "mvs: no combination is at rest\n");
+  } else {
+    std::fprintf(stderr, "mvs: no combination can be applied: %s\n",
+                 table.cell(rows[0], "error").c_str());
+  }
+  console.exit_code = 1;
 }
 
 void run_sweep(const SweepOptions &options, Console &console) {
@@ -169,13 +192,7 @@ void run_sweep(const SweepOptions &options, Console &console) {
     fail(MVS_E_CANCELLED, "sweep", "stopped by Ctrl-C: run the same command again to continue");
   }
   report(sweep, table, options, missing.size(), console);
-  const std::vector<CsvRow> rows = table.rows();
-  const bool any = std::any_of(rows.begin(), rows.end(),
-                               [&](const CsvRow &row) { return table.cell(row, "error").empty(); });
-  if (any) return;
-  std::fprintf(stderr, "mvs: no combination can be applied: %s\n",
-               table.cell(rows[0], "error").c_str());
-  console.exit_code = 1;
+  demand_a_row_at_rest(table, console);
 }
 
 // An error sentence for one --op, else "".
@@ -233,7 +250,9 @@ void add_sweep(CLI::App &app, Console &console) {
   command->footer(
       "The valve is closed first, and every combination starts from that closed valve; `mvs op "
       "--settle` and Python's\nmvs.sweep operate on the valve as given: give them a closed one "
-      "(mvs close -o) for the same figures.");
+      "(mvs close -o) for the same figures.\n"
+      "Exit code 0: a combination at least is at rest; single ones that are not, or cannot be "
+      "applied, are rows of the\ntable and warnings. 1: none is at rest.");
 }
 
 }  // namespace cli

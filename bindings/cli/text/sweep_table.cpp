@@ -81,14 +81,17 @@ std::vector<CsvRow> SweepTable::rows() const {
   return rows;
 }
 
+bool SweepTable::is_at_rest(const CsvRow &row) const {
+  const std::string &converged = cell(row, "converged");
+  return converged == "true" || converged == "1";  // "1": of an older table
+}
+
 std::vector<CsvRow> SweepTable::best(const std::string &measure, bool largest_first,
                                      size_t most) const {
   std::vector<std::pair<double, CsvRow>> found;
   for (const CsvRow &row : rows()) {
     double value = 0;
-    const std::string &converged = cell(row, "converged");  // "1": of an older table
-    const bool at_rest = converged == "true" || converged == "1";
-    if (!at_rest || !read_number(cell(row, measure), value)) continue;
+    if (!is_at_rest(row) || !read_number(cell(row, measure), value)) continue;
     found.emplace_back(largest_first ? -value : value, row);
   }
   std::stable_sort(found.begin(), found.end(),

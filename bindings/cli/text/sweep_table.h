@@ -39,6 +39,7 @@ class SweepTable {
   std::vector<size_t> missing() const;
   // The rows of the grid.
   std::vector<CsvRow> rows() const;
+  bool is_at_rest(const CsvRow &row) const;
   // At most `most` rows at rest, sorted by a measure.
   std::vector<CsvRow> best(const std::string &measure, bool largest_first, size_t most) const;
 
