@@ -6,6 +6,7 @@
 #include "formats/formats.h"
 #include "session/commit.h"
 #include "session/replay.h"
+#include "session/unit_warnings.h"
 
 using namespace mvs::core;
 
@@ -63,6 +64,7 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
     commit(s, std::move(steps.now),
            [&](const Snapshot &after) { return steps_record(before->value, after); });
     if (replay) write_struct(replay, how, "replay");
+    log_units(s, *s.present()->model, before->model.get());
   });
 }
 

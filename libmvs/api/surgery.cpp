@@ -5,6 +5,7 @@
 #include "base/utf8.h"
 #include "model/text.h"
 #include "session/commit.h"
+#include "session/unit_warnings.h"
 
 using namespace mvs::core;
 
@@ -41,6 +42,7 @@ mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made) {
            [&](const Snapshot &next) { return steps_record(before->value, next); });
     if (made) *made = entry->made;
     s.log(MVS_LOG_INFO, "%s", entry->title.c_str());
+    log_units(s, *s.present()->model, before->model.get());
   });
 }
 

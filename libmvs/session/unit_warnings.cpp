@@ -3,7 +3,9 @@
 
 #include <mvs/sim.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -139,15 +141,44 @@ void judge_length(const Valve &valve, const Chord &chord, ChordWarning &lengths)
                             1e3 * chord.rest_length, 1e3 * distance));
 }
 
-void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale) {
+bool has_leaflet(const Model *before, const Leaflet &leaflet) {
+  if (!before) return false;
+  const auto &leaflets = before->valve.leaflets;
+  return std::find(leaflets.begin(), leaflets.end(), leaflet) != leaflets.end();
+}
+
+// The chordae of a model by their ids; none without a model.
+class KnownChords {
+ public:
+  explicit KnownChords(const Model *model) {
+    if (!model) return;
+    for (const Chord &chord : model->valve.chords) chords_[chord.id] = &chord;
+  }
+  // Whether a chord of this id has the same length and response. Its nodes may have other numbers.
+  bool has(const Chord &chord) const {
+    const auto found = chords_.find(chord.id);
+    if (found == chords_.end()) return false;
+    const Chord &known = *found->second;
+    return known.rest_length == chord.rest_length && known.law == chord.law &&
+           known.young == chord.young && known.area == chord.area &&
+           known.constants == chord.constants;
+  }
+
+ private:
+  std::map<Id, const Chord *> chords_;
+};
+
+void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale, const Model *before) {
   const Valve &valve = model.valve;
   const size_t ends = leaflet_ends(model);
   if (ends == 0) return;
   // the annulus spans about half the area of the leaflets
   const double share = 0.5 * MVS_SYSTOLE_PA * scale.area / static_cast<double>(ends);
+  const KnownChords known(before);
   ChordWarning soft, stiff, lengths;
   for (const Chord &chord : valve.chords) {
     if (chord.kind == ChordKind::suture) continue;  // made by the library
+    if (known.has(chord)) continue;
     judge_stiffness(valve, chord, share, soft, stiff);
     judge_length(valve, chord, lengths);
   }
@@ -165,16 +196,19 @@ bool has_few_digits(double value, int most) {
 
 }  // namespace
 
-void log_units(const mvs_sim &sim, const Model &model) {
+void log_units(const mvs_sim &sim, const Model &model, const Model *before) {
   const Scale scale(model);
   const double contact = model.valve.contact_stiffness;
-  if (contact < softest_contact) {
+  const bool is_known = before && before->valve.contact_stiffness == contact;
+  if (contact < softest_contact && !is_known) {
     sim.log(MVS_LOG_WARNING,
             "the contact stiffness is %g Pa, the default 20000: looks like kPa given as Pa",
             contact);
   }
-  for (const Leaflet &leaflet : model.valve.leaflets) log_leaflet(sim, leaflet, scale);
-  log_chords(sim, model, scale);
+  for (const Leaflet &leaflet : model.valve.leaflets) {
+    if (!has_leaflet(before, leaflet)) log_leaflet(sim, leaflet, scale);
+  }
+  log_chords(sim, model, scale, before);
 }
 
 // Warns about pressures below 1.5 mmHg, which are systolic ones as numbers in MPa, kPa or mmHg

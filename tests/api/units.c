@@ -118,6 +118,49 @@ static void pressures_in_mpa_are_warned_of(void) {
   WARNS(load(1e-12), 0, ""); /* zero, rounded */
 }
 
+static mvs_op_chord_add added(double along, double young) {
+  mvs_part head, scallop;
+  const mvs_snapshot *now = NULL;
+  MUST(mvs_get_snapshot(sim, &now));
+  MUST(mvs_snapshot_find_part(now, MVS_PART_HEAD, "PM1", &head));
+  MUST(mvs_snapshot_find_part(now, MVS_PART_SCALLOP, "P2", &scallop));
+  mvs_snapshot_release(now);
+  const mvs_op_chord_add op = {.op = {sizeof op, MVS_OP_CHORD_ADD},
+                               .head = head.id,
+                               .site = {MVS_SITE_ANATOMICAL, 0, scallop.id, {along, 1, 0}},
+                               .length = 12e-3,
+                               .young = young};
+  return op;
+}
+
+/* An operation is warned of as a valve is, and not of what it left as it was. */
+static void operations_are_warned_of(void) {
+  MUST(generate_founding(sim));
+  const mvs_op_chord_add usual = added(0.2, 0), soft = added(0.4, 40), next = added(0.6, 0),
+                         stiff = added(0.8, 40e9);
+  WARNS(mvs_apply_op(sim, &usual.op, NULL), 0, "");
+  WARNS(mvs_apply_op(sim, &soft.op, NULL), 1,
+        "looks like a modulus in kPa or MPa given as Pa (1 of");
+  WARNS(mvs_apply_op(sim, &next.op, NULL), 0, "");
+  WARNS(mvs_apply_op(sim, &stiff.op, NULL), 1, "as steel wire does");
+}
+
+/* So is a plan. */
+static void plans_are_warned_of(void) {
+  static char text[1 << 20];
+  uint64_t size = 0;
+  const mvs_snapshot *now = NULL;
+  MUST(generate_founding(sim));
+  const mvs_op_chord_add soft = added(0.4, 40);
+  WARNS(mvs_apply_op(sim, &soft.op, NULL), 1, "bears");
+  MUST(mvs_get_snapshot(sim, &now));
+  MUST(mvs_write_plan(now, NULL, text, sizeof text, &size));
+  mvs_snapshot_release(now);
+  MUST(generate_founding(sim));
+  WARNS(mvs_replay_plan(sim, text, size, NULL), 1,
+        "looks like a modulus in kPa or MPa given as Pa");
+}
+
 int main(void) {
   const mvs_sim_desc desc = {.struct_size = sizeof desc, .log = take_line, .user = &heard};
   MUST(mvs_create(&desc, &sim));
@@ -127,6 +170,8 @@ int main(void) {
   pressures_in_mmhg_are_warned_of();
   pressures_in_kpa_are_warned_of();
   pressures_in_mpa_are_warned_of();
+  operations_are_warned_of();
+  plans_are_warned_of();
   mvs_destroy(sim);
   return finish("units");
 }

@@ -69,6 +69,21 @@ def test_wrong_operations_are_refused_before_any_work(opened):
             mvs.sweep(opened, ops)
 
 
+@pytest.mark.parametrize("pool", [None, ProcessPoolExecutor])
+def test_values_like_another_unit_are_warned_of_once(opened, pool):
+    site = ("P2", 0.5, 1.0)
+    ops = [("ring", {"size": [30e-3, 34e-3]}),
+           ("neochord", {"head": "PM1", "site": site, "length": 12e-3, "young": 400.0})]
+    executor = pool and pool(2)
+    with pytest.warns(mvs.ValveWarning) as caught:
+        mvs.sweep(opened, ops, executor, pressure_pa=120, settle=QUICK)
+    if executor:
+        executor.shutdown()
+    assert [each.filename for each in caught] == [__file__] * 2
+    assert "looks like a modulus in kPa or MPa given as Pa" in str(caught[0].message)
+    assert "looks like mmHg given as Pa" in str(caught[1].message)
+
+
 def test_a_loaded_snapshot_keeps_its_load(opened):
     with mvs.Simulator() as sim:
         sim.restore(opened)

@@ -215,6 +215,19 @@ def test_a_pressure_like_kpa_is_warned_of(sim):
     assert caught[0].filename == __file__
 
 
+@pytest.mark.parametrize("operation, young", [("neochord", 400.0), ("chord_add", 40.0)])
+def test_a_modulus_of_an_operation_in_another_unit_is_warned_of(sim, operation, young):
+    sim.generate()
+    chord = {"head": "PM1", "site": ("P2", 0.5, 1.0), "length": 12e-3}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        sim.apply(operation, **chord)
+        sim.undo()
+    with pytest.warns(mvs.ValveWarning, match="a modulus in kPa or MPa given as Pa") as caught:
+        sim.apply(operation, **chord, young=young)
+    assert len(caught) == 1 and caught[0].filename == __file__
+
+
 def test_a_valid_valve_issues_no_warning(valve):
     with warnings.catch_warnings():
         warnings.simplefilter("error")

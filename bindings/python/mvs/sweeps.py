@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from typing import Any, Optional, Union
@@ -13,7 +14,7 @@ import numpy as np
 from . import ops as operations
 from ._core import Simulator, Snapshot
 from .arrays import Valve
-from .errors import ArgumentError, Error
+from .errors import ArgumentError, Error, ValveWarning
 from .kinds import SYSTOLE_PA
 from .ops import FieldType, Operation
 from .tables import Row, Table
@@ -24,6 +25,7 @@ Step = Union[Operation, tuple[str, Mapping[str, Any]]]
 """An operation, or its name with its fields, where a field may hold a list of values."""
 
 _PLAIN = (FieldType.NUMBER, FieldType.COUNT)
+_WARNING = 2  # MVS_LOG_WARNING
 
 
 @dataclasses.dataclass(frozen=True)
@@ -57,7 +59,7 @@ def sweep(
     as given: give it a closed snapshot for the same figures. Arguments that fit no valve, as a factor of 0, raise. Columns: the parameters with several values ("ring.size"), "converged", the fields of
     mvs.Measures in SI units, and "error", the sentence of an impossible combination, whose measures
     are NaN. The rows are in the order of the combinations, the last parameter fastest, and do not
-    depend on the executor.
+    depend on the executor. Warnings of the library (mvs.ValveWarning) come once for all rows.
 
     ops: pairs of a name and its fields, or mvs.Operation. A list holds the values of a parameter;
         numbers may also be a range or an array. Points of a curve are an array, a site a tuple
@@ -79,11 +81,27 @@ def sweep(
         parameters.append({c.label: v for c, v in zip(choices, values) if c.label in varied})
         tasks.append(_Task(start, _operations(choices, values), load, dict(settle or {}), cost))
     if executor is None:
-        results: Iterable[Row] = map(_run, tasks)
+        done: Iterable[_Done] = map(_run, tasks)
     else:
-        results = [each.result() for each in [executor.submit(_run, task) for task in tasks]]
+        done = [each.result() for each in [executor.submit(_run, task) for task in tasks]]
+    results = list(done)
+    _warn_once(sentence for each in results for sentence in each.warnings)
     units = _units(choices, varied, cost is not None)
-    return Table(({**p, **row} for p, row in zip(parameters, results)), units)
+    return Table(({**p, **each.row} for p, each in zip(parameters, results)), units)
+
+
+@dataclasses.dataclass(frozen=True)
+class _Done:
+    """A row, and the warnings of the library about its operations and load."""
+
+    row: Row
+    warnings: tuple[str, ...]
+
+
+def _warn_once(sentences: Iterable[str]) -> None:
+    """Every sentence once, at the line that called sweep()."""
+    for sentence in dict.fromkeys(sentences):
+        warnings.warn(sentence, ValveWarning, stacklevel=3)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -174,17 +192,30 @@ def _snapshot_of(valve: Valve) -> Snapshot:
         return sim.snapshot()
 
 
-def _run(task: _Task) -> Row:
+def _run(task: _Task) -> _Done:
     """One row; an impossible combination is a row with its sentence. Runs in a worker."""
+    said: list[str] = []
+    row = _row(task, said)
+    return _Done(row, tuple(said))
+
+
+def _row(task: _Task, said: list[str]) -> Row:
+    def log(level: int, text: str) -> None:
+        # "converged" says how a settle ended
+        if level <= _WARNING and not settling:
+            said.append(text)
+
+    settling = False
     names = [field.name for field in dataclasses.fields(Measures)]
     costs = _cost_names() if task.cost is not None else []
     row: dict[str, Any] = dict.fromkeys([*names, *(f"cost.{name}" for name in costs)], float("nan"))
     try:
-        with Simulator(log=lambda level, text: None) as sim:
+        with Simulator(log=log) as sim:
             sim.restore(task.start)
             for operation in task.operations:
                 sim.apply(operation)
             sim.set_load(task.load.pressure, task.load.boundary_fraction)
+            settling = True
             converged = sim.settle(**task.settle).converged
             closed = sim.snapshot()
         row.update({name: getattr(closed.measures, name) for name in names})
