@@ -24,8 +24,8 @@ typedef struct mvs_cost_options {
   double density;      /* kg/m3, of blood [1060] */
   double discharge;    /* discharge coefficient, 0.1 to 1 [0.85] */
   mvs_array septum;    /* F64 or F32, k x 3, m: points of the septum where it faces the
-                          anterior leaflet in systole, within 0.1 m of the coaptation and 1 mm or
-                          more apart [not known: no risk of SAM] */
+                          anterior leaflet in systole, in front of the coaptation, within 0.1 m of
+                          it, and 1 mm or more apart [not known: no risk of SAM] */
   /* As in mvs_sim_desc, of the opening. Nullable. */
   int32_t (*progress)(void *user, double share, double residual);
   void *user;

@@ -7,6 +7,7 @@
 #include "api/structs.h"
 #include "geometry/aabb.h"
 #include "history/event_limits.h"
+#include "measure/annulus/frame.h"
 #include "measure/cost/outflow.h"
 #include "session/recorded_event.h"
 #include "session/snapshot.h"
@@ -79,6 +80,26 @@ void add_opening(const mvs_snapshot &opened, const mvs_cost_options &options, mv
                                    : unknown;
 }
 
+// The distance from the coaptation to the nearest point of the septum, which faces the anterior
+// leaflet: the point has to be in front of the coaptation along the AP axis of the annulus.
+double septal_distance(const mvs_snapshot &closed, const Outflow &outflow,
+                       const std::vector<Vec3> &septum) {
+  const std::optional<Vec3> nearest = outflow.nearest_of(septum);
+  if (!nearest) return unknown;
+  const Vec3 away = *nearest - *outflow.coaptation;
+  MVS_MUST(away.norm() <= farthest_septum, MVS_E_ARGUMENT, "options.septum",
+           "options.septum: its nearest point lies %.3g m from where the leaflets meet, and the "
+           "septum 0.01 to 0.04 m: give its points in m, in the frame of the valve",
+           away.norm());
+  const double behind = -valve_frame(*closed.model, closed.state.x).axes.row(0).dot(away);
+  MVS_MUST(behind <= 0, MVS_E_ARGUMENT, "options.septum",
+           "options.septum: its nearest point lies %.3g m behind the line where the leaflets meet, "
+           "on the side of the posterior leaflet, and the septum faces the anterior one: give its "
+           "points in the frame of the valve (LPS or RAS), and check which leaflet is anterior",
+           behind);
+  return away.norm();
+}
+
 void add_outflow(const mvs_snapshot &closed, const std::vector<Vec3> &septum, mvs_cost &cost) {
   const Outflow outflow = measure_outflow(*closed.model, closed.state.x);
   cost.anterior_height = outflow.anterior_height;
@@ -86,12 +107,7 @@ void add_outflow(const mvs_snapshot &closed, const std::vector<Vec3> &septum, mv
   cost.anterior_length = outflow.anterior_length;
   cost.posterior_length = outflow.posterior_length;
   cost.length_ratio = outflow.ratio();
-  cost.septal_distance = outflow.distance_to(septum);
-  MVS_MUST(!(cost.septal_distance > farthest_septum), MVS_E_ARGUMENT, "options.septum",
-           "options.septum: its nearest point lies %.3g m from where the leaflets meet, and the "
-           "septum 0.01 to 0.04 m: give its points in m (to the command in mm), in the frame of "
-           "the valve",
-           cost.septal_distance);
+  cost.septal_distance = septal_distance(closed, outflow, septum);
   const bool is_closed = closed.state.is_at_rest() && closed.state.load.pressure > 0;
   if (!is_closed || std::isnan(cost.septal_distance)) return;
   const bool raised = cost.length_ratio <= sam_ratio || cost.septal_distance <= sam_distance;

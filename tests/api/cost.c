@@ -203,6 +203,17 @@ static void bad_input_changes_nothing(void) {
   points.septum = packed(tiny, 2, 3, MVS_TYPE_F64);
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
             "options.septum");
+  /* points on the side of the posterior leaflet, as of another frame */
+  double frame[12], behind[2][3];
+  MUST(mvs_snapshot_get_frame(closed, frame));
+  for (int k = 0; k < 2; ++k) {
+    for (int c = 0; c < 3; ++c) {
+      behind[k][c] = frame[c] - 40e-3 * frame[3 + c] - (10 + 5 * k) * 1e-3 * frame[9 + c];
+    }
+  }
+  points.septum = packed(behind, 2, 3, MVS_TYPE_F64);
+  MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
+            "on the side of the posterior leaflet");
   const double broken[2][3] = {{20e-3, 0, -10e-3}, {20e-3, NAN, -10e-3}};
   points.septum = packed(broken, 2, 3, MVS_TYPE_F64);
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,

@@ -74,6 +74,11 @@ class Cost(Shell):
         (self.dir / "moved.txt").write_text("0, 50, -10\n")
         self.refused(1, "files with other contents", *sweep)
 
+    def test_points_behind_the_coaptation_are_not_of_the_septum(self):
+        (self.dir / "behind.txt").write_text("0 -40 -10\n0 -40 -15\n")
+        self.refused(1, "mm behind the line where the leaflets meet, on the side of the posterior",
+                     "cost", "closed.obj", "--septum", "behind.txt")
+
     def test_wrong_input_is_named(self):
         sweep = ("sweep", "v.obj", "--op", "ring size=28", "--csv", "u.csv")
         self.refused(1, "none.txt", "cost", "closed.obj", "--septum", "none.txt")

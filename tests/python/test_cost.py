@@ -30,6 +30,10 @@ def test_the_septum_gives_a_distance_and_a_risk(closed):
         closed.cost(septum=np.zeros((2, 2)))
     with pytest.raises(mvs.ArgumentError, match=r"point 1 is \(0\.02, nan, 0\)"):
         closed.cost(septum=np.array([[20e-3, 0, 0], [20e-3, np.nan, 0]]))
+    behind = frame.origin + [[-40e-3, 0, -10e-3]] @ frame.axes
+    with pytest.raises(mvs.ArgumentError, match="on the side of the posterior leaflet"):
+        closed.cost(septum=behind)
+
     with pytest.raises(mvs.ArgumentError, match="pressure"):
         closed.cost(pressure_pa=-5.0)
 

@@ -105,11 +105,11 @@ std::vector<Section> sections_of(const Model &model, const std::vector<Vec3> &x,
 
 }  // namespace
 
-double Outflow::distance_to(const std::vector<Vec3> &septum) const {
-  if (!coaptation || septum.empty()) return std::numeric_limits<double>::quiet_NaN();
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec3 &p : septum) least = std::min(least, (p - *coaptation).norm());
-  return least;
+std::optional<Vec3> Outflow::nearest_of(const std::vector<Vec3> &septum) const {
+  if (!coaptation || septum.empty()) return std::nullopt;
+  return *std::min_element(septum.begin(), septum.end(), [&](const Vec3 &a, const Vec3 &b) {
+    return (a - *coaptation).norm() < (b - *coaptation).norm();
+  });
 }
 
 Outflow measure_outflow(const Model &model, const std::vector<Vec3> &x) {

@@ -18,8 +18,8 @@ struct Outflow {
 
   // Anterior over posterior length.
   double ratio() const { return anterior_length / posterior_length; }
-  // Distance from the coaptation to the nearest of the points; NaN without one or the other.
-  double distance_to(const std::vector<Vec3> &septum) const;
+  // The nearest of the points to the coaptation; none without one or the other.
+  std::optional<Vec3> nearest_of(const std::vector<Vec3> &septum) const;
 };
 Outflow measure_outflow(const Model &model, const std::vector<Vec3> &x);
 

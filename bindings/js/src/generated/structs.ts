@@ -609,8 +609,8 @@ export interface CostOptions {
   /** discharge coefficient, 0.1 to 1 [0.85] */
   discharge?: number;
   /**
-   * F64 or F32, k x 3, m: points of the septum where it faces the anterior leaflet in systole,
-   * within 0.1 m of the coaptation and 1 mm or more apart [not known: no risk of SAM]
+   * F64 or F32, k x 3, m: points of the septum where it faces the anterior leaflet in systole, in
+   * front of the coaptation, within 0.1 m of it, and 1 mm or more apart [not known: no risk of SAM]
    */
   septum?: ArrayInput;
   /** As in mvs_sim_desc, of the opening. Nullable. */
