@@ -18,9 +18,9 @@ extern "C" {
 typedef struct mvs_cost_options {
   uint32_t struct_size;
   mvs_backend backend; /* MVS_BACKEND_* */
-  double pressure;     /* Pa, atrium minus ventricle in diastole [MVS_DIASTOLE_PA] */
+  double pressure;     /* Pa, atrium minus ventricle in diastole, 20 or more [MVS_DIASTOLE_PA] */
   double residual;     /* N, at rest, as in mvs_settle_options [1e-5] */
-  double flow;         /* m3/s through the open valve [not known: no gradient] */
+  double flow;         /* m3/s through the open valve, 1e-5 to 0.01 [not known: no gradient] */
   double density;      /* kg/m3, of blood [1060] */
   double discharge;    /* discharge coefficient, 0.1 to 1 [0.85] */
   mvs_array septum;    /* F64 or F32, k x 3, m: points of the septum where it faces the

@@ -38,7 +38,7 @@ static mvs_view view_of(const mvs_snapshot *snapshot, mvs_array_kind which) {
   return view;
 }
 
-/* A funnel that 1 Pa hardly moves: the polygon of its lower rim, and the length of its wall. */
+/* A funnel that 20 Pa hardly move: the polygon of its lower rim, and the length of its wall. */
 static void a_rigid_funnel_is_open_as_wide_as_its_rim(void) {
   funnel f;
   mvs_sim *sim;
@@ -47,7 +47,7 @@ static void a_rigid_funnel_is_open_as_wide_as_its_rim(void) {
   MUST(mvs_create(NULL, &sim));
   MUST(mvs_set_valve(sim, &f.desc));
   MUST(mvs_get_snapshot(sim, &snapshot));
-  mvs_cost_options options = {.struct_size = sizeof options, .pressure = 1};
+  mvs_cost_options options = {.struct_size = sizeof options, .pressure = 20};
   const mvs_cost cost = cost_of(snapshot, &options);
   const double rim = FUNNEL_SEGMENTS / 2.0 * 9e-3 * 9e-3 * sin(turn / FUNNEL_SEGMENTS);
   const double wall = 3 * sqrt(2e-3 * 2e-3 + 6e-3 * 6e-3);
@@ -214,6 +214,15 @@ static void bad_input_changes_nothing(void) {
   points.septum = packed(behind, 2, 3, MVS_TYPE_F64);
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
             "on the side of the posterior leaflet");
+  /* mmHg taken for Pa; l/s taken for ml/s and for m3/s */
+  pressure.pressure = 5;
+  MUST_FAIL(mvs_snapshot_measure_cost(closed, &pressure, &cost, &opened), MVS_E_ARGUMENT,
+            "looks like mmHg or kPa given as Pa");
+  for (int k = 0; k < 2; ++k) {
+    const mvs_cost_options flow = {.struct_size = sizeof flow, .flow = k ? 0.25 : 0.25e-6};
+    MUST_FAIL(mvs_snapshot_measure_cost(closed, &flow, &cost, &opened), MVS_E_ARGUMENT,
+              "give it in m3/s");
+  }
   const double broken[2][3] = {{20e-3, 0, -10e-3}, {20e-3, NAN, -10e-3}};
   points.septum = packed(broken, 2, 3, MVS_TYPE_F64);
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,

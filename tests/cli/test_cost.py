@@ -79,6 +79,10 @@ class Cost(Shell):
         self.refused(1, "mm behind the line where the leaflets meet, on the side of the posterior",
                      "cost", "closed.obj", "--septum", "behind.txt")
 
+    def test_a_flow_in_litres_is_refused(self):
+        self.refused(2, "0.25 ml/s is no flow through an open mitral valve", "cost", "closed.obj",
+                     "--flow", 0.25)
+
     def test_wrong_input_is_named(self):
         sweep = ("sweep", "v.obj", "--op", "ring size=28", "--csv", "u.csv")
         self.refused(1, "none.txt", "cost", "closed.obj", "--septum", "none.txt")

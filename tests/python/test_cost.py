@@ -34,8 +34,14 @@ def test_the_septum_gives_a_distance_and_a_risk(closed):
     with pytest.raises(mvs.ArgumentError, match="on the side of the posterior leaflet"):
         closed.cost(septum=behind)
 
+
+def test_pressure_and_flow_in_other_units_are_refused(closed):
     with pytest.raises(mvs.ArgumentError, match="pressure"):
         closed.cost(pressure_pa=-5.0)
+    with pytest.raises(mvs.ArgumentError, match="looks like mmHg or kPa given as Pa"):
+        closed.cost(pressure_pa=5.0)
+    with pytest.raises(mvs.ArgumentError, match="0.25 ml/s: .* give it in m3/s"):
+        closed.cost(flow=0.25e-6)
 
 
 @pytest.mark.filterwarnings("ignore::mvs.ValveWarning")

@@ -4,16 +4,30 @@
 #include "text/op_forms.h"
 
 namespace cli {
+namespace {
+
+// An error sentence for a flow outside of the limits of the library, such as one in l/s, else "".
+std::string wrong_flow(const std::string &given) {
+  double flow = 0;
+  if (!read_number(given, flow)) return "'" + given + "' is not a number in ml/s";
+  if (flow >= 10 && flow <= 10000) return "";
+  return given +
+         " ml/s is no flow through an open mitral valve, which is about 250 ml/s in diastole, 10 "
+         "to 10000 are accepted: give it in ml/s (1 l/min is 16.7 ml/s)";
+}
+
+}  // namespace
 
 std::array<CLI::Option *, 3> add_cost_options(CLI::App &command, CostOptions &options) {
   CLI::Option *diastole = command.add_option("--diastole", options.diastole_mmhg,
                                              "pressure difference that opens the valve, mmHg");
   diastole->type_name("MMHG")->capture_default_str()->check(
-      CLI::Range(0.01, 100.0).description(""));
+      CLI::Range(0.15, 100.0).description(""));
   CLI::Option *flow =
       command.add_option("--flow", options.flow_ml_s,
-                         "flow through the open valve, ml/s: gives the gradient [not known]");
-  flow->type_name("ML/S")->check(CLI::Range(0.001, 1e6).description(""));
+                         "flow through the open valve, ml/s, about 250: gives the gradient [not "
+                         "known]");
+  flow->type_name("ML/S")->check(wrong_flow, "");
   CLI::Option *septum = command.add_option(
       "--septum", options.septum,
       "file with points of the septum that faces the anterior leaflet in systole, three numbers "

@@ -598,11 +598,11 @@ export interface Comparison {
 export interface CostOptions {
   /** MVS_BACKEND_* */
   backend?: Backend | number;
-  /** Pa, atrium minus ventricle in diastole [MVS_DIASTOLE_PA] */
+  /** Pa, atrium minus ventricle in diastole, 20 or more [MVS_DIASTOLE_PA] */
   pressure?: number;
   /** N, at rest, as in mvs_settle_options [1e-5] */
   residual?: number;
-  /** m3/s through the open valve [not known: no gradient] */
+  /** m3/s through the open valve, 1e-5 to 0.01 [not known: no gradient] */
   flow?: number;
   /** kg/m3, of blood [1060] */
   density?: number;
