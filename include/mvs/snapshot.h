@@ -282,7 +282,7 @@ typedef uint32_t mvs_region_kind;
 typedef struct mvs_region_measures {
   uint32_t struct_size;
   mvs_region_kind kind;          /* MVS_REGION_* */
-  const char *name;              /* "A2"; of a commissure the scallops that meet there, "A1-P1" */
+  const char *name;              /* "A2"; of a commissure the scallops there, "A1-P1"; distinct */
   double coaptation_area;        /* m2, of one side: half of the coapted tissue of the region */
   double coaptation_length_mean; /* m, along its part of the coaptation line; 0 without one */
   double coaptation_length_min;  /* m, the same */

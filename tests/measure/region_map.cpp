@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "anatomy/parametric.h"
 #include "model/model.h"
 #include "tests/measure/shapes.h"
 
@@ -45,6 +46,48 @@ TEST_CASE("a_commissure_is_where_attachments_of_leaflets_meet") {
   one.leaflets.resize(1);
   for (size_t t = 0; t < one.triangles.size(); ++t) one.triangle_leaflet[t] = 0;
   CHECK(RegionMap(*make_model(one)).size() == 1);
+}
+
+TEST_CASE("commissures_of_leaflets_without_scallops_are_named_by_their_side") {
+  // the parametric valve, whose A1 and P1 are anterolateral, with one scallop for each leaflet
+  const ModelPtr scalloped = make_model(make_parametric_valve({}));
+  Valve plain = scalloped->valve;
+  plain.scallops.clear();
+  for (uint32_t l = 0; l < plain.leaflets.size(); ++l) {
+    plain.scallops.push_back({.id = plain.next_id++, .name = plain.leaflets[l].name, .leaflet = l});
+  }
+  plain.triangle_scallop = plain.triangle_leaflet;
+  const RegionMap before(*scalloped), map(*make_model(plain));
+  REQUIRE(before.size() == 8);
+  REQUIRE(map.size() == 4);
+  const auto named = [](const RegionMap &of, uint32_t triangle) {
+    std::string name;
+    of.for_each(triangle, [&](uint32_t region) {
+      if (region >= of.scallops()) name = of.name(region);
+    });
+    return name;
+  };
+  size_t found = 0;
+  for (uint32_t t = 0; t < plain.triangles.size(); ++t) {
+    const std::string name = named(before, t);
+    if (name.empty()) continue;
+    ++found;
+    CHECK(named(map, t) == (name == "A1-P1" ? "A-P anterolateral" : "A-P posteromedial"));
+  }
+  CHECK(found > 20);
+}
+
+TEST_CASE("commissures_of_one_name_that_are_more_than_two_have_numbers") {
+  // leaflets of two opposite quarters each: four places where they meet
+  Valve valve = valve_of(disc(16 * mm, 4 * mm, [](double, double) { return 0; }));
+  for (size_t t = 0; t < valve.triangles.size(); ++t) {
+    const Tri &c = valve.triangles[t];
+    const Vec3 middle = (valve.rest[c[0]] + valve.rest[c[1]] + valve.rest[c[2]]) / 3;
+    valve.triangle_leaflet[t] = middle[0] * middle[1] > 0 ? 0 : 1;
+  }
+  const RegionMap map(*make_model(valve));
+  REQUIRE(map.size() == 6);
+  for (size_t k = 0; k < 4; ++k) CHECK(map.name(2 + k) == "A-P " + std::to_string(k + 1));
 }
 
 TEST_CASE("a_commissure_has_tissue_of_the_scallops_that_meet_there_alone") {

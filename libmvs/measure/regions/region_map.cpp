@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "geometry/triangle_bvh.h"
+#include "measure/annulus/frame.h"
 #include "measure/annulus/landmarks.h"
 
 namespace mvs::core {
@@ -53,6 +54,33 @@ std::vector<Commissure> commissures_of(const Model &model, const Loop &annulus) 
   return found;
 }
 
+// The names of commissures: the scallops that meet there. Where two leaflets without scallops meet
+// twice, the side distinguishes them, because a valve is no mirror image of itself: seen from the
+// atrium with the anterior leaflet up, the anterolateral commissure is on the left, towards CC of
+// the frame. More than two of one name have numbers along the annulus.
+std::vector<std::string> commissure_names(const Model &model, const Loop &annulus,
+                                          const std::vector<Commissure> &commissures) {
+  const Valve &valve = model.valve;
+  std::vector<std::string> names;
+  for (const auto &c : commissures) {
+    std::string name =
+        valve.scallops[c.scallops[0]].name + "-" + valve.scallops[c.scallops[1]].name;
+    const auto same = [&](const Commissure &other) { return other.scallops == c.scallops; };
+    const auto first = std::find_if(commissures.begin(), commissures.end(), same);
+    const auto count = std::count_if(commissures.begin(), commissures.end(), same);
+    const auto number = &c - &*first;
+    if (count == 2) {
+      const Vec3 to_other = annulus.at(first[1 - number].at) - annulus.at(c.at);
+      const bool is_left = valve_frame(model, valve.rest).axes.row(1).dot(to_other) < 0;
+      name += is_left ? " anterolateral" : " posteromedial";
+    } else if (count > 2) {
+      name += " " + std::to_string(number + 1);
+    }
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
 }  // namespace
 
 RegionMap::RegionMap(const Model &model)
@@ -68,8 +96,8 @@ void RegionMap::find_commissures(const Model &model) {
   const std::vector<Vec3> &rest = valve.rest;
   const Loop loop(valve.annulus, rest);
   const std::vector<Commissure> commissures = commissures_of(model, loop);
-  for (const Commissure &c : commissures) {
-    names_.push_back(valve.scallops[c.scallops[0]].name + "-" + valve.scallops[c.scallops[1]].name);
+  for (std::string &name : commissure_names(model, loop, commissures)) {
+    names_.push_back(std::move(name));
   }
   const double reach = reach_of_perimeter * loop.length();
   const std::vector<Tri> sides = sides_of(loop);

@@ -525,7 +525,7 @@ export interface Measures {
 export interface RegionMeasures {
   /** MVS_REGION_* */
   kind: RegionKind;
-  /** "A2"; of a commissure the scallops that meet there, "A1-P1" */
+  /** "A2"; of a commissure the scallops there, "A1-P1"; distinct */
   name: string;
   /** m2, of one side: half of the coapted tissue of the region */
   coaptation_area: number;
