@@ -118,19 +118,32 @@ std::vector<CoaptationLine> find_lines(const Model &model, const std::vector<Vec
   return lines;
 }
 
+// Share of the area of all lines below which a line counts less and less: where two leaflets begin
+// to meet, their line has a length at once, but hardly any area.
+constexpr double whole_line = 0.01;
+
 void summarise(const std::vector<CoaptationLine> &lines, Coaptation &coaptation) {
-  double area = 0, length = 0;
-  coaptation.length_min = lines.empty() ? 0 : std::numeric_limits<double>::infinity();
+  double all = 0, area = 0, length = 0;
+  for (const CoaptationLine &line : lines) all += line.area;
+  const auto presence = [&](const CoaptationLine &line) {
+    return std::min(1.0, line.area / (whole_line * all));
+  };
   for (const CoaptationLine &line : lines) {
     coaptation.line.insert(coaptation.line.end(), line.stations.begin(), line.stations.end());
     coaptation.line_end.push_back(static_cast<uint32_t>(coaptation.line.size()));
     coaptation.line_leaflets.push_back(line.leaflets);
+    coaptation.profile.push_back(line.profile);
     area += line.area;
-    length += line.length;
+    length += presence(line) * line.length;
     coaptation.length_max = std::max(coaptation.length_max, line.longest);
-    coaptation.length_min = std::min(coaptation.length_min, line.shortest);
   }
   if (length > 0) coaptation.length_mean = area / length;
+  coaptation.length_min = lines.empty() ? 0 : std::numeric_limits<double>::infinity();
+  for (const CoaptationLine &line : lines) {
+    const double there = presence(line), mean = coaptation.length_mean;
+    const double shortest = there < 1 ? mean + there * (line.shortest - mean) : line.shortest;
+    coaptation.length_min = std::min(coaptation.length_min, shortest);
+  }
 }
 
 }  // namespace

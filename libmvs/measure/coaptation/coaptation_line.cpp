@@ -8,6 +8,7 @@
 
 #include "base/math.h"
 #include "base/simd.h"
+#include "measure/coaptation/line_ends.h"
 #include "measure/coaptation/piece_curve.h"
 
 namespace mvs::core {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr double flattest = 0.5;  // sine: slopes below 30 degrees count as 30
 constexpr double ends = 0.05;     // share at either end of the line without minimum and maximum
-constexpr int profile = 100;      // intervals between the places where these are looked for
+constexpr int profile = 100;      // intervals between the places of a profile
 
 // Distance of each piece from the begin of the curve.
 std::vector<double> distances_along(const std::vector<OrderedPiece> &pieces,
@@ -93,8 +94,21 @@ MVS_INLINE void add_hats(const std::vector<OrderedPiece> &pieces, const std::vec
   }
 }
 
-// Looks for the extremes of the coaptation length, smoothed by a hat function as wide as that of
-// the stations, at places that do not depend on their number.
+// The coaptation length at places first + k step, smoothed by a hat function as wide as that of the
+// stations. The places do not depend on the number of stations.
+Profile lengths_along(const std::vector<OrderedPiece> &pieces, const std::vector<double> &along,
+                      double length, const std::array<double, 3> &first_step_spacing) {
+  static const auto add = simd_kernel<&add_hats<Double2>, &add_hats<Double4>>();
+  const auto [first, step, spacing] = first_step_spacing;
+  Profile lengths{};
+  add(pieces, along, first_step_spacing, lengths);
+  for (size_t k = 0; k <= profile; ++k) {
+    lengths[k] /= hat_area(first + static_cast<double>(k) * step, spacing, length);
+  }
+  return lengths;
+}
+
+// Looks for the extremes of the coaptation length.
 void find_extremes(const std::vector<OrderedPiece> &pieces, const std::vector<double> &along,
                    const PieceCurve &curve, double spacing, CoaptationLine &line) {
   const double length = curve.start.back();
@@ -102,15 +116,25 @@ void find_extremes(const std::vector<OrderedPiece> &pieces, const std::vector<do
     line.shortest = line.longest = line.area / line.length;
     return;
   }
-  static const auto add = simd_kernel<&add_hats<Double2>, &add_hats<Double4>>();
-  Profile sum{};
-  const double first = ends * length, step = (1 - 2 * ends) * length / profile;
-  add(pieces, along, {first, step, spacing}, sum);
+  const double step = (1 - 2 * ends) * length / profile;
+  const Profile lengths = lengths_along(pieces, along, length, {ends * length, step, spacing});
+  line.shortest = *std::min_element(lengths.begin(), lengths.begin() + profile + 1);
+  line.longest = *std::max_element(lengths.begin(), lengths.begin() + profile + 1);
+}
+
+// Fills the profile: as the stations, from half a spacing on, but as many places whatever the
+// length.
+void fill_profile(const std::vector<OrderedPiece> &pieces, const std::vector<double> &along,
+                  const PieceCurve &curve, double spacing, CoaptationLine &line) {
+  const double length = curve.start.back();
+  const double first = std::min(0.5 * spacing, 0.25 * length);
+  if (!(length > 0)) return;
+  const double step = (length - 2 * first) / profile;
+  const Profile lengths = lengths_along(pieces, along, length, {first, step, spacing});
+  size_t near = 0;
   for (size_t k = 0; k <= profile; ++k) {
     const double at = first + static_cast<double>(k) * step;
-    const double here = sum[k] / hat_area(at, spacing, length);
-    line.shortest = k == 0 ? here : std::min(line.shortest, here);
-    line.longest = std::max(line.longest, here);
+    line.profile.push_back({point_at(curve.points, find_place(curve.start, at, near)), lengths[k]});
   }
 }
 
@@ -122,6 +146,7 @@ CoaptationLine area_along(const std::vector<OrderedPiece> &pieces, const PieceCu
   const std::vector<double> along = distances_along(pieces, curve);
   fill_stations(pieces, along, curve, spacing, line);
   find_extremes(pieces, along, curve, spacing, line);
+  fill_profile(pieces, along, curve, spacing, line);
   return line;
 }
 

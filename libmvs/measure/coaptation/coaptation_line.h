@@ -17,6 +17,7 @@ struct CoaptedPiece {
 
 struct CoaptationLine {
   std::vector<CoaptationStation> stations;
+  std::vector<CoaptationStation> profile;           // the same at 101 places, whatever the length
   std::array<uint32_t, 2> leaflets = {none, none};  // that meet there; the caller knows them
   double area = 0, length = 0;                      // m2 of one side, m
   // Extremes of the coaptation length along the line, but for 5 % of it at either end.
@@ -27,7 +28,7 @@ struct CoaptationLine {
 // apart, the tissue area per length of curve: the coaptation length, measured along the tissue
 // whatever its tilt or bend. The line bulges away from the pole. The outermost 0.5 % of the area at
 // either end is left out. `pieces` must not be empty. All but the number of stations is continuous
-// in the pieces.
+// in the pieces: what is measured along the line is measured along the profile.
 CoaptationLine find_coaptation_line(const std::vector<CoaptedPiece> &pieces, const Vec3 &pole,
                                     const Vec3 &axis, double spacing);
 

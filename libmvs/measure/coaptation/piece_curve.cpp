@@ -1,91 +1,28 @@
-// Local linear regression over the parameter of the pieces, between quantiles of their area.
+// Local linear regression over the parameter of the pieces.
 #include "measure/coaptation/piece_curve.h"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "base/simd.h"
 
 namespace mvs::core {
 namespace {
 
-constexpr double trimmed = 0.005;  // of the area, at either end
-constexpr double window = 0.125;   // half width of the regression, share of the line
+constexpr double window = 0.125;  // half width of the regression, share of the line
 constexpr int steps = 32;
-// Each piece spreads over this angle to both sides when the ends of the line are looked for: a
-// piece that passes an end is left out gradually.
-constexpr double spread = 0.005;
-
-// The share of a piece below t, when it is spread.
-double share_below(double order, double t) {
-  return std::clamp((t - order + spread) / (2 * spread), 0.0, 1.0);
-}
-
-bool is_before(const OrderedPiece &l, const OrderedPiece &r) {
-  return l.order < r.order;
-}
-
-// Stable bucket sort by parameter, with about one piece to a bucket. Most pieces of a bucket are
-// few, and sorted by insertion.
-void sort_by_order(std::vector<OrderedPiece> &pieces) {
-  const auto [low, high] = std::minmax_element(pieces.begin(), pieces.end(), is_before);
-  if (low == high || !(low->order < high->order)) return;
-  const double first = low->order;
-  const double scale = static_cast<double>(pieces.size() - 1) / (high->order - first);
-  const auto bucket_of = [&](const OrderedPiece &piece) {
-    return static_cast<uint32_t>(
-        std::min((piece.order - first) * scale, static_cast<double>(pieces.size() - 1)));
-  };
-  std::vector<uint32_t> start(pieces.size() + 1, 0);
-  for (const OrderedPiece &piece : pieces) ++start[bucket_of(piece) + 1];
-  for (size_t k = 0; k < pieces.size(); ++k) start[k + 1] += start[k];
-  std::vector<uint32_t> next(start.begin(), start.end() - 1);
-  std::vector<OrderedPiece> sorted(pieces.size());
-  for (const OrderedPiece &piece : pieces) sorted[next[bucket_of(piece)]++] = piece;
-  constexpr std::ptrdiff_t few = 16;
-  for (size_t k = 0; k < pieces.size(); ++k) {
-    const auto begin = sorted.begin() + start[k], end = sorted.begin() + start[k + 1];
-    if (end - begin > few) {
-      std::stable_sort(begin, end, is_before);
-      continue;
-    }
-    for (auto i = begin; i < end; ++i) {
-      for (auto j = i; j > begin && is_before(*j, *(j - 1)); --j) std::swap(*j, *(j - 1));
-    }
-  }
-  pieces = std::move(sorted);
-}
-
-// The parameter below which the given area lies, by bisection of the cumulative distribution of the
-// spread pieces, sorted by their order. The last interval, of 4e-7, is interpolated.
-double quantile(const std::vector<OrderedPiece> &sorted, double area) {
-  std::vector<double> below = {0};
-  for (const OrderedPiece &piece : sorted) below.push_back(below.back() + piece.area);
-  const auto first_from = [&](double t) {
-    return std::partition_point(sorted.begin(), sorted.end(),
-                                [&](const OrderedPiece &piece) { return piece.order < t; }) -
-           sorted.begin();
-  };
-  const auto area_below = [&](double t) {
-    const auto whole = first_from(t - spread), some = first_from(t + spread);
-    double sum = below[static_cast<size_t>(whole)];
-    for (auto k = whole; k < some; ++k) {
-      const OrderedPiece &piece = sorted[static_cast<size_t>(k)];
-      sum += piece.area * share_below(piece.order, t);
-    }
-    return sum;
-  };
-  double low = -4, high = 4, low_area = 0, high_area = below.back();
-  for (int k = 0; k < 24; ++k) {
-    const double middle = 0.5 * (low + high), found = area_below(middle);
-    (found < area ? low : high) = middle;
-    (found < area ? low_area : high_area) = found;
-  }
-  const double within = high_area - low_area;
-  return within > 0 ? low + (high - low) * (area - low_area) / within : low;
-}
+// Least variance of the parameter among the pieces of a regression, in half widths squared, for
+// which they determine the point alone. At an end of a line it is 1/20 to 1/18; of pieces that
+// reach into a window by 0.42 of its half width it is 0.01.
+constexpr double least_variance = 0.01;
+// Weight of the pieces of a regression, over the area of the line, from which the same holds.
+constexpr double whole_weight = 4e-3;
+// The share at the least variance of 0: a line of pieces with one parameter is that point.
+constexpr double smallest = 0.01;
+// How much more a point follows its neighbours than its share says: a chain of points without
+// pieces pulls less the longer it is, so that the first traces of area would pull it over a gap.
+constexpr double bridge = 5;
 
 // Weighted sums over pieces: of 1, t, t^2, and of the middles times 1 and t.
 struct Moments {
@@ -122,8 +59,11 @@ MVS_INLINE void sum_moments(std::span<const OrderedPiece> pieces, double at, dou
 }
 
 // Local linear regression (Cleveland, JASA 74, 1979) at one parameter: unlike a mean it is not
-// biased inwards at the ends. Pieces are sorted. Returns false if no piece is near.
-bool regress(const std::vector<OrderedPiece> &pieces, double at, double width, Vec3 &point) {
+// biased inwards at the ends. Pieces are sorted. Returns from 0 to 1 how far they determine the
+// point: not where they have hardly any area, or cover little of the window, so that a line through
+// them would throw the point anywhere. Of 0 the point is not set.
+double regress(const std::vector<OrderedPiece> &pieces, double area, double at, double width,
+               Vec3 &point) {
   static const auto sum = simd_kernel<&sum_moments<Double2>, &sum_moments<Double4>>();
   const auto first =
       std::partition_point(pieces.begin(), pieces.end(),
@@ -136,37 +76,54 @@ bool regress(const std::vector<OrderedPiece> &pieces, double at, double width, V
   const double w = moments.one[3], wt = moments.t[3], wtt = moments.tt;
   const Vec3 wp(moments.one[0], moments.one[1], moments.one[2]);
   const Vec3 wtp(moments.t[0], moments.t[1], moments.t[2]);
-  if (w == 0) return false;
-  const double determinant = w * wtt - wt * wt;
-  const bool spans_a_range = determinant > 1e-6 * w * w;  // else all pieces have one parameter
-  point = spans_a_range ? Vec3((wtt * wp - wt * wtp) / determinant) : Vec3(wp / w);
-  return true;
+  if (w == 0) return 0;
+  const double determinant = w * wtt - wt * wt, least = least_variance * w * w;
+  point = determinant >= least ? Vec3((wtt * wp - wt * wtp) / determinant)
+                               : Vec3(wp / w - wt / w * ((w * wtp - wt * wp) / least));
+  const double share =
+      std::min(1.0, w / (whole_weight * area)) * std::min(1.0, determinant / least + smallest);
+  return share / (share + bridge * (1 - share));
+}
+
+// Blends points with their neighbours by the share that is their own: p[k] becomes
+// share p[k] + (1 - share) times the mean of both neighbours, those as they become (a tridiagonal
+// system, by Thomas's algorithm). Across a gap this is a straight line.
+void bridge_gaps(const std::vector<double> &share, std::vector<Vec3> &points) {
+  const size_t count = points.size();
+  std::vector<double> ahead(count);
+  for (size_t k = 0; k < count; ++k) {
+    const bool is_end = k == 0 || k + 1 == count;
+    const double beside = (1 - share[k]) * (is_end ? 1.0 : 0.5);
+    const double back = k > 0 ? beside : 0.0, front = k + 1 < count ? beside : 0.0;
+    const double pivot = 1 - (k > 0 ? back * ahead[k - 1] : 0.0);
+    ahead[k] = front / pivot;
+    points[k] *= share[k] / pivot;
+    if (k > 0) points[k] += back / pivot * points[k - 1];
+  }
+  for (size_t k = count - 1; k-- > 0;) points[k] += ahead[k] * points[k + 1];
 }
 
 }  // namespace
 
-OrderSpan trim(std::vector<OrderedPiece> &pieces) {
-  sort_by_order(pieces);
-  double total = 0;
-  for (const OrderedPiece &piece : pieces) total += piece.area;
-  const OrderSpan span{quantile(pieces, trimmed * total), quantile(pieces, (1 - trimmed) * total)};
-  for (OrderedPiece &piece : pieces) {
-    piece.area *= share_below(piece.order, span.to) - share_below(piece.order, span.from);
-  }
-  return span;
-}
-
 PieceCurve fit_curve(const std::vector<OrderedPiece> &pieces, const OrderSpan &span) {
   const double from = span.from, range = span.length();
+  double area = 0;
+  for (const OrderedPiece &piece : pieces) area += piece.area;
   PieceCurve curve;
+  std::vector<double> share;
+  bool has_gaps = false;
   for (int k = 0; k <= steps; ++k) {
     const double at = from + range * k / steps;
-    Vec3 point;
-    if (!regress(pieces, at, window * range, point)) continue;
-    const double step = curve.points.empty() ? 0 : (point - curve.points.back()).norm();
-    curve.start.push_back(curve.points.empty() ? 0 : curve.start.back() + step);
+    Vec3 point = Vec3::Zero();
+    share.push_back(regress(pieces, area, at, window * range, point));
+    has_gaps |= share.back() < 1;
     curve.points.push_back(point);
     curve.order.push_back(at);
+  }
+  if (has_gaps) bridge_gaps(share, curve.points);
+  for (size_t k = 0; k < curve.points.size(); ++k) {
+    const double step = k > 0 ? (curve.points[k] - curve.points[k - 1]).norm() : 0;
+    curve.start.push_back(k > 0 ? curve.start.back() + step : 0);
   }
   return curve;
 }

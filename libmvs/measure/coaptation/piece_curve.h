@@ -14,15 +14,11 @@ struct OrderedPiece {
   double area, order;
 };
 
-// The interval of the parameter that holds the area between two quantiles.
+// An interval of the parameter.
 struct OrderSpan {
   double from, to;
   double length() const { return to - from; }
 };
-
-// Sorts pieces by parameter and removes the outermost share of their area; returns where the rest
-// begins and ends.
-OrderSpan trim(std::vector<OrderedPiece> &pieces);
 
 // A polygon with the parameter and the arc length at each point.
 struct PieceCurve {
@@ -30,7 +26,9 @@ struct PieceCurve {
   std::vector<double> order, start;
 };
 
-// Points where no piece is near are left out.
+// The curve is continuous in the pieces, also where a part of them ends or vanishes: points where
+// hardly any piece is near follow their neighbours, on a straight line where none is.
+// Pieces are sorted by parameter, and have area.
 PieceCurve fit_curve(const std::vector<OrderedPiece> &pieces, const OrderSpan &span);
 
 // The interval of an ascending list that contains t, and the position in it.

@@ -11,8 +11,9 @@
 namespace mvs::core {
 namespace {
 
-// Places between two stations of a coaptation line: 0.13 mm apart in a default valve.
-constexpr int places = 16;
+// Places between two stations of the profile of a coaptation line: 0.13 mm apart in a default
+// valve.
+constexpr int places = 4;
 // Difference of distances over the contact thickness at which a place belongs to one region only: a
 // place of the line is 0.2 to 0.5 of it from tissue, so that shares change over half of it.
 constexpr double ramp_of_thickness = 0.125;
@@ -110,16 +111,15 @@ void write(const std::vector<Place> &line, RegionMeasures &measures) {
 void add_coaptation_lengths(const Model &model, const std::vector<Vec3> &x, const RegionMap &map,
                             const Coaptation &coaptation, std::vector<RegionMeasures> &measures) {
   std::vector<std::vector<Place>> found(map.size());
-  uint32_t begin = 0;
-  for (size_t line = 0; line < coaptation.line_end.size(); ++line) {
-    const uint32_t end = coaptation.line_end[line];
+  for (size_t line = 0; line < coaptation.profile.size(); ++line) {
+    const std::vector<CoaptationStation> &profile = coaptation.profile[line];
     std::vector<uint32_t> sides(coaptation.line_leaflets[line].begin(),
                                 coaptation.line_leaflets[line].end());
     sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
     for (const uint32_t leaflet : sides) {
       LeafletRegions regions(model, x, map, leaflet);
-      for (uint32_t k = begin; k + 1 < end; ++k) {
-        const CoaptationStation &a = coaptation.line[k], &b = coaptation.line[k + 1];
+      for (size_t k = 0; k + 1 < profile.size(); ++k) {
+        const CoaptationStation &a = profile[k], &b = profile[k + 1];
         const double along = (b.point - a.point).norm() / places;
         for (int i = 0; i < places; ++i) {
           const double at = (i + 0.5) / places;
@@ -131,7 +131,6 @@ void add_coaptation_lengths(const Model &model, const std::vector<Vec3> &x, cons
         }
       }
     }
-    begin = end;
   }
   for (size_t r = 0; r < found.size(); ++r) write(found[r], measures[r]);
 }
