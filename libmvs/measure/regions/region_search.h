@@ -1,6 +1,7 @@
 // Tissue of the regions to which the tissue closest to each of many places belongs.
 #pragma once
 
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -46,7 +47,8 @@ class RegionSearch {
   const RegionMap &map_;
   uint32_t nearest_ = none;  // to the centre of the last ball
   std::vector<Near> near_;
-  std::vector<std::vector<uint32_t>> left_;  // by depth: triangles left for the quarters
+  // By depth: triangles left for the quarters. References into it stay.
+  std::deque<std::vector<uint32_t>> left_;
 };
 
 }  // namespace mvs::core

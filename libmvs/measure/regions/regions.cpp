@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "measure/regions/line_regions.h"
+#include "measure/regions/region_depths.h"
 #include "measure/regions/region_search.h"
 #include "measure/tissue/sheet_topology.h"
 #include "measure/tissue/surface.h"
@@ -56,10 +57,9 @@ void list_cells(const AtrialSurface &atrial, int first_column, int first_row,
 }
 
 // Tissue of the regions closest to each cell; `none` for cells that are not measured.
-std::vector<uint32_t> tissue_of_cells(const Model &model, const AtrialSurface &atrial,
-                                      const RegionMap &map) {
+std::vector<uint32_t> tissue_of_cells(const AtrialSurface &atrial, const RegionMap &map,
+                                      const TriangleBvh &tree) {
   std::vector<uint32_t> tissue(atrial.heights.size(), none);
-  const TriangleBvh tree(model.valve.triangles, atrial.local, *sheet_topology(model));
   RegionSearch search(tree, map);
   std::vector<RegionPlace> cells;
   for (int row = 0; row < AnnulusMap::across; row += block) {
@@ -74,17 +74,21 @@ std::vector<uint32_t> tissue_of_cells(const Model &model, const AtrialSurface &a
 
 void add_tenting_billow(const Model &model, const AtrialSurface &atrial, const RegionMap &map,
                         std::vector<RegionMeasures> &measures) {
-  const std::vector<uint32_t> tissue = tissue_of_cells(model, atrial, map);
+  const TriangleBvh tree(model.valve.triangles, atrial.local, *sheet_topology(model));
+  const std::vector<uint32_t> tissue = tissue_of_cells(atrial, map, tree);
+  std::vector<double> deepest(map.size(), 0);
   for (size_t cell = 0; cell < tissue.size(); ++cell) {
     if (tissue[cell] == none) continue;
     const double rise = atrial.rise(cell), depth = -atrial.map->share(cell) * atrial.heights[cell];
     map.for_each(tissue[cell], [&](uint32_t region) {
       RegionMeasures &m = measures[region];
-      m.tenting_height = std::max(m.tenting_height, depth);
+      deepest[region] = std::max(deepest[region], depth);
       m.tenting_volume += atrial.area(cell) * std::max(0.0, -rise);
       m.billow_volume += atrial.area(cell) * std::max(0.0, rise);
     });
   }
+  raise_depths(atrial, map, tree, model.valve.contact_thickness, deepest);
+  for (size_t r = 0; r < deepest.size(); ++r) measures[r].tenting_height = deepest[r];
   const std::vector<Tri> &sheet = model.valve.triangles;
   for (uint32_t t = 0; t < sheet.size(); ++t) {
     map.for_each(t, [&](uint32_t region) {

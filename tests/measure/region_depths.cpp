@@ -1,0 +1,91 @@
+// Tenting height of regions: continuous where a crevice lies between two of them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "measure/regions/regions.h"
+#include "measure/tenting/tenting_billow.h"
+#include "tests/measure/shapes.h"
+
+namespace mvs::core::test {
+namespace {
+
+std::vector<RegionMeasures> regions_of(const Model &model, const RegionMap &map,
+                                       const std::vector<Vec3> &x) {
+  Coaptation coaptation;  // no figure of these tests depends on it
+  coaptation.share.assign(model.valve.triangles.size(), 0.0);
+  OrificeParts sealed;
+  sealed.gap_of_region.assign(map.size(), 0.0);
+  return measure_regions(model, x, map, coaptation, sealed, atrial_surface(model, x));
+}
+
+// Two walls with a crevice in the middle that is 3 mm deeper at one end, and as near to one leaflet
+// as to the other all along: which is the nearest is rounding.
+Sheet crevice() {
+  ClosedShape closed;
+  closed.wall = [](double along, double down, double side) -> Vec3 {
+    return {0.5 * walls_gap * side, along, -down - 100 * along * std::max(along, 0.0) * 0.15};
+  };
+  return sheet_of(closed);
+}
+
+}  // namespace
+
+TEST_CASE("both_leaflets_are_as_deep_as_the_crevice_between_them") {
+  const ModelPtr model = model_of(crevice());
+  const RegionMap map(*model);
+  const std::vector<Vec3> &x = model->valve.rest;
+  const double whole = measure_tenting_billow(*model, x).tenting_height;
+  const std::vector<RegionMeasures> regions = regions_of(*model, map, x);
+  REQUIRE(map.scallops() == 2);
+  CHECK(regions[0].tenting_height == whole);
+  CHECK(regions[1].tenting_height == whole);
+}
+
+// The crevice passes over cells of the raster. The largest of 40 steps is bisected, always to the
+// half with the larger change: a jump stays as large. Of a continuous figure a step of 2^-20 of the
+// first has less than a thousandth of it left, unless its slope is a thousand times larger there.
+TEST_CASE("tenting_heights_of_regions_are_continuous") {
+  const ModelPtr model = model_of(crevice());
+  const RegionMap map(*model);
+  const auto heights = [&](double share) {
+    const auto regions =
+        regions_of(*model, map, moved(model->valve.rest, [&](const Vec3 &p) -> Vec3 {
+          const double inside =
+              std::max(0.0, 1 - std::pow(p[0] / 14e-3, 2) - std::pow(p[1] / 18e-3, 2));
+          return p + 0.5e-3 * share * inside * Vec3(1, 0, 0);
+        }));
+    return std::array<double, 2>{regions[0].tenting_height, regions[1].tenting_height};
+  };
+  for (const size_t region : {0u, 1u}) {
+    CAPTURE(region);
+    constexpr int steps = 40;
+    double low = 0, at_low = 0, at_high = 0, last = heights(0)[region];
+    for (int k = 0; k < steps; ++k) {
+      const double next = heights((k + 1.0) / steps)[region];
+      if (k == 0 || std::abs(next - last) > std::abs(at_high - at_low)) {
+        low = static_cast<double>(k) / steps;
+        at_low = last;
+        at_high = next;
+      }
+      last = next;
+    }
+    const double coarse = std::abs(at_high - at_low);
+    double width = 1.0 / steps;
+    for (int k = 0; k < 20; ++k) {
+      width *= 0.5;
+      const double middle = heights(low + width)[region];
+      if (std::abs(middle - at_low) > std::abs(at_high - middle)) {
+        at_high = middle;
+      } else {
+        at_low = middle;
+        low += width;
+      }
+    }
+    CHECK(std::abs(at_high - at_low) < 1e-3 * coarse);
+  }
+}
+
+}  // namespace mvs::core::test
