@@ -28,17 +28,19 @@ void sleep_until(uint64_t time_ns) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &time, nullptr);
 }
 
-// Blocks signals in a new thread, so that the application's threads receive them.
-class NoSignals {
+// Blocks signals but those of its own faults in a new thread, so that the application's threads
+// receive them.
+class OwnFaultsOnly {
  public:
-  NoSignals() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  OwnFaultsOnly() {
+    sigset_t others;
+    sigfillset(&others);
+    for (const int fault : {SIGSEGV, SIGBUS, SIGFPE, SIGILL}) sigdelset(&others, fault);
+    pthread_sigmask(SIG_BLOCK, &others, &before_);
   }
-  ~NoSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-  NoSignals(const NoSignals &) = delete;
-  NoSignals &operator=(const NoSignals &) = delete;
+  ~OwnFaultsOnly() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+  OwnFaultsOnly(const OwnFaultsOnly &) = delete;
+  OwnFaultsOnly &operator=(const OwnFaultsOnly &) = delete;
 
  private:
   sigset_t before_;
@@ -62,7 +64,7 @@ int32_t Exchange::open(const Inverse &inverse, const Grip &grip, Fault &fault) {
     result = i == 0 ? listen(kZero) : tick(kZero);
   if (result != MVS_DRIVER_OK) return fault.set(result, "%s", why_.sentence);
   descriptor_ = connection.socket.descriptor();
-  const NoSignals blocked;
+  const OwnFaultsOnly blocked;
   thread_ = std::thread([this] { work(); });
   return MVS_DRIVER_OK;
 }

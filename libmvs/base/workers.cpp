@@ -16,12 +16,7 @@
 #include <vector>
 
 #include "base/denormals.h"
-
-#if defined(__unix__) && !defined(__EMSCRIPTEN__)
-#include <pthread.h>
-
-#include <csignal>
-#endif
+#include "base/own_faults_only.h"
 
 namespace mvs::core {
 namespace {
@@ -49,30 +44,6 @@ bool spin(const Done &done) {
     std::this_thread::yield();
   }
 }
-
-// Blocks all signals of the calling thread while it starts others, which inherit the mask: signals
-// stay with the threads of the host.
-class NoSignals {
- public:
-#if defined(__unix__) && !defined(__EMSCRIPTEN__)
-  NoSignals() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~NoSignals() {
-    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  }
-  NoSignals(const NoSignals &) = delete;
-  NoSignals &operator=(const NoSignals &) = delete;
-
- private:
-  sigset_t before_;
-#else
-  NoSignals() {}
-  ~NoSignals() {}
-#endif
-};
 
 }  // namespace
 
@@ -157,7 +128,7 @@ struct Workers::Team {
   void start(uint32_t count) {
     if (started) return;
     started = true;
-    const NoSignals blocked;
+    const OwnFaultsOnly blocked;
     threads.reserve(count);
     try {
       while (threads.size() < count) threads.emplace_back([this] { serve(); });

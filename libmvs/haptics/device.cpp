@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/own_faults_only.h"
 #include "haptics/device_core.h"
 #include "haptics/signal_handler.h"
 
@@ -136,6 +137,7 @@ void Device::start_thread() {
   core_->running = true;
   core_->last_tick_ns = static_cast<int64_t>(clock_ns());
   try {
+    const OwnFaultsOnly blocked;
     std::thread([core = core_] { core->serve(); }).detach();
   } catch (const std::system_error &error) {
     fail(MVS_E_MEMORY, core_->plugin->name(),

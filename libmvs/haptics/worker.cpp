@@ -5,6 +5,8 @@
 #include <mutex>
 #include <thread>
 
+#include "base/own_faults_only.h"
+
 namespace mvs::core {
 
 struct Worker::Shared {
@@ -31,6 +33,7 @@ struct Worker::Shared {
 };
 
 Worker::Worker() : shared_(std::make_shared<Shared>()) {
+  const OwnFaultsOnly blocked;
   std::thread([shared = shared_] { shared->serve(); }).detach();
 }
 
