@@ -19,15 +19,16 @@ struct End {
   std::string told;  // written by the driver's panic on file 9
 };
 
-// Runs a child that starts a device and raises a signal.
-End die_of(int signal, bool with_handler, bool stopped) {
+// Runs a child that starts a device and raises a signal, twice if the host survives it.
+End die_of(int signal, bool with_handler, bool stopped, void (*host)(int) = SIG_DFL) {
   int ends[2];
   REQUIRE_EQ(pipe(ends), 0);
   const pid_t child = fork();
   if (child == 0) {
     dup2(ends[1], 9);
     // doctest's own signal handlers would hide the ones under test
-    for (const int s : {SIGSEGV, SIGABRT, SIGTERM, SIGFPE}) ::signal(s, SIG_DFL);
+    for (const int s : {SIGSEGV, SIGABRT, SIGTERM, SIGFPE})
+      ::signal(s, s == signal ? host : SIG_DFL);
     const std::string path = std::string(MVS_LIARS_DIR) + "/panics.so";
     mvs_device_desc desc = {};
     desc.struct_size = sizeof desc;
@@ -37,6 +38,7 @@ End die_of(int signal, bool with_handler, bool stopped) {
     device.start();
     if (with_handler) install_signal_handler(true);
     if (stopped) device.stop();
+    raise(signal);
     raise(signal);
     _exit(0);
   }
@@ -64,6 +66,10 @@ TEST_CASE("a fatal signal sets forces to zero, then ends the process as it would
 TEST_CASE("unless it is requested, or after a device was stopped, panic is not called") {
   CHECK_EQ(die_of(SIGSEGV, false, false).told, "");
   CHECK_EQ(die_of(SIGSEGV, true, true).told, "");
+}
+
+TEST_CASE("each_signal_that_the_host_survives_sets_forces_to_zero") {
+  CHECK_EQ(die_of(SIGTERM, true, false, [](int) {}).told, "zerozero");
 }
 
 TEST_CASE("the signal handler restores the previous handlers") {
