@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <system_error>
-#include <thread>
 #include <utility>
 
 #include "base/error.h"
@@ -138,7 +137,7 @@ void Device::start_thread() {
   core_->last_tick_ns = static_cast<int64_t>(clock_ns());
   try {
     const OwnFaultsOnly blocked;
-    std::thread([core = core_] { core->serve(); }).detach();
+    servo_thread_ = std::thread([core = core_] { core->serve(); });
   } catch (const std::system_error &error) {
     fail(MVS_E_MEMORY, core_->plugin->name(),
          "%s: the system starts no thread for its servo (%s): end other programs, and start anew",
@@ -154,14 +153,22 @@ void Device::stop() {
            core_->plugin->name().c_str());
 }
 
-// Returns false if the servo thread does not end.
+// Joins the servo thread. Returns false if it does not end: it is then abandoned.
 bool Device::end_servo() noexcept {
   core_->stopping = true;
   if (core_->clock == DeviceClock::virtual_time && !core_->is_lost()) core_->write_zero();
   core_->plugin->run(std::exchange(core_->stop_call, {}));
   unregister_device(core_->handle);
+  if (!servo_thread_.joinable()) return true;
   std::unique_lock<std::mutex> lock(core_->mutex);
-  return core_->ended.wait_for(lock, stop_timeout, [&] { return !core_->running; });
+  if (core_->ended.wait_for(lock, stop_timeout, [&] { return !core_->running; })) {
+    lock.unlock();
+    servo_thread_.join();
+    return true;
+  }
+  core_->plugin->keep_library();
+  servo_thread_.detach();
+  return false;
 }
 
 void Device::must_be_started(const char *call) const {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <mutex>
 #include <string>
+#include <thread>
 
 #include "haptics/driver_plugin.h"
 #include "haptics/servo.h"
@@ -43,6 +44,7 @@ class Device {
   mvs_device_limits limits_ = {};
   std::mutex reading_;  // protects the reader side of the status mailbox
   std::atomic<bool> started_{false};
+  std::thread servo_thread_;
 };
 
 }  // namespace mvs::core

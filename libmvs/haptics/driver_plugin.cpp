@@ -103,22 +103,25 @@ std::shared_ptr<DriverPlugin> DriverPlugin::load(const std::string &driver,
                                                  const std::string &options, Log log) {
   const std::string path = path_of(driver);
   must_be_trusted(path);
-  std::shared_ptr<DriverPlugin> plugin(new DriverPlugin);
+  std::shared_ptr<DriverPlugin> plugin(new DriverPlugin(std::filesystem::path(path).stem()));
   plugin->options_ = read_options(options);
   plugin->log_ = std::move(log);
   plugin->host_ = {sizeof(mvs_driver_host), MVS_DRIVER_VERSION, MVS_DRIVER_VERSION, 0, plugin.get(),
                    &DriverPlugin::option,   &DriverPlugin::log};
-  plugin->name_ = std::filesystem::path(path).stem();
   plugin->negotiate(path);
-  for (const auto &[key, value] : plugin->options_) {
+  plugin->check_options();
+  return plugin;
+}
+
+void DriverPlugin::check_options() const {
+  for (const auto &[key, value] : options_) {
     bool known = false;
-    for (const char *const *o = plugin->api_.options; o && *o; ++o) {
+    for (const char *const *o = api_.options; o && *o; ++o) {
       known = known || (std::strncmp(*o, key.c_str(), key.size()) == 0 && (*o)[key.size()] == ':');
     }
-    MVS_MUST(known, MVS_E_ARGUMENT, "options", "the driver %s has no option \"%s\"",
-             plugin->name_.c_str(), key.c_str());
+    MVS_MUST(known, MVS_E_ARGUMENT, "options", "the driver %s has no option \"%s\"", name_.c_str(),
+             key.c_str());
   }
-  return plugin;
 }
 
 // The table lies before a guard area with a known pattern, which detects a driver that writes too

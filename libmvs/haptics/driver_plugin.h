@@ -34,6 +34,8 @@ class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
   const mvs_driver_api &api() const { return api_; }
   const std::string &name() const { return name_; }
   const mvs_driver_host *host() const { return &host_; }
+  // Leaves this library loaded for ever: a thread hangs in the driver.
+  void keep_library() { worker_.keep_library(); }
 
   struct Answer {
     int32_t code = MVS_DRIVER_E_INTERNAL;  // MVS_DRIVER_*
@@ -57,9 +59,10 @@ class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
   void call(const char *what, mvs_driver_device *device, Work work);
 
  private:
-  DriverPlugin() = default;
+  explicit DriverPlugin(const std::string &name) : name_(name) {}
   void negotiate(const std::string &path);
   void check(const std::string &path, uint32_t room) const;
+  void check_options() const;
   static const char *option(void *host, const char *key);
   static void log(void *host, const char *sentence);
 

@@ -3,9 +3,9 @@
 
 #include <condition_variable>
 #include <mutex>
-#include <thread>
 
 #include "base/own_faults_only.h"
+#include "haptics/library_reference.h"
 
 namespace mvs::core {
 
@@ -32,16 +32,31 @@ struct Worker::Shared {
   }
 };
 
-Worker::Worker() : shared_(std::make_shared<Shared>()) {
-  const OwnFaultsOnly blocked;
-  std::thread([shared = shared_] { shared->serve(); }).detach();
+// The reference is taken before the thread may hang in a constructor of a library, which blocks
+// dlopen.
+Worker::Worker() : shared_(std::make_shared<Shared>()), library_(hold_library()) {
+  try {
+    const OwnFaultsOnly blocked;
+    thread_ = std::thread([shared = shared_] { shared->serve(); });
+  } catch (...) {
+    release_library(library_);
+    throw;
+  }
 }
 
-// The thread owns its work, and ends when the work returns.
+// A stuck thread owns its work, ends when the work returns, and may be the one that destroys this.
 Worker::~Worker() {
-  const std::lock_guard<std::mutex> lock(shared_->mutex);
-  shared_->over = true;
-  shared_->changed.notify_all();
+  {
+    const std::lock_guard<std::mutex> lock(shared_->mutex);
+    shared_->over = true;
+    shared_->changed.notify_all();
+  }
+  if (stuck_) {
+    thread_.detach();
+  } else {
+    thread_.join();
+    if (!keeps_library_) release_library(library_);
+  }
 }
 
 bool Worker::run(std::function<void()> work, std::chrono::milliseconds timeout) {

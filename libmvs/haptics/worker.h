@@ -6,12 +6,14 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <thread>
 
 namespace mvs::core {
 
 // Runs work items one after the other on one thread, because vendors' libraries keep thread-local
-// state. An item that does not return in time leaves the worker stuck: its thread stays, so that
-// the work must own all data it uses.
+// state. An item that does not return in time leaves the worker stuck: its thread stays, and this
+// library stays loaded for it, so that the work must own all data it uses. Otherwise the destructor
+// joins the thread.
 class Worker {
  public:
   Worker();
@@ -23,11 +25,15 @@ class Worker {
   // throw.
   bool run(std::function<void()> work, std::chrono::milliseconds timeout);
   bool is_stuck() const { return stuck_; }
+  // Leaves this library loaded for ever, for another thread that hangs in the driver.
+  void keep_library() { keeps_library_ = true; }
 
  private:
   struct Shared;
   std::shared_ptr<Shared> shared_;
-  bool stuck_ = false;
+  void *library_;
+  std::thread thread_;
+  bool stuck_ = false, keeps_library_ = false;
 };
 
 }  // namespace mvs::core

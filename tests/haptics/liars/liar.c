@@ -39,9 +39,17 @@ static void note(const mvs_driver_force *force, int stops, int panics) {
 /* The sample from which on a device fails, some of it after forces are on. */
 #define AT 1000u
 
+#ifdef LIE_CLOSES_LATE
+static const mvs_driver_host *kept_host;
+#endif
+
 static int32_t open_device(const mvs_driver_host *host, const char *name,
                            mvs_driver_device **device) {
   (void)host;
+#ifdef LIE_CLOSES_LATE
+  kept_host = host;
+  host->log(host->host, "a sentence of open()");
+#endif
   (void)name;
 #ifdef LIE_HANGS
   pause(); /* for ever */
@@ -202,6 +210,10 @@ static void close_device(mvs_driver_device *device) {
   (void)device;
 #ifdef LIE_LOOP_HANGS
   abort(); /* its loop still uses the device */
+#endif
+#ifdef LIE_CLOSES_LATE /* a second after libmvs has given up */
+  sleep(11);
+  kept_host->log(kept_host->host, "a late sentence of close()");
 #endif
 }
 
