@@ -74,6 +74,7 @@ Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
   } catch (...) {
     if (core_->handle) core_->close();
     core_->close_call = {};
+    if (core_->plugin) core_->plugin->silence();
     throw;
   }
 }
@@ -83,6 +84,7 @@ Device::Device(const mvs_device_desc &desc, DriverPlugin::Log log)
 Device::~Device() {
   if (started_.exchange(false)) end_servo();
   if (!core_->is_running()) core_->close();
+  core_->plugin->silence();
   core_->stop_call = core_->close_call = {};
 }
 

@@ -108,8 +108,13 @@ std::shared_ptr<DriverPlugin> DriverPlugin::load(const std::string &driver,
   plugin->log_ = std::move(log);
   plugin->host_ = {sizeof(mvs_driver_host), MVS_DRIVER_VERSION, MVS_DRIVER_VERSION, 0, plugin.get(),
                    &DriverPlugin::option,   &DriverPlugin::log};
-  plugin->negotiate(path);
-  plugin->check_options();
+  try {
+    plugin->negotiate(path);
+    plugin->check_options();
+  } catch (...) {
+    plugin->silence();
+    throw;
+  }
   return plugin;
 }
 
@@ -195,9 +200,15 @@ const char *DriverPlugin::option(void *host, const char *key) {
 }
 
 void DriverPlugin::log(void *host, const char *sentence) {
-  if (host && sentence) {
-    if (const Log &to = static_cast<DriverPlugin *>(host)->log_) to(MVS_LOG_INFO, sentence);
-  }
+  if (!host || !sentence) return;
+  DriverPlugin &self = *static_cast<DriverPlugin *>(host);
+  const std::lock_guard<std::recursive_mutex> lock(self.logging_);
+  if (self.log_ && !self.silent_) self.log_(MVS_LOG_INFO, sentence);
+}
+
+void DriverPlugin::silence() noexcept {
+  const std::lock_guard<std::recursive_mutex> lock(logging_);
+  silent_ = true;
 }
 
 DriverPlugin::Prepared DriverPlugin::prepare(mvs_driver_device *device, Work work) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
   const mvs_driver_api &api() const { return api_; }
   const std::string &name() const { return name_; }
   const mvs_driver_host *host() const { return &host_; }
+  // Passes no further message to the log; waits for one that is being received.
+  void silence() noexcept;
   // Leaves this library loaded for ever: a thread hangs in the driver.
   void keep_library() { worker_.keep_library(); }
 
@@ -69,6 +72,9 @@ class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
   std::string name_;
   std::map<std::string, std::string> options_;
   Log log_;
+  // Protects `silent_`, and is held during a message; a message may lead to another one.
+  std::recursive_mutex logging_;
+  bool silent_ = false;
   mvs_driver_host host_ = {};
   mvs_driver_api api_ = {};
   Worker worker_;

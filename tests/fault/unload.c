@@ -101,16 +101,28 @@ static void a_returned_call_has_joined_its_threads(void) {
   }
 }
 
+static volatile sig_atomic_t closed, messages, late_messages;
+
+static void take_message(void *user, mvs_log_level level, const char *text) {
+  (void)user;
+  (void)level;
+  (void)text;
+  ++messages;
+  if (closed) ++late_messages;
+}
+
 /* The driver returns from close() a second after mvs_device_close has given up. */
-static void a_driver_that_closes_late_runs_on(void) {
+static void a_driver_that_closes_late_runs_on_and_calls_no_host(void) {
   const struct library mvs = load();
-  const mvs_device_desc desc = {.driver = MVS_LIARS_DIR "/closes_late.so",
-                                .clock = MVS_CLOCK_VIRTUAL};
+  const mvs_device_desc desc = {
+      .driver = MVS_LIARS_DIR "/closes_late.so", .clock = MVS_CLOCK_VIRTUAL, .log = take_message};
   mvs.close(opened(&mvs, desc));
+  closed = 1;
   dlclose(mvs.handle);
   CHECK(is_loaded());
   const struct timespec two = {2, 0};
   nanosleep(&two, NULL);
+  CHECK(messages == 1 && late_messages == 0);
 }
 
 static void an_installed_signal_handler_keeps_the_library(void) {
@@ -131,7 +143,7 @@ static void a_removed_signal_handler_does_not(void) {
 
 int main(void) {
   CHECK(status_of(a_returned_call_has_joined_its_threads) == 0);
-  CHECK(status_of(a_driver_that_closes_late_runs_on) == 0);
+  CHECK(status_of(a_driver_that_closes_late_runs_on_and_calls_no_host) == 0);
   const int status = status_of(an_installed_signal_handler_keeps_the_library);
   CHECK(WIFSIGNALED(status) && WTERMSIG(status) == SIGTERM);
   CHECK(status_of(a_removed_signal_handler_does_not) == 0);
