@@ -62,7 +62,7 @@ class DriverPlugin : public std::enable_shared_from_this<DriverPlugin> {
   void call(const char *what, mvs_driver_device *device, Work work);
 
  private:
-  explicit DriverPlugin(const std::string &name) : name_(name) {}
+  explicit DriverPlugin(const std::string &name) : name_(name), worker_(name) {}
   void negotiate(const std::string &path);
   void check(const std::string &path, uint32_t room) const;
   void check_options() const;

@@ -3,7 +3,9 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 
+#include "base/error.h"
 #include "base/own_faults_only.h"
 #include "haptics/library_reference.h"
 
@@ -34,10 +36,16 @@ struct Worker::Shared {
 
 // The reference is taken before the thread may hang in a constructor of a library, which blocks
 // dlopen.
-Worker::Worker() : shared_(std::make_shared<Shared>()), library_(hold_library()) {
+Worker::Worker(const std::string &driver)
+    : shared_(std::make_shared<Shared>()), library_(hold_library()) {
   try {
     const OwnFaultsOnly blocked;
     thread_ = std::thread([shared = shared_] { shared->serve(); });
+  } catch (const std::system_error &error) {
+    release_library(library_);
+    fail(MVS_E_MEMORY, driver,
+         "%s: the system starts no thread for its driver (%s): end other programs, and try again",
+         driver.c_str(), error.code().message().c_str());
   } catch (...) {
     release_library(library_);
     throw;

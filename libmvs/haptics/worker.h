@@ -16,7 +16,8 @@ namespace mvs::core {
 // joins the thread.
 class Worker {
  public:
-  Worker();
+  // `driver` is named in the sentence of a failure: MVS_E_MEMORY if the system has no thread.
+  explicit Worker(const std::string &driver);
   ~Worker();
   Worker(const Worker &) = delete;
   Worker &operator=(const Worker &) = delete;

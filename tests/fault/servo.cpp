@@ -135,6 +135,20 @@ void a_device_starts_again_after_the_system_had_no_thread() {
   MUST(mvs_device_start(device));
   mvs_device_close(device);
 }
+
+void a_driver_without_a_thread_is_refused_with_a_sentence() {
+  mvs_device_desc desc = {};
+  desc.struct_size = sizeof desc;
+  desc.driver = "hand";
+  mvs_device *device = nullptr;
+  has_threads = false;
+  MUST_FAIL(mvs_device_open(&desc, &device), MVS_E_MEMORY, "hand: the system starts no thread");
+  MUST_FAIL(mvs_device_list(
+                "hand", nullptr, [](void *, const char *, const char *) {}, nullptr),
+            MVS_E_MEMORY, "end other programs");
+  has_threads = true;
+  mvs_device_close(opened(MVS_CLOCK_REAL));
+}
 #endif
 
 #if HAS_SECCOMP
@@ -161,6 +175,7 @@ int main() {
 #if HAS_OWN_MALLOC
   a_device_is_closed_without_memory();
   a_device_starts_again_after_the_system_had_no_thread();
+  a_driver_without_a_thread_is_refused_with_a_sentence();
 #endif
 #if HAS_SECCOMP
   ticks_call_no_system(grasping, MVS_HAND_MODE_GRASP);
