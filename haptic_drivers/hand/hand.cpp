@@ -53,7 +53,7 @@ const char *const kOptions[] = {
     "wrist_damping: N m s/rad, beside that spring",
     "turned: x,y,z in rad, the rotation vector with which the hand begins",
     "turn_amplitude: x,y,z in rad, of a sine of the wrist at `frequency`",
-    "file: a recording (haptic_drivers/replay/README.md) that leads the arm instead",
+    "file: a recording, as for the driver replay, that leads the arm instead",
     "from: x,y,z in m, where the hand begins, if not at the target",
     "push: x,y,z in N, a constant force on the hand",
     "buttons: held for ever, a sum of 1, 2, 4, ...",

@@ -102,7 +102,7 @@ void choose(mvs_driver_device &device) {
     driver::refuse(MVS_DRIVER_E_ABSENT,
                    "the Haply Inverse Service has " + std::to_string(inventory.inverses.size()) +
                        " devices, and none is " + (id.empty() ? "an Inverse3" : "'" + id + "'") +
-                       ": plug it in, or name another (mvs haptics list)");
+                       ": plug it in, or name one that the driver lists");
   if (!inverse->basis.empty() && inverse->basis != "XYZ")
     driver::refuse(MVS_DRIVER_E_UNSUPPORTED, "the axes of device " + inverse->id + " are " +
                                                  inverse->basis + ": set the basis back to XYZ");

@@ -32,8 +32,9 @@ constexpr char kModel[] = "pointer of a window";
 constexpr double kReach = 0.05;
 
 const char *const kNoWindow =
-    "no program has named the pointer of its window: start the example phantom, whose window the "
-    "mouse drives, or see the option pointer in haptic_drivers/mouse/README.md";
+    "no program has named the pointer of its window: start the example phantom of the sources of "
+    "libmvs, or give the option pointer, the name of the shared memory into which your program "
+    "writes its pointer (haptic_drivers/mouse/pointer.h there)";
 
 // Returns the name of the shared memory; refuses a call without a window.
 std::string window_of(const mvs_driver_host *host) {

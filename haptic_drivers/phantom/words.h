@@ -18,6 +18,6 @@ std::string explain_load(const std::string &path, bool there, const std::string 
 
 inline constexpr const char *kUdevRule =
     "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"2988\", TAG+=\"uaccess\" (and the same for tty and "
-    "hidraw, see haptic_drivers/phantom/README.md)";
+    "hidraw, see haptic_drivers/phantom/README.md of the sources)";
 
 }  // namespace phantom

@@ -31,7 +31,7 @@ struct mvs_driver_device {
 namespace {
 
 const char *const kOptions[] = {
-    "file: the recording (format: haptic_drivers/replay/README.md)",
+    "file: the recording (format: haptic_drivers/replay/README.md of the sources)",
     "end: after the last sample stay (default) there, loop, or stop: the device is at its end",
     "speed: of the hand's motion, 1 as recorded",
     "device: the name of the replayed device",

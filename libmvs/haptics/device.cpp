@@ -33,7 +33,7 @@ const char *sentence_of(Cause cause) {
     case Cause::thermal:
       return "its motors are too warm, or it is broken: let it cool";
     case Cause::calibration:
-      return "it is not calibrated, or reports a place out of reach: run mvs haptics doctor for "
+      return "it is not calibrated, or reports a place out of reach: mvs_device_doctor has "
              "instructions";
     default:
       return "it is disconnected: close it, plug it in, open it again";

@@ -49,7 +49,8 @@ std::string path_of(const std::string &driver) {
 void must_be_trusted(const std::string &path) {
   struct stat file = {};
   MVS_MUST(stat(path.c_str(), &file) == 0, MVS_E_IO, path,
-           "there is no driver %s: mvs haptics list names the installed ones", path.c_str());
+           "there is no driver %s: mvs_get_driver gives the name of each installed one",
+           path.c_str());
   MVS_MUST(S_ISREG(file.st_mode), MVS_E_IO, path, "%s is not a regular file", path.c_str());
   MVS_MUST((file.st_mode & S_IWOTH) == 0 && (file.st_uid == 0 || file.st_uid == geteuid()),
            MVS_E_IO, path,

@@ -16,7 +16,7 @@ mvs::Device open_device(const DeviceOptions &options) {
   desc.options = lines.c_str();
   desc.rate = options.rate;
   desc.log = log_to_stderr;
-  return mvs::Device(desc);
+  return with_list_named([&] { return mvs::Device(desc); });
 }
 
 CLI::Validator key_and_value() {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,19 @@ void add_device_options(CLI::App &command, DeviceOptions &options);
 
 // The name of the driver, or the absolute path that the library needs.
 std::string driver_of(const DeviceOptions &options);
+// Calls work(). Where the library does not find a driver, its sentence gets the command that lists
+// them.
+template <typename Work>
+auto with_list_named(const Work &work) {
+  try {
+    return work();
+  } catch (const mvs::Error &failure) {
+    if (failure.code() != MVS_E_IO) throw;
+    mvs_error longer = *mvs_last_error();
+    std::snprintf(longer.message, sizeof longer.message, "%s (mvs haptics list)", failure.what());
+    throw mvs::Error(longer);
+  }
+}
 // The options of the driver, one per line.
 std::string lines_of(const std::vector<std::string> &options);
 

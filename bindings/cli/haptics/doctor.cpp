@@ -78,8 +78,8 @@ std::vector<DoctorRow> driver_rows(const DeviceOptions &options) {
     return rows;
   }
   try {
-    for (mvs::DriverFinding &found :
-         mvs::findings_of(driver_of(options), lines_of(options.options))) {
+    for (mvs::DriverFinding &found : with_list_named(
+             [&] { return mvs::findings_of(driver_of(options), lines_of(options.options)); })) {
       rows.push_back({options.driver, std::move(found)});
     }
   } catch (const mvs::Error &failure) {

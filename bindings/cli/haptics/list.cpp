@@ -16,7 +16,8 @@ struct DriverRow {
 DriverRow devices_of_driver(const mvs::Driver &driver, const DeviceOptions &options) {
   DriverRow row = {driver, {}, ""};
   try {
-    row.devices = mvs::devices_of(driver.path, lines_of(options.options));
+    row.devices =
+        with_list_named([&] { return mvs::devices_of(driver.path, lines_of(options.options)); });
   } catch (const mvs::Error &failure) {
     if (!options.driver.empty()) throw;
     row.why_not = failure.what();

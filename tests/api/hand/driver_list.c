@@ -70,8 +70,18 @@ static void drivers_are_listed_and_looked_at(void) {
   CHECK(mvs_device_doctor("nowhere", NULL, count_finding, &good) == MVS_E_IO);
 }
 
+/* An embedding program has neither the command nor the sources. */
+static void remedies_are_those_of_the_interface(void) {
+  int found = 0;
+  MUST_FAIL(mvs_device_list("nowhere", NULL, count_device, &found), MVS_E_IO, "mvs_get_driver");
+  CHECK(!strstr(mvs_last_error()->message, "mvs haptics"));
+  MUST_FAIL(mvs_device_list("mouse", NULL, count_device, &found), MVS_E_DEVICE, "shared memory");
+  CHECK(!strstr(mvs_last_error()->message, "README"));
+}
+
 int main(void) {
   drivers_are_listed_and_looked_at();
+  remedies_are_those_of_the_interface();
   a_vendors_library_that_is_not_here_is_a_note();
   return finish("driver_list");
 }
