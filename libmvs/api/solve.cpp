@@ -146,11 +146,15 @@ extern "C" {
 mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
     const Load given = read_load(load);
-    const SnapshotPtr before = s.present();
-    State state = before->state;
-    const RecordedEvent event = event_of(given);
-    apply_event(*before->model, state, event);
-    s.replace(make_snapshot(after_event(before->value, std::move(state), event)));
+    if (s.has_recorded(given)) {
+      s.slices.reset();
+    } else {
+      const SnapshotPtr before = s.present();
+      State state = before->state;
+      const RecordedEvent event = event_of(given);
+      apply_event(*before->model, state, event);
+      s.replace(make_snapshot(after_event(before->value, std::move(state), event)));
+    }
     log_pressure(s, given.pressure);
   });
 }

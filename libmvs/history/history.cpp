@@ -57,6 +57,16 @@ RecordedEvents with_event(const RecordedEvents &events, RecordedEvent event) {
   return before.pushed(std::move(event));
 }
 
+bool is_newest_load(const RecordedEvents &events, const Load &load) {
+  RecordedEvents older = events;
+  for (int k = 0; k < 16 && !older.empty(); ++k, older = older.popped()) {
+    const RecordedEvent &event = older.top();
+    if (event.kind != RecordedEvent::load) continue;
+    return event.pressure == load.pressure && event.boundary_fraction == load.boundary_fraction;
+  }
+  return false;
+}
+
 Snapshot after_event(const Snapshot &now, State state, const RecordedEvent &event) {
   return after_event(now, std::move(state), {}, event);
 }

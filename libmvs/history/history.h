@@ -46,6 +46,10 @@ using RecordedEvents = PersistentList<RecordedEvent>;
 // or tool_move directly after one of the same kind replaces it.
 RecordedEvents with_event(const RecordedEvents &events, RecordedEvent event);
 
+// Whether the newest load among the last 16 events is this one: to record it again would lengthen
+// the history for nothing. No older event is searched, so that a load before each step stays fast.
+bool is_newest_load(const RecordedEvents &events, const Load &load);
+
 // An applied operation.
 struct HistoryEntry {
   Operation op;

@@ -60,6 +60,14 @@ Load mvs_sim::load() const {
   return now_.current.state.load;
 }
 
+bool mvs_sim::has_recorded(const Load &load) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  must_have_valve();
+  const Load &now = now_.current.state.load;
+  return now.pressure == load.pressure && now.boundary_fraction == load.boundary_fraction &&
+         is_newest_load(now_.history.events, load);
+}
+
 void mvs_sim::must_have_valve() const {
   MVS_MUST(now_.current.model, MVS_E_STATE, "sim",
            "the simulator has no valve yet: set, generate or load one first");

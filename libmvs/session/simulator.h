@@ -31,6 +31,8 @@ struct mvs_sim {
   const mvs::core::Model *model() const { return now_.current.model.get(); }
   void replace(mvs::core::SnapshotPtr next);
   mvs::core::Load load() const;
+  // Whether this load is the present one, and the history records it as that.
+  bool has_recorded(const mvs::core::Load &load) const;
   // Advances the present valve by one time step.
   void step(const mvs::core::SolveOptions &how);
   // Updates the solver after a change of valve or tools, if time steps are in use, so that the next

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
 
 #include "check.h"
 #include "tests/fault/counted.h"
@@ -89,6 +90,37 @@ void a_snapshot_costs_a_step_or_two(void) {
   CHECK(allocations == before);
   mvs_destroy(sim);
 }
+
+uint64_t plan_size(mvs_sim *sim) {
+  const mvs_snapshot *now = nullptr;
+  uint64_t size = 0;
+  MUST(mvs_get_snapshot(sim, &now));
+  MUST(mvs_write_plan(now, nullptr, nullptr, 0, &size));
+  mvs_snapshot_release(now);
+  return size;
+}
+
+// A host that sets the present load before each step; moving, and at rest.
+void the_same_load_records_and_allocates_nothing(void) {
+  for (const int phase : {0, 25}) {
+    mvs_sim *sim = closed_valve();
+    for (int k = 0; k < warm_up; ++k) {
+      beat(sim, phase);
+      MUST(mvs_step(sim, nullptr));
+    }
+    const uint64_t size = plan_size(sim);
+    for (int k = 0; k < 3; ++k) MUST(mvs_step(sim, nullptr));
+    const long before = allocations;
+    for (int k = 0; k < 100; ++k) {
+      beat(sim, phase);
+      MUST(mvs_step(sim, nullptr));
+    }
+    CHECK(allocations == before);
+    CHECK(plan_size(sim) <= size + 2);                  // digits of the number of steps
+    CHECK(phase != 0 || stats_of(sim).converged == 1);  // the valve that rested stays at rest
+    mvs_destroy(sim);
+  }
+}
 #endif
 
 #if HAS_SECCOMP
@@ -136,6 +168,7 @@ int main(void) {
   steps_allocate_nothing(MVS_SOLVER_IMPLICIT);
   steps_allocate_nothing(MVS_SOLVER_EXPLICIT);
   a_snapshot_costs_a_step_or_two();
+  the_same_load_records_and_allocates_nothing();
 #endif
 #if HAS_SECCOMP
   steps_call_no_system();
