@@ -32,6 +32,13 @@
  * a ramp of 50 ms. A passivity observer measures energy that the sampled loop generates, and
  * damping removes it. These measures do not make a device a medical one.
  *
+ * Threads of the library and those that it starts in a driver block all signals but those of a
+ * fault of their own (SIGSEGV, SIGBUS, SIGFPE, SIGILL). A function of a driver has to return within
+ * 10 s, its loop within 2 s of mvs_device_stop. mvs_device_close, mvs_device_list and
+ * mvs_device_doctor return when their threads have ended; then libmvs may be unloaded (dlclose). A
+ * thread that hangs in a driver is abandoned, and libmvs stays loaded until the process ends, as
+ * every driver does in any case.
+ *
  * Positions are in the scene (the valve's frame) unless marked "of the device": there x points to
  * the user's right, y up, z towards the user, and 0 is the centre of the workspace. A device is
  * used by one thread at a time; any thread may call mvs_device_get_state and mvs_device_cut. */
@@ -82,19 +89,22 @@ typedef struct mvs_device_desc {
   const char *device;  /* a name reported by mvs_device_list; nullable [the first] */
   const char *options; /* of the driver, "key=value" lines; nullable */
   double rate;         /* Hz, of a polled device; 100 to 10000 [its nominal rate, or 1000] */
-  /* Receives messages of the driver, one line each, from any thread except the servo's. Nullable:
-   * silent. */
+  /* Receives messages of the driver, one line each and one at a time, from any thread except the
+   * servo's, until mvs_device_close returns or mvs_device_open fails: these wait for a message that
+   * is being received, so that it must not wait for them. Nullable: silent. */
   void (*log)(void *user, mvs_log_level level, const char *text);
   void *user; /* passed to it */
 } mvs_device_desc;
 
 /* Opens a device with its motors off; mvs_device_close frees it. MVS_E_IO if the driver does not
- * exist, MVS_E_VERSION if it has another version, MVS_E_DEVICE with the driver's own sentence for
- * other failures. */
+ * exist, MVS_E_VERSION if it has another version, MVS_E_MEMORY if the system has no thread for it,
+ * MVS_E_DEVICE with the driver's own sentence for other failures. */
 MVS_API mvs_result mvs_device_open(const mvs_device_desc *desc, mvs_device **device);
 
 /* Stops and frees a device, and removes its tools from the simulator of the last mvs_device_sync
- * unless that is destroyed or at work in another thread. `device` is nullable. */
+ * unless that is destroyed or at work in another thread. Where the driver hangs it waits 10 s for
+ * stop(), 2 s for the loop and 10 s for close(), at most 12 s in all, and leaves the device to the
+ * driver. No callback of the host is called after it has returned. `device` is nullable. */
 MVS_API void mvs_device_close(mvs_device *device);
 
 /* Properties of a device as its driver reports them, in the frame of the device; numbers that the
@@ -348,8 +358,16 @@ MVS_API mvs_result mvs_device_take_samples(mvs_device *device, mvs_device_sample
                                            uint64_t *lost);
 
 /* 1: installs a handler of fatal signals (SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTERM,
- * SIGINT) that sets zero force on every open device and calls the previous handler; 0: removes it.
- * The library installs no handler by default. */
+ * SIGINT) that sets zero force on every started device, which keeps it until it is stopped and
+ * started again, and calls the previous handler with the same arguments and signal mask, or ends
+ * the process as the default action would. It runs on the alternate stack of the thread, if there
+ * is one, and stays installed after a signal that the host survives. A signal that the host ignores
+ * stays ignored. A host that has replaced the handler may call this again: the new handler then
+ * becomes the previous one (MVS_E_STATE after 8 different ones).
+ * 0: restores the previous handler where this one is installed; a newer handler of the host stays,
+ * and may still call this one, which only passes the signal on.
+ * libmvs stays loaded while the handler is installed, or was replaced. The library installs no
+ * handler by default. */
 MVS_API mvs_result mvs_device_handle_signals(uint32_t on);
 
 #ifdef __cplusplus

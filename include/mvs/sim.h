@@ -57,9 +57,10 @@ typedef struct mvs_sim_desc {
    * thread alone. Results have the same bits for any number. The library starts its threads in the
    * first loop that is long enough to be shared (in valves of more than about a thousand vertices;
    * in a build the closures of its variants), and joins them in mvs_destroy.
-   * They run no callback, block all signals, and sleep between calls. Where there are no threads,
-   * as in WebAssembly, or the system grants fewer, the others do the work. A process made by fork()
-   * has none of them and must not destroy the simulator. */
+   * They run no callback, block all signals but those of a fault of their own (SIGSEGV, SIGBUS,
+   * SIGFPE, SIGILL), and sleep between calls. Where there are no threads, as in WebAssembly, or the
+   * system grants fewer, the others do the work. A process made by fork() has none of them and must
+   * not destroy the simulator. */
   uint32_t workers;
   uint32_t reserved; /* 0 */
   /* A thread pool of the host instead of `workers`, which is 0 then: both callbacks or none. They
@@ -132,7 +133,11 @@ typedef struct mvs_load_case {
 } mvs_load_case;
 
 /* Sets the load for the next settle or step; nothing moves yet. A new valve has pressure 0 and
- * fraction 0. A pressure that looks like a value in mmHg is logged as MVS_LOG_WARNING. */
+ * fraction 0. A pressure that looks like a value in mmHg is logged as MVS_LOG_WARNING.
+ * The history records loads for plans. Each change of the load with a step after it takes 290 bytes
+ * of memory (260 MB an hour at 250 steps a second) and 150 bytes in a plan; changes without a step
+ * or settle between them are one. The same load again, without an operation in between, records
+ * and changes nothing. A settle takes 130 bytes, also at rest. */
 MVS_API mvs_result mvs_set_load(mvs_sim *sim, const mvs_load_case *load);
 
 /* 120 mmHg in Pa (1 mmHg = 133.322 Pa): the default systolic load. */
@@ -252,8 +257,8 @@ typedef struct mvs_step_options {
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
 /* Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.
- * `converged` is 1 while the valve is at rest: an operation, a load or a tool makes it 0 until the
- * next settle, or a step that finds nothing to move; so does a step that moves the valve. */
+ * `converged` is 1 while the valve is at rest: an operation, another load or a tool makes it 0
+ * until the next settle, or a step that finds nothing to move; so does a step that moves it. */
 MVS_API mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats);
 
 #ifdef __cplusplus

@@ -120,7 +120,7 @@ MVS_API mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id 
  * exist. mvs_restore and a new valve discard a move that no settle or step has used.
  * The history records the motion of hands for plans: 30 bytes of memory for each step of a hand
  * that moved (27 MB an hour at 250 steps a second), 33 bytes in a plan; a resting hand adds
- * nothing. */
+ * nothing. A tool that is added and removed takes 840 bytes of memory. */
 MVS_API mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
                                  const double axis[3]);
 

@@ -1092,7 +1092,11 @@ export class Functions extends Calls {
 
   /**
    * Sets the load for the next settle or step; nothing moves yet. A new valve has pressure 0 and
-   * fraction 0. A pressure that looks like a value in mmHg is logged as MVS_LOG_WARNING.
+   * fraction 0. A pressure that looks like a value in mmHg is logged as MVS_LOG_WARNING. The
+   * history records loads for plans. Each change of the load with a step after it takes 290 bytes
+   * of memory (260 MB an hour at 250 steps a second) and 150 bytes in a plan; changes without a
+   * step or settle between them are one. The same load again, without an operation in between,
+   * records and changes nothing. A settle takes 130 bytes, also at rest.
    */
   mvs_set_load(sim: SimHandle, load: LoadCaseInput): void {
     return this.invoke(signatures.mvs_set_load!, [sim, load]) as never;
@@ -1157,8 +1161,8 @@ export class Functions extends Calls {
 
   /**
    * Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.
-   * `converged` is 1 while the valve is at rest: an operation, a load or a tool makes it 0 until
-   * the next settle, or a step that finds nothing to move; so does a step that moves the valve.
+   * `converged` is 1 while the valve is at rest: an operation, another load or a tool makes it 0
+   * until the next settle, or a step that finds nothing to move; so does a step that moves it.
    */
   mvs_get_stats(sim: SimHandle): Stats {
     return this.invoke(signatures.mvs_get_stats!, [sim]) as never;
@@ -1473,7 +1477,8 @@ export class Functions extends Calls {
    * simulator. `axis` is nullable: unchanged; only rods have an axis. MVS_E_ID if the tool does not
    * exist. mvs_restore and a new valve discard a move that no settle or step has used. The history
    * records the motion of hands for plans: 30 bytes of memory for each step of a hand that moved
-   * (27 MB an hour at 250 steps a second), 33 bytes in a plan; a resting hand adds nothing.
+   * (27 MB an hour at 250 steps a second), 33 bytes in a plan; a resting hand adds nothing. A tool
+   * that is added and removed takes 840 bytes of memory.
    */
   mvs_move_tool(sim: SimHandle, tool: bigint | number, position: ArrayLike<number>, axis?: ArrayLike<number> | null): void {
     return this.invoke(signatures.mvs_move_tool!, [sim, tool, position, axis]) as never;
