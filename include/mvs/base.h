@@ -89,7 +89,8 @@ MVS_API const char *mvs_result_name(mvs_result code);
 /* Returns the version of the loaded library, 10000 * major + 100 * minor + patch. */
 MVS_API uint32_t mvs_version(void);
 
-/* Returns the optional parts of this build, separated by spaces: "cholmod hdf5". Static. */
+/* Returns the backends (mvs_sim_desc.backend) and the optional parts of this build, separated by
+ * spaces: "block cholmod eigen hdf5 zlib haptics". Static. */
 MVS_API const char *mvs_features(void);
 
 /* Identifies a part of the valve across undo, save and load. Zero: no part. */

@@ -241,7 +241,8 @@ MVS_API mvs_result mvs_undo(mvs_sim *sim);
 MVS_API mvs_result mvs_redo(mvs_sim *sim);
 
 /* Begin and end a group: its operations are undone and redone together, shown as `name` in a menu.
- * Groups do not nest; an empty group is discarded. */
+ * Groups do not nest; an empty group is discarded. While one is open, undo, redo and
+ * restoring give MVS_E_STATE. */
 MVS_API mvs_result mvs_begin_group(mvs_sim *sim, const char *name);
 MVS_API mvs_result mvs_end_group(mvs_sim *sim);
 

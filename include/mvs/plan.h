@@ -58,8 +58,9 @@ MVS_API mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t
  * and nothing changes. It fails as well if the file was deleted meanwhile, and so does
  * mvs_close_journal, which closes the journal all the same. The history so far is written first,
  * with its undone operations and its checkpoints. MVS_E_STATE if the file exists; if the call
- * fails, no file remains. A journal of more than 1 GiB could not be read: the call that would make
- * it so long fails with MVS_E_STATE.
+ * fails, no file remains. One simulator at a time has a journal open; mvs_recover_journal of
+ * another, in this or another process, gives MVS_E_STATE. A journal of more than 1 GiB could not be
+ * read: the call that would make it so long fails with MVS_E_STATE.
  *
  * A new valve ends the journal, with a warning in the log: also the same valve with other tissue
  * (mvs_set_leaflet) or another mesh, and a snapshot of another valve that is restored. Operations

@@ -971,7 +971,10 @@ export class Functions extends Calls {
     return this.invoke(signatures.mvs_version!, []) as never;
   }
 
-  /** Returns the optional parts of this build, separated by spaces: "cholmod hdf5". Static. */
+  /**
+   * Returns the backends (mvs_sim_desc.backend) and the optional parts of this build, separated by
+   * spaces: "block cholmod eigen hdf5 zlib haptics". Static.
+   */
   mvs_features(): string {
     return this.invoke(signatures.mvs_features!, []) as never;
   }
@@ -1376,7 +1379,8 @@ export class Functions extends Calls {
 
   /**
    * Begin and end a group: its operations are undone and redone together, shown as `name` in a
-   * menu. Groups do not nest; an empty group is discarded.
+   * menu. Groups do not nest; an empty group is discarded. While one is open, undo, redo and
+   * restoring give MVS_E_STATE.
    */
   mvs_begin_group(sim: SimHandle, name: string): void {
     return this.invoke(signatures.mvs_begin_group!, [sim, name]) as never;
@@ -1384,7 +1388,8 @@ export class Functions extends Calls {
 
   /**
    * Begin and end a group: its operations are undone and redone together, shown as `name` in a
-   * menu. Groups do not nest; an empty group is discarded.
+   * menu. Groups do not nest; an empty group is discarded. While one is open, undo, redo and
+   * restoring give MVS_E_STATE.
    */
   mvs_end_group(sim: SimHandle): void {
     return this.invoke(signatures.mvs_end_group!, [sim]) as never;
