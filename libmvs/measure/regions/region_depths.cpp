@@ -15,7 +15,7 @@ namespace {
 // cell of the middle, 0.13 of a default thickness: it is nearer to one of them by up to twice that.
 constexpr double as_near = 0.25, too_far = 0.75;
 // m, above rounding of distances.
-constexpr double rounding = 1e-12;
+constexpr double rounding_of_distances = 1e-12;
 // Cells of a side of the largest squares.
 constexpr int largest_square = 16;
 static_assert(AnnulusMap::across % largest_square == 0);
@@ -97,7 +97,8 @@ class DepthSearch {
   // Whether a triangle may raise the value of a region by cells of the square: from its centre to a
   // cell a difference of distances changes by at most twice the radius.
   bool may_raise(const Square &square, const Near &n, double least) const {
-    const double further = std::sqrt(n.distance2) - least - 2 * square.radius() - rounding;
+    const double further =
+        std::sqrt(n.distance2) - least - 2 * square.radius() - rounding_of_distances;
     const double depth = square.depth * share_of(further);
     bool may = false;
     map_.for_each(n.triangle, [&](uint32_t region) { may |= deepest_[region] < depth; });
