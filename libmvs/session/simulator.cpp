@@ -77,12 +77,11 @@ void mvs_sim::log(mvs_log_level level, const char *pattern, ...) const {
   if (!desc.log) return;
   va_list arguments;
   va_start(arguments, pattern);
-  const std::string text = vformat(pattern, arguments);
-  va_end(arguments);
   try {
-    desc.log(desc.user, level, text.c_str());
+    desc.log(desc.user, level, vformat(pattern, arguments).c_str());
   } catch (...) {  // NOLINT(bugprone-empty-catch): a call that is done does not fail for its log
   }
+  va_end(arguments);
 }
 
 Progress mvs_sim::progress() const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <new>
 #include <numbers>
 #include <numeric>
 #include <string>
@@ -194,9 +195,7 @@ bool has_few_digits(double value, int most) {
          std::abs(rounded - value) < 1e-12 * value;
 }
 
-}  // namespace
-
-void log_units(const mvs_sim &sim, const Model &model, const Model *before) {
+void log_all(const mvs_sim &sim, const Model &model, const Model *before) {
   const Scale scale(model);
   const double contact = model.valve.contact_stiffness;
   const bool is_known = before && before->valve.contact_stiffness == contact;
@@ -209,6 +208,16 @@ void log_units(const mvs_sim &sim, const Model &model, const Model *before) {
     if (!has_leaflet(before, leaflet)) log_leaflet(sim, leaflet, scale);
   }
   log_chords(sim, model, scale, before);
+}
+
+}  // namespace
+
+void log_units(const mvs_sim &sim, const Model &model, const Model *before) {
+  if (!sim.desc.log) return;
+  try {
+    log_all(sim, model, before);
+  } catch (const std::bad_alloc &) {  // NOLINT(bugprone-empty-catch): the call itself is done
+  }
 }
 
 // Warns about pressures below 1.5 mmHg, which are systolic ones as numbers in MPa, kPa or mmHg

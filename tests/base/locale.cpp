@@ -2,55 +2,55 @@
 #include <doctest/doctest.h>
 #include <locale.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
 #include "base/chars.h"
 #include "base/error.h"
+#include "tests/formats/disk.h"
 
 using namespace mvs::core;
 
 namespace {
 
-// A locale with a decimal comma: one that is installed, or one that is compiled for this test; null
+enum class Outcome : uint8_t { right, no_locale, no_comma, wrong_text, wrong_number, not_restored };
+
+// A locale with a decimal comma: one that is installed, or one that is compiled in a folder; null
 // where the sources of locales are missing as well.
-locale_t comma_locale() {
+locale_t comma_locale(const std::string &folder) {
   if (const locale_t installed = newlocale(LC_ALL_MASK, "de_DE.UTF-8", nullptr)) return installed;
-  std::string made = std::filesystem::temp_directory_path() / "mvs_locale_XXXXXX";
-  if (!::mkdtemp(made.data())) return nullptr;
   const std::string compile =
-      "localedef -i de_DE -f UTF-8 " + made + "/de_DE.UTF-8 >/dev/null 2>&1";
-  locale_t found = nullptr;
-  if (std::system(compile.c_str()) == 0) {
-    ::setenv("LOCPATH", made.c_str(), 1);
-    found = newlocale(LC_ALL_MASK, "de_DE.UTF-8", nullptr);
-    ::unsetenv("LOCPATH");
-  }
-  std::filesystem::remove_all(made);
-  return found;
+      "localedef -i de_DE -f UTF-8 " + folder + "/de_DE.UTF-8 >/dev/null 2>&1";
+  if (std::system(compile.c_str()) != 0) return nullptr;
+  ::setenv("LOCPATH", folder.c_str(), 1);
+  return newlocale(LC_ALL_MASK, "de_DE.UTF-8", nullptr);
+}
+
+Outcome outcome_in_a_locale_with_a_comma(const std::string &folder) {
+  const locale_t comma = comma_locale(folder);
+  if (!comma) return Outcome::no_locale;
+  uselocale(comma);
+  char text[8];
+  std::snprintf(text, sizeof text, "%.1f", 1.5);
+  double read = 0;
+  if (std::string(text) != "1,5") return Outcome::no_comma;
+  if (format("%.1f of %g", 1.5, 0.25) != "1.5 of 0.25") return Outcome::wrong_text;
+  if (!double_from_chars("1.5", read) || read != 1.5) return Outcome::wrong_number;
+  return uselocale(nullptr) == comma ? Outcome::right : Outcome::not_restored;
 }
 
 }  // namespace
 
+// In a child process, whose locale and environment end with it.
 TEST_CASE("numbers_have_a_point_in_a_locale_with_a_comma") {
-  const locale_t comma = comma_locale();
-  if (!comma) {
+  const Folder folder;
+  const auto outcome = static_cast<Outcome>(in_child(
+      [&] { return static_cast<int>(outcome_in_a_locale_with_a_comma(folder.path.string())); }));
+  if (outcome == Outcome::no_locale) {
     MESSAGE("skipped: no locale de_DE.UTF-8, and none can be made (package locales)");
     return;
   }
-  const locale_t before = uselocale(comma);
-  char text[8];
-  std::snprintf(text, sizeof text, "%.1f", 1.5);
-  const std::string by_host = text, ours = format("%.1f of %g", 1.5, 0.25);
-  double read = 0;
-  const bool is_read = double_from_chars("1.5", read);
-  const bool is_kept = uselocale(before) == comma;
-  freelocale(comma);
-  CHECK(by_host == "1,5");
-  CHECK(ours == "1.5 of 0.25");
-  CHECK(is_read);
-  CHECK(read == 1.5);
-  CHECK(is_kept);
+  CHECK(outcome == Outcome::right);
 }
