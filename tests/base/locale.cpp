@@ -21,9 +21,13 @@ enum class Outcome : uint8_t { right, no_locale, no_comma, wrong_text, wrong_num
 // where the sources of locales are missing as well.
 locale_t comma_locale(const std::string &folder) {
   if (const locale_t installed = newlocale(LC_ALL_MASK, "de_DE.UTF-8", nullptr)) return installed;
-  const std::string compile =
-      "localedef -i de_DE -f UTF-8 " + folder + "/de_DE.UTF-8 >/dev/null 2>&1";
-  if (std::system(compile.c_str()) != 0) return nullptr;
+  const std::string made = folder + "/de_DE.UTF-8";
+  const int failed = in_child([&] {
+    ::close(STDERR_FILENO);
+    ::execlp("localedef", "localedef", "-i", "de_DE", "-f", "UTF-8", made.c_str(), nullptr);
+    return 1;
+  });
+  if (failed) return nullptr;
   ::setenv("LOCPATH", folder.c_str(), 1);
   return newlocale(LC_ALL_MASK, "de_DE.UTF-8", nullptr);
 }

@@ -21,7 +21,9 @@ struct Part {
 CoaptationLine line_of(const std::vector<Part> &parts) {
   std::vector<CoaptedPiece> pieces;
   for (const Part &part : parts) {
-    for (double angle = part.from; angle < part.to; angle += 2e-3) {
+    const int count = static_cast<int>(std::ceil((part.to - part.from) / 2e-3));
+    for (int k = 0; k < count; ++k) {
+      const double angle = part.from + 2e-3 * k;
       for (const double z : {-0.5e-3, 0.0, 0.5e-3}) {
         const Vec3 out(std::cos(angle), std::sin(angle), 0);
         pieces.push_back({radius * out + Vec3(0, 0, z), out, 1e-8 * part.weight});

@@ -13,7 +13,10 @@ static unsigned long long blocked_of(const char *thread) {
   unsigned long long mask = 0;
   snprintf(path, sizeof path, "/proc/self/task/%s/status", thread);
   FILE *const file = fopen(path, "r");
-  while (file && fgets(line, sizeof line, file)) sscanf(line, "SigBlk: %llx", &mask);
+  while (file && fgets(line, sizeof line, file)) {
+    static const char key[] = "SigBlk:";
+    if (strncmp(line, key, sizeof key - 1) == 0) mask = strtoull(line + sizeof key - 1, NULL, 16);
+  }
   if (file) fclose(file);
   return mask;
 }
