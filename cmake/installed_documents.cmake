@@ -11,7 +11,6 @@ set(mvs_installed_documents  # in the source tree, then below the folder of docu
   examples/plans/README.md examples/plans/README.md
   haptic_drivers/README.md haptic_drivers/README.md)
 set(mvs_installed_files
-  LICENSE LICENSE
   examples/hello.c examples/hello.c
   examples/close.c examples/close.c
   examples/repair.c examples/repair.c
@@ -20,7 +19,7 @@ set(mvs_installed_files
 
 # Puts into `result` where a file of the source tree is installed, or nothing.
 function(mvs_installed_place result file)
-  set(pairs ${mvs_installed_documents} ${mvs_installed_files})
+  set(pairs LICENSE LICENSE ${mvs_installed_documents} ${mvs_installed_files})
   list(FIND pairs "${file}" at)
   set(place "")
   if(at GREATER -1)

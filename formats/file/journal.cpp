@@ -47,6 +47,12 @@ bool take_record(std::string_view &rest, std::string &text) {
   return true;
 }
 
+struct stat status_of(const Descriptor &file, const std::string &path) {
+  struct stat found;
+  if (::fstat(file.number(), &found) != 0) fail_journal("read", path, errno);
+  return found;
+}
+
 // Locks the file for one open journal, until its descriptor is closed; file systems without locks
 // are left alone.
 void lock_for_one(const Descriptor &file, const std::string &path) {
@@ -104,10 +110,8 @@ Journal Journal::reopen(const std::string &path, const JournalRecords &records) 
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.number() < 0) fail_journal("open", path, errno);
   lock_for_one(file, path);
-  struct stat found;
-  if (::fstat(file.number(), &found) != 0) fail_journal("read", path, errno);
-  MVS_MUST(static_cast<size_t>(found.st_size) == records.read, MVS_E_STATE, "journal",
-           "the journal %s has changed since it was read: recover it again",
+  MVS_MUST(static_cast<size_t>(status_of(file, path).st_size) == records.read, MVS_E_STATE,
+           "journal", "the journal %s has changed since it was read: recover it again",
            shown_path(path).c_str());
   const off_t whole = static_cast<off_t>(records.bytes);
   if (::ftruncate(file.number(), whole) != 0) fail_journal("cut", path, errno);
@@ -115,9 +119,7 @@ Journal Journal::reopen(const std::string &path, const JournalRecords &records) 
 }
 
 uint64_t Journal::links() const {
-  struct stat found;
-  if (::fstat(file_.number(), &found) != 0) fail_journal("read", path_, errno);
-  return found.st_nlink;
+  return status_of(file_, path_).st_nlink;
 }
 
 void Journal::must_exist() const {

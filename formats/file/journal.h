@@ -33,7 +33,7 @@ class Journal {
   // Creates a file with its first record; MVS_E_STATE if it exists. If this fails, no file remains.
   static Journal create(const std::string &path, std::string_view first);
   // Opens a file for appending after its whole records and drops the rest. MVS_E_STATE if another
-  // simulator or program has the journal open, or the file is longer than what was read of it.
+  // simulator or program has the journal open, or the size of the file is not that of the records.
   static Journal reopen(const std::string &path, const JournalRecords &records);
 
   // Appends a record. If this fails, throws MVS_E_IO, also if the file was deleted, or MVS_E_STATE

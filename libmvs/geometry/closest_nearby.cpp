@@ -1,6 +1,7 @@
 // Collects triangles by the distance of their boxes.
 #include "geometry/closest_nearby.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace mvs::core {
@@ -14,6 +15,27 @@ constexpr double with_rounding = 1 + 1e-9;
 double nearby_limit2(double distance2, double radius) {
   const double limit = (std::sqrt(distance2) + 2 * radius) * with_rounding;
   return limit * limit;
+}
+
+uint32_t list_nearby(const TriangleBvh &tree, const std::vector<uint32_t> &among,
+                     const Vec3 &centre, double radius, std::vector<NearTriangle> &near) {
+  near.clear();
+  uint32_t nearest = none;
+  double least = HUGE_VAL, limit2 = HUGE_VAL;
+  for (const uint32_t t : among) {
+    if (tree.box_of(t).distance2(centre) > limit2) continue;
+    const double distance2 = tree.closest_on(t, centre).distance2;
+    if (distance2 > limit2) continue;
+    near.push_back({t, distance2});
+    if (distance2 > least || (distance2 == least && t > nearest)) continue;
+    least = distance2;
+    nearest = t;
+    limit2 = nearby_limit2(least, radius);
+  }
+  near.erase(std::remove_if(near.begin(), near.end(),
+                            [&](const NearTriangle &n) { return n.distance2 > limit2; }),
+             near.end());
+  return nearest;
 }
 
 ClosestNearby::ClosestNearby(const TriangleBvh &tree, const Vec3 &centre, double radius,

@@ -14,6 +14,18 @@ namespace mvs::core {
 // closest triangle of any point is within d + 2 r of the centre.
 double nearby_limit2(double distance2, double radius);
 
+// A triangle, and its squared distance from the centre of a ball.
+struct NearTriangle {
+  uint32_t triangle;
+  double distance2;
+};
+
+// Lists those of some triangles that can be closest to a point of a ball, in their order. Returns
+// the one closest to the centre, of equally close ones that with the lowest number; `none` without
+// triangles.
+uint32_t list_nearby(const TriangleBvh &tree, const std::vector<uint32_t> &among,
+                     const Vec3 &centre, double radius, std::vector<NearTriangle> &near);
+
 // For points within a ball.
 class ClosestNearby {
  public:

@@ -7,6 +7,7 @@
 
 #include "measure/regions/regions.h"
 #include "measure/tenting/tenting_billow.h"
+#include "tests/measure/continuity.h"
 #include "tests/measure/shapes.h"
 
 namespace mvs::core::test {
@@ -44,9 +45,7 @@ TEST_CASE("both_leaflets_are_as_deep_as_the_crevice_between_them") {
   CHECK(regions[1].tenting_height == whole);
 }
 
-// The crevice passes over cells of the raster. The largest of 40 steps is bisected, always to the
-// half with the larger change: a jump stays as large. Of a continuous figure a step of 2^-20 of the
-// first has less than a thousandth of it left, unless its slope is a thousand times larger there.
+// The crevice passes over cells of the raster.
 TEST_CASE("tenting_heights_of_regions_are_continuous") {
   const ModelPtr model = model_of(crevice());
   const RegionMap map(*model);
@@ -61,30 +60,7 @@ TEST_CASE("tenting_heights_of_regions_are_continuous") {
   };
   for (const size_t region : {0u, 1u}) {
     CAPTURE(region);
-    constexpr int steps = 40;
-    double low = 0, at_low = 0, at_high = 0, last = heights(0)[region];
-    for (int k = 0; k < steps; ++k) {
-      const double next = heights((k + 1.0) / steps)[region];
-      if (k == 0 || std::abs(next - last) > std::abs(at_high - at_low)) {
-        low = static_cast<double>(k) / steps;
-        at_low = last;
-        at_high = next;
-      }
-      last = next;
-    }
-    const double coarse = std::abs(at_high - at_low);
-    double width = 1.0 / steps;
-    for (int k = 0; k < 20; ++k) {
-      width *= 0.5;
-      const double middle = heights(low + width)[region];
-      if (std::abs(middle - at_low) > std::abs(at_high - middle)) {
-        at_high = middle;
-      } else {
-        at_low = middle;
-        low += width;
-      }
-    }
-    CHECK(std::abs(at_high - at_low) < 1e-3 * coarse);
+    check_continuous([&](double share) { return heights(share)[region]; }, 40);
   }
 }
 

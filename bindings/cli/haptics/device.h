@@ -3,11 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "text/console.h"
+#include "valve/host.h"
 
 namespace cli {
 
@@ -33,9 +33,8 @@ auto with_list_named(const Work &work) {
     return work();
   } catch (const mvs::Error &failure) {
     if (failure.code() != MVS_E_IO) throw;
-    mvs_error longer = *mvs_last_error();
-    std::snprintf(longer.message, sizeof longer.message, "%s (mvs haptics list)", failure.what());
-    throw mvs::Error(longer);
+    fail(failure.code(), failure.part(), std::string(failure.what()) + " (mvs haptics list)",
+         failure.line());
   }
 }
 // The options of the driver, one per line.

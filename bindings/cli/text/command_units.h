@@ -8,8 +8,8 @@
 
 namespace cli {
 
-// A sentence of the library, which has m and Pa, about values that the command took in mm, MPa and
-// mmHg: lengths become mm, and what it says of other units becomes the unit of the command.
+// A sentence of the library, in m and Pa, about values that the command took in mm, MPa and mmHg.
+// Lengths become mm; hints to other units become hints to those of the command.
 std::string in_command_units(const std::string &sentence);
 
 // While one exists, log_to_stderr prints sentences in the units of the command.

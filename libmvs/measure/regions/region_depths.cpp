@@ -2,7 +2,6 @@
 #include "measure/regions/region_depths.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "geometry/closest_nearby.h"
@@ -57,11 +56,6 @@ class DepthSearch {
   }
 
  private:
-  struct Near {
-    uint32_t triangle;
-    double distance2;
-  };
-
   double depth(size_t cell) const {
     const double height = atrial_.heights[cell];
     return std::isfinite(height) ? -atrial_.map->share(cell) * height : 0;
@@ -96,7 +90,7 @@ class DepthSearch {
   }
   // Whether a triangle may raise the value of a region by cells of the square: from its centre to a
   // cell a difference of distances changes by at most twice the radius.
-  bool may_raise(const Square &square, const Near &n, double least) const {
+  bool may_raise(const Square &square, const NearTriangle &n, double least) const {
     const double further =
         std::sqrt(n.distance2) - least - 2 * square.radius() - rounding_of_distances;
     const double depth = square.depth * share_of(further);
@@ -107,31 +101,18 @@ class DepthSearch {
 
   // Lists the triangles that can be near enough to a cell of the square, with the squared distance
   // from its centre. The nearest is among them.
-  std::vector<Near> near_to(const Square &square, const std::vector<uint32_t> &among) const {
-    const Vec3 centre = square.centre();
-    const double radius = square.radius() + 0.5 * too_far * thickness_;
-    double least = HUGE_VAL, limit2 = HUGE_VAL;
-    std::vector<Near> near;
-    for (const uint32_t t : among) {
-      if (tree_.box_of(t).distance2(centre) > limit2) continue;
-      const double distance2 = tree_.closest_on(t, centre).distance2;
-      if (distance2 > limit2) continue;
-      near.push_back({t, distance2});
-      if (distance2 >= least) continue;
-      least = distance2;
-      limit2 = nearby_limit2(least, radius);
-    }
-    near.erase(std::remove_if(near.begin(), near.end(),
-                              [&](const Near &n) { return n.distance2 > limit2; }),
-               near.end());
-    std::sort(near.begin(), near.end(), [](const Near &a, const Near &b) {
+  std::vector<NearTriangle> near_to(const Square &square,
+                                    const std::vector<uint32_t> &among) const {
+    std::vector<NearTriangle> near;
+    list_nearby(tree_, among, square.centre(), square.radius() + 0.5 * too_far * thickness_, near);
+    std::sort(near.begin(), near.end(), [](const NearTriangle &a, const NearTriangle &b) {
       return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.triangle < b.triangle);
     });
     return near;
   }
 
   void look_at(const Square &square, const std::vector<uint32_t> &among) {
-    const std::vector<Near> near = near_to(square, among);
+    const std::vector<NearTriangle> near = near_to(square, among);
     const double least = std::sqrt(near.front().distance2);
     if (square.size == 1) return raise(square.depth, near);
     // left are triangles that can raise a value, and those that can be the nearest to a cell; the
@@ -139,7 +120,7 @@ class DepthSearch {
     const double limit2 = nearby_limit2(near.front().distance2, square.radius());
     std::vector<uint32_t> left;
     bool may_any = false;
-    for (const Near &n : near) {
+    for (const NearTriangle &n : near) {
       const bool may = may_raise(square, n, least);
       may_any |= may;
       if (may || n.distance2 <= limit2) left.push_back(n.triangle);
@@ -159,9 +140,9 @@ class DepthSearch {
   }
 
   // `near`: sorted by distance from the cell.
-  void raise(double depth, const std::vector<Near> &near) {
+  void raise(double depth, const std::vector<NearTriangle> &near) {
     const double nearest = std::sqrt(near.front().distance2);
-    for (const Near &n : near) {
+    for (const NearTriangle &n : near) {
       const double share = share_of(std::sqrt(n.distance2) - nearest);
       map_.for_each(n.triangle, [&](uint32_t region) {
         deepest_[region] = std::max(deepest_[region], share * depth);

@@ -3,8 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "geometry/closest_nearby.h"
+#include <utility>
 
 namespace mvs::core {
 namespace {
@@ -18,8 +17,10 @@ std::span<RegionPlace>::iterator divide(std::span<RegionPlace> places) {
   Eigen::Index axis;
   (box.high - box.low).maxCoeff(&axis);
   const double middle = 0.5 * (box.low[axis] + box.high[axis]);
-  const auto end = std::partition(places.begin(), places.end(),
-                                  [&](const RegionPlace &p) { return p.place[axis] < middle; });
+  auto end = places.begin();  // not std::partition, whose order depends on the standard library
+  for (RegionPlace &p : places) {
+    if (p.place[axis] < middle) std::swap(p, *end++);
+  }
   if (end != places.begin() && end != places.end()) return end;
   return places.begin() + static_cast<std::ptrdiff_t>(places.size() / 2);
 }
@@ -39,29 +40,10 @@ RegionSearch::Ball RegionSearch::ball_of(std::span<const RegionPlace> places) {
   return ball;
 }
 
-// Keeps the triangles that can be closest to a point of the ball (nearby_limit2).
-void RegionSearch::narrow(const Ball &ball, const std::vector<uint32_t> &among) {
-  near_.clear();
-  double least = HUGE_VAL, limit2 = HUGE_VAL;
-  for (const uint32_t t : among) {
-    if (tree_.box_of(t).distance2(ball.centre) > limit2) continue;
-    const double distance2 = tree_.closest_on(t, ball.centre).distance2;
-    if (distance2 > limit2) continue;
-    near_.push_back({t, distance2});
-    if (distance2 > least || (distance2 == least && t > nearest_)) continue;
-    least = distance2;
-    nearest_ = t;
-    limit2 = nearby_limit2(least, ball.radius);
-  }
-  near_.erase(std::remove_if(near_.begin(), near_.end(),
-                             [&](const Near &n) { return n.distance2 > limit2; }),
-              near_.end());
-}
-
 void RegionSearch::fill(std::span<RegionPlace> places, const Ball &ball,
                         const std::vector<uint32_t> &among, size_t depth) {
-  narrow(ball, among);
-  const bool is_of_one = std::all_of(near_.begin(), near_.end(), [&](const Near &n) {
+  nearest_ = list_nearby(tree_, among, ball.centre, ball.radius, near_);
+  const bool is_of_one = std::all_of(near_.begin(), near_.end(), [&](const NearTriangle &n) {
     return map_.same_regions(n.triangle, nearest_);
   });
   if (is_of_one || places.size() == 1) {
@@ -72,7 +54,7 @@ void RegionSearch::fill(std::span<RegionPlace> places, const Ball &ball,
   left_[depth].clear();
   // the closest first, which is often the closest to the quarters, too
   left_[depth].push_back(nearest_);
-  for (const Near &n : near_) {
+  for (const NearTriangle &n : near_) {
     if (n.triangle != nearest_) left_[depth].push_back(n.triangle);
   }
   const auto middle = divide(places);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/triangle_bvh.h"
+#include "geometry/closest_nearby.h"
 #include "measure/regions/region_map.h"
 
 namespace mvs::core {
@@ -33,20 +33,15 @@ class RegionSearch {
     Vec3 centre;
     double radius;
   };
-  struct Near {
-    uint32_t triangle;
-    double distance2;
-  };
 
   static Ball ball_of(std::span<const RegionPlace> places);
-  void narrow(const Ball &ball, const std::vector<uint32_t> &among);
   void fill(std::span<RegionPlace> places, const Ball &ball, const std::vector<uint32_t> &among,
             size_t depth);
 
   const TriangleBvh &tree_;
   const RegionMap &map_;
   uint32_t nearest_ = none;  // to the centre of the last ball
-  std::vector<Near> near_;
+  std::vector<NearTriangle> near_;
   // By depth: triangles left for the quarters. References into it stay.
   std::deque<std::vector<uint32_t>> left_;
 };
