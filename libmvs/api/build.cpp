@@ -111,6 +111,8 @@ BuildSettings read_options(const mvs_build_options *given) {
   settings.edge_lost = options.edge_lost;
   must_be_in(options.thickness_error, 1e-6, 2e-3, "options.thickness_error");
   settings.thickness_error = options.thickness_error;
+  must_be_in(options.closed_error, 1e-6, 5e-3, "options.closed_error");
+  settings.closed_error = options.closed_error;
   MVS_MUST(options.chords == 0 || (options.chords >= 20 && options.chords <= 400), MVS_E_ARGUMENT,
            "options.chords", "options.chords is %u: it has to be 0 (the default, 100) or 20 to 400",
            options.chords);
@@ -138,8 +140,13 @@ mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface,
                            const mvs_build_options *options, mvs_findings **findings) {
   return call_at_boundary(sim, [&](mvs_sim &s) {
     BuildSettings settings = read_options(options);
+    const PatientSurface from = read_surface(surface);
+    MVS_MUST(settings.closed_error == 0 || !from.closed_points.empty(), MVS_E_ARGUMENT,
+             "options.closed_error",
+             "options.closed_error is given and surface.closed_points is not: give the closed "
+             "surface, or leave the error out");
     settings.workers = s.workers.get();
-    BuiltValve built = build_valve(read_surface(surface), settings, s.progress());
+    BuiltValve built = build_valve(from, settings, s.progress());
     auto made = std::make_unique<mvs_findings>(mvs_findings{std::move(built.findings)});
     State state = initial_state(*built.model);
     replace_valve(s, {{std::move(built.model), std::move(state)}, {}});

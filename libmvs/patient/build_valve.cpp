@@ -8,6 +8,7 @@
 #include "patient/findings.h"
 #include "patient/fit/edge_range.h"
 #include "patient/fit/fitted_law.h"
+#include "patient/fit/shown_gaps.h"
 #include "patient/fit/thickness_range.h"
 #include "patient/fitted_valve.h"
 #include "patient/patient_valve.h"
@@ -80,7 +81,8 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
     Findings unused = findings;  // the fit has reported the range
     unknowns.edge = find_edge_range(settings.edge_error, settings.edge_lost, g, unused);
     unknowns.lengths = range_after(fitted.fit);
-    unknowns.shape = {&closed, &g};
+    unknowns.shape = {&closed, &g,
+                      settings.closed_error > 0 ? settings.closed_error : usual_closed_error};
     leaks = fitted.leaks;
     done = 0.8;
   }
@@ -89,6 +91,7 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   if (!settings.finds_leak) return built;
   begin_stage(settings, "leak");
   report_thickness_error(settings.thickness_error, findings);
+  report_closed_error(settings.closed_error, findings);
   built.leak = leak_interval(
       built.model, unknowns, leaks, findings,
       [&](double share) { tell_progress(progress, done + (1 - done) * share); }, settings.workers);

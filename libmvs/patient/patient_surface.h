@@ -38,6 +38,7 @@ struct BuildSettings {
   double edge_error = 0;  // m, of the free edge, farther out or in
   double edge_lost = 0;   // m, of tissue below it that may be missing; 0: from its filled notches
   double thickness_error = 0;  // m, of the leaflets, thicker or thinner
+  double closed_error = 0;     // m, of places of the closed surface; 0: `usual_closed_error`
   uint32_t chords = 100;
   bool finds_leak = true;
   Workers *workers = nullptr;                  // that close variants of the valve at the same time

@@ -184,6 +184,12 @@ static void bad_input_is_refused_and_changes_nothing(surface *s) {
   MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT,
             "options.thickness_error");
   options.thickness_error = 0;
+  options.closed_error = 6e-3;
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "0.005");
+  options.closed_error = 0.1e-3; /* of a surface that is not given */
+  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT,
+            "surface.closed_points");
+  options.closed_error = 0;
   options.chords = 3;
   MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.chords");
   /* lengths in mm */

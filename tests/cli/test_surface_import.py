@@ -153,7 +153,7 @@ class SurfaceImport(OpenSurface):
         self.imported("open.stl", "soft.h5", "--leaflet", "may_newman_yin", edge=3.2)
         self.ok("close", self.dir / "soft.h5", "-o", self.dir / "soft.obj")
         write_stl(self.dir / "soft.stl", *read_obj(self.dir / "soft.obj"))
-        found = self.imported("open.stl", "found.h5", "--closed", self.dir / "soft.stl",
+        found = self.imported("open.stl", "found.h5", "--closed", self.dir / "soft.stl", "--closed-error", "0.2",
                               edge=3.2)
         rows = {row["name"]: row for row in found["findings"]}
         # one of both exponential tissues, which differ by less than a fit does
@@ -162,6 +162,12 @@ class SurfaceImport(OpenSurface):
         again = self.imported("open.stl", "found_again.h5", "--closed", self.dir / "soft.stl", "--with",
                               self.dir / "found.import.json", edge=3.2)
         self.assertEqual(again["hash"], found["hash"])
+        known = {row["name"]: row for row in again["findings"]}
+        for one in rows["closed_error"], known["closed_error"]:
+            self.assertEqual((one["source"], one["values"]), ("given", [0.2e-3]))
+        self.assertIn("0.72 mm", known["shown_gaps"]["sentence"] + known["closed_error"]["sentence"])
+        self.fails(1, "surface.closed_points", "import", self.dir / "open.stl", "-o", self.dir / "x.h5",
+                   "--closed-error", "0.2")
 
     def test_the_loaded_annulus_and_tips_are_inputs(self):
         found = {f["name"]: f for f in self.imported("open.stl", "still.h5")["findings"]}

@@ -19,9 +19,9 @@ namespace {
 constexpr double mm = 1e-3, mm2 = 1e-6;
 
 // Gaps of a surface in the plane of a valve that is sealed.
-ShownGaps gaps_of(const ClosedSurface &given) {
+ShownGaps gaps_of(const ClosedSurface &given, double error = usual_closed_error) {
   static const Disc valve(0.2 * mm);
-  return shown_gaps(given, *valve.model, valve.x(), valve.g);
+  return shown_gaps(given, *valve.model, valve.x(), valve.g, error);
 }
 
 ClosedSurface ring(double outer, double inner) {
@@ -139,6 +139,38 @@ TEST_CASE("a_long_slit_as_wide_as_the_largest_of_ten_errors_is_no_gap") {
   CHECK(wide.gaps[0].width == about(2.1 * mm, 0.03));
 }
 
+TEST_CASE("narrow_gaps_are_named_and_count_on_a_surface_that_is_known_to_be_better") {
+  const ClosedSurface surface = parted(1.3 * mm);
+  const ShownGaps usual = gaps_of(surface), better = gaps_of(surface, 0.3 * mm);
+  CHECK(usual.gaps.empty());
+  CHECK(usual.narrow_area == about(2 * 10 * mm * 1.3 * mm, 0.1));
+  // corners of triangles across the slit lie off its middle
+  CHECK(usual.narrow_width == about(1.3 * mm, 0.06));
+  REQUIRE(better.gaps.size() == 1);
+  CHECK(better.gaps[0].area == usual.narrow_area);
+  CHECK(better.narrow_area == 0);
+  CHECK(gaps_of(surface, 0.39 * mm).gaps.empty());  // counts from 3.6 deviations on, 1.40 mm
+  Findings findings;
+  report_shown_gaps(usual, 0, findings);
+  report_shown_gaps(better, 0, findings);
+  CHECK(findings[0].sentence.find(" mm wide, do not count: errors of 0.50 mm open as wide ones") !=
+        std::string::npos);
+  CHECK(findings[1].sentence.find("narrower gaps") == std::string::npos);
+  report_closed_error(0, findings);
+  CHECK(findings.size() == 2);
+  report_closed_error(0.3 * mm, findings);
+  CHECK(findings[2].value == std::vector<double>{0.3 * mm});
+}
+
+TEST_CASE("small_gaps_of_a_surface_that_is_known_to_be_better_widen_the_interval") {
+  const ClosedSurface surface = ring(16 * mm, 1.2 * mm);
+  CHECK(gaps_of(surface).most == 0);
+  const ShownGaps better = gaps_of(surface, 0.1 * mm);
+  REQUIRE(better.gaps.size() == 1);
+  // 2.8 deviations, 95 % of the difference of two edges
+  CHECK(better.most == about(better.area * (1 + 0.28 * mm / better.gaps[0].width), 1e-9));
+}
+
 TEST_CASE("gaps_that_the_fitted_valve_closes_are_doubtful") {
   const ShownGaps shown{{}, {{30 * mm2, 3 * mm, 0, "A2 to P2"}}, 30 * mm2, 16 * mm2, 44 * mm2};
   Findings closed, same, none, open;
@@ -175,7 +207,7 @@ TEST_CASE("a_gap_does_not_count_where_the_missing_tissue_would_close_it") {
   const ParametricSheet p = parametric_sheet(430);
   const ClosedPatient closed = close_patient(p.model->valve);
   const auto measured = [&](const ClosedSurface &given) {
-    return shown_gaps(given, *p.model, closed.state.x, g);
+    return shown_gaps(given, *p.model, closed.state.x, g, usual_closed_error);
   };
   // the posterior leaflet, 13 to 15 mm high, lacks all but 8 mm, without which it overlapped the
   // anterior one; or it has all and stands 5 mm away

@@ -76,14 +76,14 @@ def truth_of(name: str, valve: mvs.Snapshot, settings: phantom.Settings) -> Row:
     return Row(name, leak=leak, law_rms=closed_with_default_law(truth) * MM)
 
 
-def recover(folder: Path, kind: str, loaded: bool) -> Any:
-    """The valve that `mvs-image build` makes of the files of a folder (mvs.imaging.ImageValve)."""
+def recover(folder: Path, kind: str, loaded: bool, *options: str) -> Any:
+    """The valve that `mvs-image build` makes of the files of a folder and options (mvs.imaging.ImageValve)."""
     from mvs.imaging.command import parser_of
     from mvs.imaging.console import Console
     from mvs.imaging.requests import valve_of_request
 
     ending = "nrrd" if kind == "micro-ct" else "seg.nrrd"
-    given = ["build", str(folder / f"open.{ending}"), "-o", str(folder / "valve.h5"), "--quiet"]
+    given = ["build", str(folder / f"open.{ending}"), "-o", str(folder / "valve.h5"), "--quiet", *options]
     if loaded:
         given += ["--loaded", str(folder / f"loaded.{ending}")]
     if kind == "ultrasound":

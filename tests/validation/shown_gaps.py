@@ -1,6 +1,6 @@
 """Gaps that loaded labels show: phantoms of sealed valves and of valves with long chordae in a part of P.
 
-    python tests/validation/shown_gaps.py [--valves N] [--seed N] [--exact-labels]
+    python tests/validation/shown_gaps.py [--valves N] [--seed N] [--exact-labels] [--closed-error MM]
 
 Each valve is a generated one with its annulus dilated by 1.2. A gap: the chordae that insert on the posterior
 leaflet within 9 mm of a place near its middle are three times as long, as if they were torn. The labels
@@ -15,6 +15,7 @@ import argparse
 import shutil
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 import mvs
@@ -57,7 +58,7 @@ def _near_middle_of_p(valve: mvs.Snapshot, middle: float) -> np.ndarray:
     return marks & (np.abs(across - middle) < HALF_WIDTH)
 
 
-def run_case(seed: int, has_gap: bool, exact: bool) -> tuple[str, bool]:
+def run_case(seed: int, has_gap: bool, exact: bool, options: Sequence[str]) -> tuple[str, bool]:
     """One row of the table, and whether the interval contains the true leak."""
     errors = {"labels": phantom.LabelErrors()} if exact else {}
     made = phantom.make(valve_of(seed, has_gap), phantom.ultrasound(seed=seed, pose=True, **errors))
@@ -66,7 +67,7 @@ def run_case(seed: int, has_gap: bool, exact: bool) -> tuple[str, bool]:
         folder = Path(temporary)
         phantom.save(made, folder)
         shutil.rmtree(folder / "truth")  # the recovery sees images, labels and landmarks only
-        found = recover(folder, "ultrasound", loaded=True)
+        found = recover(folder, "ultrasound", True, *options)
     gaps = next((one for one in found.findings if one.name == "shown_gaps"), None)
     low, high = leak_interval(found)
     inside = low <= leak <= high
@@ -83,14 +84,16 @@ def main() -> int:
     parser.add_argument("--valves", type=int, default=4, metavar="N", help="[4], each with and without a gap")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the first valve [0]")
     parser.add_argument("--exact-labels", action="store_true", help="labels without errors")
+    parser.add_argument("--closed-error", metavar="MM", help="of mvs-image")
     arguments = parser.parse_args()
+    options = ("--closed-error", arguments.closed_error) if arguments.closed_error else ()
     print("| seed | chordae | true leak, mm2 | gaps of the labels, mm2 | doubtful | interval, mm2 | inside |")
     print("|---|---|---|---|---|---|---|", flush=True)
     missed = 0
     for seed in range(arguments.seed, arguments.seed + arguments.valves):
         for has_gap in (False, True):
             try:
-                row, inside = run_case(seed, has_gap, arguments.exact_labels)
+                row, inside = run_case(seed, has_gap, arguments.exact_labels, options)
             except mvs.Error as error:
                 row, inside = f"| {seed} | {'long' if has_gap else 'as generated'} | refused: {error} |", True
             missed += not inside

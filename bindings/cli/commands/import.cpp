@@ -78,6 +78,7 @@ void run_import(const ImportOptions &given, Console &console) {
   options.build.edge_error = options.edge_error * 1e-3;
   options.build.edge_lost = options.edge_lost * 1e-3;
   options.build.thickness_error = options.thickness_error * 1e-3;
+  options.build.closed_error = options.closed_error * 1e-3;
   options.build.leaflet_law = law_of(options.leaflet);
   options.build.without_leak = options.no_leak ? 1 : 0;
   const std::string path = findings_path(options);
@@ -152,6 +153,11 @@ void add_range_options(CLI::App &command, ImportOptions &options) {
                   "by how much the leaflets may be thicker or thinner, mm: widens the interval of "
                   "leaks [0]")
       ->check(between(0.001, 2, "mm"));
+  command
+      .add_option("--closed-error", options.closed_error,
+                  "standard deviation of places of --closed, mm: gaps of it widen the interval of "
+                  "leaks from 3.6 times as much of width on [0.5, as of labels of networks]")
+      ->check(between(0.001, 5, "mm"));
   command.add_flag("--no-leak", options.no_leak,
                    "leave the leak and its interval out, which take most of the time of an import "
                    "without --closed; mvs leak finds them later");

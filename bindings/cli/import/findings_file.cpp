@@ -86,6 +86,7 @@ constexpr Input inputs[] = {{"annulus", &KnownValues::annulus, 3},
                             {"edge_error", &KnownValues::edge_error, 1},
                             {"edge_lost", &KnownValues::edge_lost, 1},
                             {"thickness_error", &KnownValues::thickness_error, 1},
+                            {"closed_error", &KnownValues::closed_error, 1},
                             {"tissue", &KnownValues::tissue, 1}};
 
 // Null: the finding is no input.

@@ -23,8 +23,9 @@ void write_findings(const std::string &path, const std::string &surface,
 struct KnownValues {
   std::vector<double> annulus, commissures, anterior, papillary_tips;  // points, x, y, z in turn, m
   std::vector<double> closed_annulus, closed_tips;                     // the same
-  std::vector<double> thickness, edge_error, edge_lost, thickness_error;  // one each, m
-  std::vector<double> tissue;                                             // one, MVS_LEAFLET_LAW_*
+  std::vector<double> thickness, edge_error, edge_lost;                // one each, m
+  std::vector<double> thickness_error, closed_error;                   // the same
+  std::vector<double> tissue;                                          // one, MVS_LEAFLET_LAW_*
   // guesses and assumptions of the file with unedited values, by name
   std::map<std::string, mvs::Finding> unsure;
   std::vector<std::string> ignored;  // names of edited findings that are no values for a build

@@ -60,6 +60,7 @@ void forget_given(const ImportOptions &options, KnownValues &known) {
       {"edge_error", options.edge_error != 0},
       {"edge_lost", options.edge_lost != 0},
       {"thickness_error", options.thickness_error != 0},
+      {"closed_error", options.closed_error != 0},
       {"tissue", !options.leaflet.empty()}};
   for (const auto &[name, is_given] : given) {
     if (is_given) known.unsure.erase(name);
@@ -119,6 +120,9 @@ ImportInput read_input(const ImportOptions &options, ImportOptions &with_known,
   }
   if (options.thickness_error == 0 && !known.thickness_error.empty()) {
     with_known.build.thickness_error = known.thickness_error[0];
+  }
+  if (options.closed_error == 0 && !known.closed_error.empty()) {
+    with_known.build.closed_error = known.closed_error[0];
   }
   if (options.leaflet.empty() && !known.tissue.empty()) {
     with_known.build.leaflet_law = law_of_finding(known.tissue[0], options.with);

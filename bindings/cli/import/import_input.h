@@ -16,8 +16,8 @@ struct ImportOptions {
   bool no_leak = false;
   std::string kind, leaflet, label_array, thickness_array;
   FileOptions files;
-  double edge = 0, thickness = 0, coaptation_length = 0;      // mm
-  double edge_error = 0, edge_lost = 0, thickness_error = 0;  // mm
+  double edge = 0, thickness = 0, coaptation_length = 0;                        // mm
+  double edge_error = 0, edge_lost = 0, thickness_error = 0, closed_error = 0;  // mm
   mvs_build_options build = {};
 };
 

@@ -362,6 +362,7 @@ class Simulator:
         edge_error: Optional[float] = None,
         edge_lost: Optional[float] = None,
         thickness_error: Optional[float] = None,
+        closed_error: Optional[float] = None,
         chords: Optional[int] = None,
         leak: bool = True,
         progress: _Progress = None,

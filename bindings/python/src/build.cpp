@@ -80,7 +80,8 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
                       const py::object &closed_annulus, const py::object &closed_tips,
                       const py::object &leaflet, Number edge, Number chord_factor,
                       Number coaptation_length, Number edge_error, Number edge_lost,
-                      Number thickness_error, Count chords, bool leak, py::object progress) {
+                      Number thickness_error, Number closed_error, Count chords, bool leak,
+                      py::object progress) {
   SurfaceArrays arrays;
   auto surface = sized<mvs_surface_desc>();
   surface.kind = kind_of(kind);
@@ -114,6 +115,7 @@ py::tuple build_valve(Simulator &self, const py::object &points, const py::objec
   options.edge_error = edge_error.value_or(0);
   options.edge_lost = given_or_default(edge_lost, "edge_lost");
   options.thickness_error = given_or_default(thickness_error, "thickness_error");
+  options.closed_error = given_or_default(closed_error, "closed_error");
   options.chords = given_or_default(chords, "chords");
   options.without_leak = leak ? 0 : 1;
   mvs_findings *found = nullptr;
@@ -148,7 +150,8 @@ void bind_build(py::class_<Simulator> &type) {
       "closed_tips"_a = py::none(), "leaflet"_a = py::none(), "edge"_a = py::none(),
       "chord_factor"_a = py::none(), "coaptation_length"_a = py::none(),
       "edge_error"_a = py::none(), "edge_lost"_a = py::none(), "thickness_error"_a = py::none(),
-      "chords"_a = py::none(), "leak"_a = true, "progress"_a = py::none(),
+      "closed_error"_a = py::none(), "chords"_a = py::none(), "leak"_a = true,
+      "progress"_a = py::none(),
       "Replaces the valve by one that is built from a surface of open, unloaded leaflets, and "
       "returns what was found, guessed and assumed (tuple of mvs.Finding). All in one frame, "
       "in m.\n\npoints: (n, 3)\ntriangles: (m, 3) uint32; None: each three points in turn are "
@@ -171,7 +174,10 @@ void bind_build(py::class_<Simulator> &type) {
       "tissue "
       "that may be missing at the free edge; widens the interval of leaks; None: half of the mean "
       "depth of its filled notches\nthickness_error: m, by how much the leaflets may be thicker or "
-      "thinner; widens the interval of leaks [0]\nchords: about this number of segments "
+      "thinner; widens the interval of leaks [0]\nclosed_error: m, standard deviation of places "
+      "of the closed surface; gaps of it widen the interval of leaks from 3.6 times as much of "
+      "width on [0.5e-3, as of labels of segmentation networks]\nchords: about this number of "
+      "segments "
       "[100]\nleak: whether the leak is found over the plausible lengths of chordae; takes 3 to 13 "
       "closures\nprogress: as in settle");
   type.def(

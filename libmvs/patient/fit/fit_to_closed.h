@@ -30,14 +30,14 @@ struct FitSettings {
   ChordGrouping grouping = ChordGrouping::halves;
   bool one_by_one = true;  // each chord after the groups
   double pressure = systolic_pressure;
-  double least = 0.8, most = 1.25;  // factors
-  double prior = 0.1;               // standard deviation of a group's factor
-  double single_prior = 0.1;        // of a chord's factor around that of its group
-  double noise = 0.5e-3;            // m, standard deviation of the given surface
-  uint32_t rounds = 6;              // at most, of each search
-  uint32_t starts = 3;              // searches, the first from `known`
-  GroupFactors known;               // of a fit on another mesh; other groups begin at 1
-  Workers *workers = nullptr;       // that make searches at the same time
+  double least = 0.8, most = 1.25;    // factors
+  double prior = 0.1;                 // standard deviation of a group's factor
+  double single_prior = 0.1;          // of a chord's factor around that of its group
+  double noise = usual_closed_error;  // m, standard deviation of the given surface
+  uint32_t rounds = 6;                // at most, of each search
+  uint32_t starts = 3;                // searches, the first from `known`
+  GroupFactors known;                 // of a fit on another mesh; other groups begin at 1
+  Workers *workers = nullptr;         // that make searches at the same time
 };
 
 // A factor is not determined by the surface if its deviation is at least this share of the prior's.

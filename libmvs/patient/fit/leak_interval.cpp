@@ -164,7 +164,7 @@ void reach_to_shape(const Model &model, const std::vector<Vec3> &x, const Fitted
                     LeakInterval &interval, Findings &findings) {
   interval.shape = leaks_of_shape(model, x, interval.leak[1], shape);
   add_shape_error(interval);
-  const ShownGaps shown = shown_gaps(*shape.given, model, x, *shape.geometry);
+  const ShownGaps shown = shown_gaps(*shape.given, model, x, *shape.geometry, shape.error);
   report_shown_gaps(shown, interval.leak[1], findings);
   reach_to(shown, interval);
 }

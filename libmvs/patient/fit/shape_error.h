@@ -21,6 +21,7 @@ namespace mvs::core {
 struct FittedShape {
   const ClosedSurface *given = nullptr;
   const PatientGeometry *geometry = nullptr;  // of the valve
+  double error = usual_closed_error;          // m, of places of the surface, for its gaps
 };
 
 struct ShapeLeaks {

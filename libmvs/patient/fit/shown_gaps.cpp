@@ -21,14 +21,23 @@ namespace {
 constexpr double annulus_band = 4e-3;
 // m, from the free edge of the valve at rest: 8 mm of leaflets that coapt normally overlap.
 constexpr double from_free_edge = 10e-3;
-// m, 95 % of the difference of two edges, each with the deviation of a closed surface (0.5 mm,
-// FitSettings): 1.96 times 0.71 mm.
-constexpr double width_error = 1.4e-3;
-// m. Leaflets touch along 45 mm, and errors are alike over 5 mm, so that the widest place of a
-// sealed valve is the largest of ten errors. In 95 % of such valves it is below 2.57 times 0.71 mm.
-constexpr double least_width = 1.8e-3;
-// m2: in labels of networks, gaps of sealed phantoms span less together.
-constexpr double least_area = 12e-6;
+// What errors of the edges do, by the standard deviation of places of the surface.
+struct EdgeErrors {
+  // m, 95 % of the difference of two edges: 1.96 times 1.41 deviations.
+  double width;
+  // m. Leaflets touch along 45 mm, and errors are alike over 5 mm, so that the widest place of a
+  // sealed valve is the largest of ten errors. In 95 % of such valves it is below 2.57 times 1.41
+  // deviations.
+  double least_width;
+  // m2: in labels of networks, whose deviation is the usual one, gaps of sealed phantoms span less
+  // together. False gaps are as wide as the errors, and no longer if these are smaller.
+  double least_area;
+
+  explicit EdgeErrors(double deviation)
+      : width(2.8 * deviation),
+        least_width(3.6 * deviation),
+        least_area(12e-6 * deviation / usual_closed_error) {}
+};
 // A piece of the surface is one leaflet if so much of it is; a gap is between leaflets, and no hole
 // in one, if at least so much of it is nearer to another one.
 constexpr double share_of_piece = 0.8, share_of_other = 0.2;
@@ -127,6 +136,13 @@ bool would_close(const ShownGap &gap) {
   return gap.missing - gap.width >= closed_overlap;
 }
 
+std::string words_of_narrow(const ShownGaps &shown) {
+  return format(
+      "; narrower gaps of %.1f mm2, up to %.1f mm wide, do not count: errors of %.2f mm "
+      "open as wide ones; give a smaller closed_error if the surface is better",
+      shown.narrow_area * 1e6, shown.narrow_width * 1e3, shown.error * 1e3);
+}
+
 std::string place_of(const OrificePart &part) {
   std::string place = part.anterior;
   if (!part.posterior.empty()) place += (place.empty() ? "" : " to ") + part.posterior;
@@ -200,11 +216,12 @@ std::vector<double> missing_beside(const Orifice &orifice, const OrificeParts &p
 }  // namespace
 
 ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x,
-                     const PatientGeometry &g) {
+                     const PatientGeometry &g, double error) {
+  ShownGaps shown;
+  shown.error = error;
   const LeafletTriangles surface = tissue_of(given, model, x);
-  if (std::string missing = missing_leaflet(surface, model, x); !missing.empty()) {
-    return {std::move(missing), {}, 0, 0, 0};
-  }
+  shown.missing = missing_leaflet(surface, model, x);
+  if (!shown.missing.empty()) return shown;
   LeafletTriangles tissue = surface;
   add_certain(model, x, g, tissue);
   const Orifice orifice = cut_orifice_of(tissue.points, tissue.triangles, model, x);
@@ -214,19 +231,36 @@ ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::
   const std::vector<double> missing =
       missing_beside(orifice, found, surface, missing_reach(surface, annulus_band, model, x, g),
                      model.valve.leaflets.size());
-  ShownGaps shown;
+  const EdgeErrors errors(error);
   for (size_t k = 0; k < found.parts.size(); ++k) {
     const OrificePart &part = found.parts[k];
     const double width = around[k].width;
-    if (width < least_width || !around[k].is_between_leaflets()) continue;
+    if (!around[k].is_between_leaflets()) continue;
+    if (width < errors.least_width) {
+      shown.narrow_area += part.area;
+      shown.narrow_width = std::max(shown.narrow_width, width);
+      continue;
+    }
     shown.gaps.push_back({part.area, width, missing[k], place_of(part)});
     if (would_close(shown.gaps.back())) continue;
     shown.area += part.area;
-    shown.least += part.area * std::max(0.0, width - width_error) / width;
-    shown.most += part.area * (width + width_error) / width;
+    shown.least += part.area * std::max(0.0, width - errors.width) / width;
+    shown.most += part.area * (width + errors.width) / width;
   }
-  if (shown.area < least_area) shown.least = shown.most = 0;
+  if (shown.area < errors.least_area) shown.least = shown.most = 0;
   return shown;
+}
+
+void report_closed_error(double error, Findings &findings) {
+  if (!(error > 0)) return;
+  findings.push_back({"closed_error",
+                      FindingSource::given,
+                      1,
+                      format("places of the closed surface have a standard deviation of %.2f mm, "
+                             "as given; gaps of it count from %.2f mm of width on",
+                             error * 1e3, EdgeErrors(error).least_width * 1e3),
+                      {error},
+                      "m"});
 }
 
 void report_shown_gaps(const ShownGaps &shown, double leak, Findings &findings) {
@@ -245,7 +279,7 @@ void report_shown_gaps(const ShownGaps &shown, double leak, Findings &findings) 
     finding.value.clear();
   } else if (shown.gaps.empty()) {
     finding.sentence = format("the closed surface shows no gap wider than %.1f mm between leaflets",
-                              least_width * 1e3);
+                              EdgeErrors(shown.error).least_width * 1e3);
   } else {
     finding.sentence =
         format("the closed surface shows gaps of %.1f mm2 between leaflets", shown.area * 1e6);
@@ -270,6 +304,7 @@ void report_shown_gaps(const ShownGaps &shown, double leak, Findings &findings) 
           has + "its chordae, its tissue or its free edge are not those of the patient";
     }
   }
+  if (shown.narrow_area > 0) finding.sentence += words_of_narrow(shown);
   findings.push_back(std::move(finding));
 }
 

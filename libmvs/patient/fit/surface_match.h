@@ -9,6 +9,9 @@
 
 namespace mvs::core {
 
+// m: the standard deviation of places of a surface from labels of segmentation networks.
+inline constexpr double usual_closed_error = 0.5e-3;
+
 struct ClosedSurface {
   std::vector<Vec3> points;  // m
   std::vector<Tri> triangles;

@@ -45,7 +45,7 @@ def parsed(*more):
     ("--thickness", "0", "0.1 to 5 mm"), ("--thickness", "nan", "0.1 to 5 mm"), ("--hole", "nan", "0 to 30 mm"),
     ("--hole", "-3", "0 to 30 mm"), ("--edge", "-1", "0.2 to 5 mm"), ("--coaptation-length", "99", "1 to 20 mm"),
     ("--chords", "5", "20 to 400"), ("--chords", "30.5", "whole number"), ("--edge-error", "1000", "0 to 5 mm"),
-    ("--edge-lost", "-0.1", "0 to 5 mm"), ("--thickness-error", "2.5", "0 to 2 mm"), ("--edge", "wide", "0.2 to 5 mm"),
+    ("--edge-lost", "-0.1", "0 to 5 mm"), ("--thickness-error", "2.5", "0 to 2 mm"), ("--closed-error", "6", "0 to 5 mm"), ("--edge", "wide", "0.2 to 5 mm"),
     ("--leaflet", "rubber", "known ones are spring, bilinear")])
 def test_values_out_of_range_are_refused_in_mm(capsys, option, value, words):
     with pytest.raises(SystemExit) as ended:
@@ -56,9 +56,9 @@ def test_values_out_of_range_are_refused_in_mm(capsys, option, value, words):
 
 
 def test_an_error_of_0_is_the_least_one_of_a_build():
-    chosen = parsed("--edge-error", "0", "--edge-lost", "0", "--thickness-error", "0", "--thickness", "0.1",
+    chosen = parsed("--edge-error", "0", "--edge-lost", "0", "--thickness-error", "0", "--closed-error", "0", "--thickness", "0.1",
                     "--chords", "400", "--leaflet", "prot")
-    assert requests._options(chosen) == {"edge_error": 1e-6, "edge_lost": 1e-6, "thickness_error": 1e-6,
+    assert requests._options(chosen) == {"edge_error": 1e-6, "edge_lost": 1e-6, "thickness_error": 1e-6, "closed_error": 1e-6,
                                          "thickness": 1e-4, "chords": 400, "leaflet": "prot"}
 
 

@@ -1374,6 +1374,12 @@ export interface BuildOptions {
    */
   without_leak?: number | boolean;
   reserved2?: number;
+  /**
+   * m, 1e-6 to 5e-3: standard deviation of places of the closed surface; gaps of it widen the
+   * interval of leaks from 3.6 times as much of width on [0.5e-3, as of labels of segmentation
+   * networks]
+   */
+  closed_error?: number;
 }
 
 /** How far a valve may be from the one of its patient. */
@@ -2472,7 +2478,7 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_build_options: {
-    size: 80,
+    size: 88,
     sized: true,
     fields: [
       { name: "leaflet_law", kind: "enum", of: "mvs_leaflet_law", at: 4 },
@@ -2486,6 +2492,7 @@ export const layouts: Record<string, Layout> = {
       { name: "thickness_error", kind: "f64", at: 64 },
       { name: "without_leak", kind: "u32", at: 72, flag: true },
       { name: "reserved2", kind: "u32", at: 76 },
+      { name: "closed_error", kind: "f64", at: 80, zero: "default" },
     ],
   },
   mvs_leak_errors: {

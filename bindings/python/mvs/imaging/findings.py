@@ -15,9 +15,10 @@ import mvs
 
 CLOSED = ("closed_annulus", "closed_tips")
 POINTS = ("annulus", "commissures", "anterior", "papillary_tips", *CLOSED)
-LENGTHS = ("thickness", "edge_error", "edge_lost", "thickness_error")
+LENGTHS = ("thickness", "edge_error", "edge_lost", "thickness_error", "closed_error")
 RANGES = {"edge": (2e-4, 5e-3), "thickness": (1e-4, 5e-3), "coaptation_length": (1e-3, 20e-3), "edge_error": (1e-6, 5e-3),
-          "edge_lost": (1e-6, 5e-3), "thickness_error": (1e-6, 2e-3), "chords": (20, 400)}
+          "edge_lost": (1e-6, 5e-3), "thickness_error": (1e-6, 2e-3), "closed_error": (1e-6, 5e-3),
+          "chords": (20, 400)}
 """Ranges of the options of a build (include/mvs/build.h), m; of `chords` a number"""
 LAW = "tissue"
 INPUTS = (*POINTS, *LENGTHS, LAW)

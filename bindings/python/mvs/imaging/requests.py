@@ -244,7 +244,7 @@ def _options(chosen: argparse.Namespace) -> dict[str, Any]:
     lengths = {"edge": chosen.edge, "thickness": chosen.thickness,
                "coaptation_length": chosen.coaptation_length,
                "edge_error": chosen.edge_error, "edge_lost": chosen.edge_lost,
-               "thickness_error": chosen.thickness_error}
+               "thickness_error": chosen.thickness_error, "closed_error": chosen.closed_error}
     options: dict[str, Any] = {name: value * 1e-3 for name, value in lengths.items()
                                if value is not None}
     options.update({name: getattr(chosen, name) for name in ("chords", "leaflet")

@@ -141,7 +141,7 @@ def _with_unseen_and_fitted(valve: mvs.Valve, normal: mvs.Snapshot, closure: Clo
 
 
 UNUSED = {"edge_error": "--edge-error", "edge_lost": "--edge-lost", "chords": "--chords",
-          "coaptation_length": "--coaptation-length"}
+          "coaptation_length": "--coaptation-length", "closed_error": "--closed-error"}
 """Options of a build without use where chordae are those of the image"""
 
 
