@@ -53,6 +53,7 @@ bool NewtonWithSteps::advance() {
     next.time = state_.time;
     next.steps = state_.steps;
     steps_.reset();
+    by_steps_ = {next, spent_};
     begin_newton(next, left, false);
   }
   return true;
@@ -61,6 +62,12 @@ bool NewtonWithSteps::advance() {
 SolveStats NewtonWithSteps::finish(State &state) {
   SolveStats stats = steps_ ? steps_->finish(state) : newton_->finish(state);
   stats.add(spent_);
+  if (by_steps_ && !stats.converged && by_steps_->stats.residual < stats.residual) {
+    state = std::move(by_steps_->state);
+    stats.residual = by_steps_->stats.residual;
+    stats.energy = by_steps_->stats.energy;
+    stats.contact_pairs = by_steps_->stats.contact_pairs;
+  }
   return stats;
 }
 

@@ -1,8 +1,13 @@
 // A static closure that goes on in time where Newton's method wanders: the inertia of the valve
 // leads it out of the cycle, to a fold in which it comes to rest. Newton's method then finishes.
+//
+// A valve may have no stable equilibrium there: its free edge flutters around an unstable one under
+// the pressure that follows it, by some um in time, by 1 mm between iterations of Newton's method.
+// The settle then ends with the shape that the steps in time have reached, and not converged.
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "solve/settling.h"
 #include "solve/static/newton_settling.h"
@@ -28,13 +33,20 @@ class NewtonWithSteps final : public Settling {
   Progress part();
   void begin_newton(const State &state, uint32_t most, bool may_wander);
 
+  // A shape that a loop ended with.
+  struct Reached {
+    State state;
+    SolveStats stats;
+  };
+
   const Model *model_;
   DirectSolver *factor_;
   SolveOptions options_;
   Progress progress_;
   MakeSteps make_steps_;
-  State state_;          // that the present loop began with
-  SolveStats spent_;     // of the loops before
+  State state_;       // that the present loop began with
+  SolveStats spent_;  // of the loops before
+  std::optional<Reached> by_steps_;
   double share_ = 0;     // of the progress, reported last
   bool is_last_ = true;  // no loop follows the present one
   std::unique_ptr<NewtonSettling> newton_;
