@@ -131,7 +131,7 @@ void write_output(FebText &out) {
 
 std::string write_feb(const Model &model, const State &state) {
   const Valve &valve = model.valve;
-  const double pressure = state.load.pressure != 0 ? state.load.pressure : MVS_SYSTOLE_PA;
+  const Load load = state.load.pressure != 0 ? state.load : Load{MVS_SYSTOLE_PA, 1};
   const std::vector<FebDomain> domains = feb_domains(valve);
   FebText out;
   out.open("febio_spec", "version=\"4.0\"");
@@ -140,10 +140,10 @@ std::string write_feb(const Model &model, const State &state) {
   write_feb_materials(valve, domains, out);
   write_feb_mesh(model, domains, out);
   write_domains(domains, out);
-  write_feb_mesh_data(valve, domains, out);
+  write_feb_mesh_data(model, domains, load.boundary_fraction, out);
   write_boundary(out);
-  write_loads(pressure, out);
-  write_contact(valve.contact_thickness, pressure, out);
+  write_loads(load.pressure, out);
+  write_contact(valve.contact_thickness, load.pressure, out);
   write_feb_springs(valve, out);
   write_load_curve(out);
   write_output(out);

@@ -113,14 +113,16 @@ void write_feb_mesh(const Model &model, const std::vector<FebDomain> &domains, F
 }
 
 // Prescribed displacements of held nodes, and fibres. `lid` counts from 1 within the set.
-void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out) {
+void write_feb_mesh_data(const Model &model, const std::vector<FebDomain> &domains,
+                         double boundary_fraction, FebText &out) {
+  const Valve &valve = model.valve;
   out.open("MeshData");
   const std::vector<uint32_t> held = feb_held(valve);
   for (int axis = 0; axis < 3; ++axis) {
     out.open("NodeData", std::string("name=\"held ") + "xyz"[axis] +
                              "\" node_set=\"held\" data_type=\"scalar\"");
     for (size_t k = 0; k < held.size(); ++k) {
-      const double by = (valve.loaded[held[k]] - valve.rest[held[k]])[axis];
+      const double by = (model.target(held[k], boundary_fraction) - valve.rest[held[k]])[axis];
       out.leaf("node", feb_number(by, mm_shift), "lid=\"" + std::to_string(k + 1) + "\"");
     }
     out.close("NodeData");

@@ -51,7 +51,9 @@ std::vector<FebDomain> feb_domains(const Valve &valve);
 void write_feb_materials(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out);
 void write_feb_springs(const Valve &valve, FebText &out);
 void write_feb_mesh(const Model &model, const std::vector<FebDomain> &domains, FebText &out);
-void write_feb_mesh_data(const Valve &valve, const std::vector<FebDomain> &domains, FebText &out);
+// `boundary_fraction`: where held nodes go, from open to loaded.
+void write_feb_mesh_data(const Model &model, const std::vector<FebDomain> &domains,
+                         double boundary_fraction, FebText &out);
 
 // Returns whether the law of a leaflet uses fibres.
 bool feb_has_fibres(LeafletLawId law);

@@ -1,4 +1,5 @@
 // FEBio models: the exported file contains the valve, and its formulas are the valve's laws.
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <map>
@@ -157,6 +158,24 @@ TEST_CASE("feb_counts_are_those_of_the_valve") {
   // 3 kPa in the file, with FEBio's sign
   CHECK(feb.find("<pressure lc=\"1\">-3</pressure>") != std::string::npos);
   CHECK(inside(feb, "shell_thickness") == "0.65");
+}
+
+TEST_CASE("feb_held_nodes_go_where_the_load_of_the_state_holds_them") {
+  const Imported imported = read_inp(toy_inp());
+  Valve moved = make_model(imported.loaded.valve)->valve;
+  for (const uint32_t node : moved.annulus) {
+    moved.loaded[node] = moved.open[node] + Vec3(2e-3, 0, 0);
+  }
+  const ModelPtr model = make_model(moved);
+  State state = imported.loaded.state;
+  const uint32_t first = *std::min_element(moved.annulus.begin(), moved.annulus.end());
+  for (const Load &load : {Load{3000, 1}, Load{3000, 0.25}, Load{0, 0}}) {
+    state.load = load;
+    const double fraction = load.pressure > 0 ? load.boundary_fraction : 1;  // 0: systole
+    const std::string data = inside(write_feb(*model, state), "MeshData");
+    const double open = (moved.open[first] - moved.rest[first]).x() * 1e3;
+    CHECK(std::stod(inside(data, "node")) == about(open + 2 * fraction, 1e-9));
+  }
 }
 
 TEST_CASE("feb_energies_are_those_of_the_laws") {
