@@ -194,7 +194,8 @@ typedef struct mvs_stats {
   mvs_lowered_flags lowered; /* MVS_LOWERED_*: accuracy that a step gave up */
   uint32_t
       stable; /* 1: the last settle found a stable equilibrium, and nothing has changed since */
-  double residual; /* N, largest out-of-balance force on a free node or tool point */
+  double residual; /* N, largest out-of-balance force on a free node or tool point. An explicit step
+                      finds its forces once, at its start: residual and energy are of that state */
   double energy;   /* J, potential energy at the end, of tissue with a node that moves. Without the
                       work of the pressure at the free edge, which has no potential: derivatives of
                       the energy differ from forces there */

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "base/struct_fields.h"
@@ -36,6 +37,13 @@ Row row_of(const std::vector<double> &values) {
   return row;
 }
 
+// The value of a measure; NaN for the depth of a coaptation that is not there (DEFINITIONS.md).
+double value_in(const mvs_measures &valve, const mvs_field_info &field) {
+  const double value = read_field(&valve, field);
+  const bool is_depth = field.offset == offsetof(mvs_measures, coaptation_depth);
+  return is_depth && value == 0 && valve.coaptation_height == 0 ? missing : value;
+}
+
 }  // namespace
 
 Statistics statistics_of(const std::vector<const mvs_measures *> &valves) {
@@ -43,7 +51,7 @@ Statistics statistics_of(const std::vector<const mvs_measures *> &valves) {
   std::vector<double> values(valves.size());
   for (mvs_measures &m : statistics) m.struct_size = sizeof m;
   for (const mvs_field_info &field : struct_fields(MVS_STRUCT_MEASURES)) {
-    for (size_t k = 0; k < valves.size(); ++k) values[k] = read_field(valves[k], field);
+    for (size_t k = 0; k < valves.size(); ++k) values[k] = value_in(*valves[k], field);
     const Row row = row_of(values);
     const bool count = field.type == MVS_FIELD_COUNT;
     for (size_t s = 0; s < row.size(); ++s) {

@@ -108,6 +108,30 @@ size_t leaflet_ends(const Model &model) {
   return ends;
 }
 
+// The first strain, in steps of 1 % up to 1, at which a chord satisfies a condition; 0: at none.
+template <typename Condition>
+double first_strain(Condition holds) {
+  for (int percent = 1; percent <= 100; ++percent) {
+    if (holds(0.01 * percent)) return 0.01 * percent;
+  }
+  return 0;
+}
+
+// An Ogden chord whose terms have different signs may stiffen at first, pull less beyond a strain,
+// and push beyond another. Returns whether it does.
+bool judge_falling(const Valve &valve, const Chord &chord, ChordWarning &falling) {
+  if (chord.law != ChordLawId::ogden) return false;
+  const double falls = first_strain(
+      [&](double strain) { return chord_response(valve, chord, strain).slope < 0; });
+  const double pushes =
+      first_strain([&](double strain) { return chord_tension(valve, chord, strain) < 0; });
+  if (falls == 0) return false;
+  std::string sentence = format("pulls less again from a strain of %.2f on", falls);
+  if (pushes > 0) sentence += format(", and pushes from %.2f on", pushes);
+  falling.add(chord, sentence + ": its Ogden constants describe no tissue there");
+  return true;
+}
+
 // Soft: a chord that yields to its share of the pressure, or bears less than 50 kPa at a strain of
 // 0.5 (the softest natural chordae have a modulus of 10 MPa). Stiff: as stiff as steel wire of 0.4
 // mm.
@@ -176,15 +200,16 @@ void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale, cons
   // the annulus spans about half the area of the leaflets
   const double share = 0.5 * MVS_SYSTOLE_PA * scale.area / static_cast<double>(ends);
   const KnownChords known(before);
-  ChordWarning soft, stiff, lengths;
+  ChordWarning soft, stiff, falling, lengths;
   for (const Chord &chord : valve.chords) {
     if (chord.kind == ChordKind::suture) continue;  // made by the library
     if (known.has(chord)) continue;
-    judge_stiffness(valve, chord, share, soft, stiff);
+    if (!judge_falling(valve, chord, falling)) judge_stiffness(valve, chord, share, soft, stiff);
     judge_length(valve, chord, lengths);
   }
   soft.log(sim);
   stiff.log(sim);
+  falling.log(sim);
   lengths.log(sim);
 }
 

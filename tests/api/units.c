@@ -39,6 +39,14 @@ static void must_warn(mvs_result result, int count, const char *words, int line)
     must_warn(mvs_set_valve(sim, &f.desc), (count), (words), __LINE__); \
   } while (0)
 
+static void ogden(mvs_chord_desc *chord, double mu, double alpha, double mu2, double alpha2) {
+  chord->law = MVS_CHORD_LAW_OGDEN;
+  chord->constants[0] = mu;
+  chord->constants[1] = alpha;
+  chord->constants[2] = mu2;
+  chord->constants[3] = alpha2;
+}
+
 static mvs_result load(double pressure) {
   const mvs_load_case to = {sizeof to, 0, pressure, 1};
   return mvs_set_load(sim, &to);
@@ -85,6 +93,11 @@ static void moduli_in_kpa_are_warned_of(void) {
 static void lengths_in_other_units_are_warned_of(void) {
   CHANGED(f.leaflets[0].thickness = 1e-2, 1, "is 10 mm thick, which is too much");
   CHANGED(f.leaflets[0].thickness = 1e-5, 1, "is 0.01 mm thick, which is little");
+  /* terms of different signs, which stiffen the chord up to 5 % and fall later: by the derivative
+   * of the sum from a stretch of 1.23 on, by the sum itself from 1.38 on */
+  CHANGED(ogden(&f.chords[2], 1e7, 2, -9e5, 14), 1, "pulls less again from a strain of 0.2");
+  CHANGED(ogden(&f.chords[2], 1e7, 2, -9e5, 14), 1, "pushes from 0.39 on");
+  CHANGED(ogden(&f.chords[2], 1e7, 14, 0, 0), 0, "");
   CHANGED(f.chords[2].rest_length = 0.98, 1, "is 980 mm long at rest");
   CHANGED(f.chords[2].rest_length = 1e-5, 1, "is 0.01 mm long at rest");
 }

@@ -127,3 +127,19 @@ def test_bad_arguments_are_refused(thin, ensemble):
             thin.ensemble(mvs.SYSTOLE_PA, **{name: value})
     with pytest.raises(mvs.ArgumentError, match="0 to 3"):
         ensemble.snapshot(MEMBERS)
+
+
+def test_the_depth_of_a_coaptation_that_is_not_there_is_in_no_statistics():
+    """It is 0 without coaptation in the central plane: a mean over it is a depth that no member has."""
+    with mvs.Simulator() as sim:
+        sim.generate(vertices=300, posterior_height=9e-3)
+        members = sim.snapshot().ensemble(16e3, members=4, residual=1e-4)
+        sim.generate(shape="founding", vertices=250, annulus_scale=1.25)
+        apart = sim.snapshot().ensemble(16e3, members=2, residual=1e-4)
+    own = [members.snapshot(k).measures for k in range(4)]
+    depths = [m.coaptation_depth for m in own if m.coaptation_height > 0]
+    assert 0 < len(depths) < 4
+    assert members.count.coaptation_depth == len(depths)
+    assert members.mean.coaptation_depth == pytest.approx(np.mean(depths), rel=1e-12)
+    assert members.count.coaptation_height == 4
+    assert apart.count.coaptation_depth == 0 and np.isnan(apart.mean.coaptation_depth)
