@@ -193,7 +193,7 @@ void bind_simulator(py::module_ &module) {
       "set_valve "
       "and load set, share what depends on its mesh, in any thread, with the same bits"
       "\nlog: called with (level, text); None: warnings (level 2) become mvs.ValveWarning";
-  py::class_<Simulator> type(module, "Simulator", about.c_str());
+  py::class_<Simulator> type(module, "Simulator", about.c_str(), collected_with_functions());
   type.def(py::init(&make_simulator), py::kw_only(), "backend"_a = "default", "workers"_a = 1,
            "like"_a = py::none(), "log"_a = py::none());
   bind_files(type);

@@ -47,6 +47,11 @@ class Simulator {
   template <typename Look>
   void look(Look &&work);
 
+  // The Python functions that it holds, for the garbage collector: visits them, as tp_traverse
+  // does, and drops them.
+  int visit_functions(visitproc visit, void *arg) const;
+  void drop_functions();
+
  private:
   [[noreturn]] static void refuse_closed();
   void must_not_be_called_back() const;
@@ -153,6 +158,10 @@ Struct filled(Simulator &self, Get &&get) {
 
 // The names of the sparse factorisations of this build, quoted, for a sentence.
 std::string backend_words();
+
+// Makes Simulator a class whose objects the garbage collector frees in a cycle, as of an object
+// that owns a simulator with a method of its own as `log`.
+py::custom_type_setup collected_with_functions();
 
 void bind_simulator(py::module_ &module);
 void bind_valve(py::module_ &module, py::class_<Simulator> &type);
