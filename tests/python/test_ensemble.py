@@ -143,3 +143,10 @@ def test_the_depth_of_a_coaptation_that_is_not_there_is_in_no_statistics():
     assert members.mean.coaptation_depth == pytest.approx(np.mean(depths), rel=1e-12)
     assert members.count.coaptation_height == 4
     assert apart.count.coaptation_depth == 0 and np.isnan(apart.mean.coaptation_depth)
+
+
+def test_without_perturbation_paths_differ_by_their_loading_alone(opened):
+    found = opened.ensemble(mvs.SYSTOLE_PA, members=3, perturbation=0, residual=1e-2)
+    assert [member.perturbation for member in found.members] == [0, 0, 0]
+    default = opened.ensemble(mvs.SYSTOLE_PA, members=2, residual=1e-2)
+    assert default.members[1].perturbation > 0

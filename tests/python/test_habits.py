@@ -253,7 +253,6 @@ def test_a_zero_that_would_be_the_default_is_refused(sim):
         "stiffness": lambda: sim.add_tool("ball", (0.0, 0.0, 0.03), stiffness=0.0),
         "flow": lambda: sim.snapshot().cost(flow=0.0),
         "lengths": lambda: sim.find_leak_interval(lengths=0.0),
-        "perturbation": lambda: sim.snapshot().ensemble(mvs.SYSTOLE_PA, perturbation=0.0),
         "contact_stiffness": lambda: with_field("contact_stiffness", 0.0),
         "density": lambda: with_field("density", 0.0),
     }

@@ -2,10 +2,10 @@
 
 #include <pybind11/stl.h>
 
-#include <exception>
 #include <optional>
 
 #include "arrays.h"
+#include "progress.h"
 #include "simulator.h"
 #include "values.h"
 
@@ -16,18 +16,6 @@ using namespace py::literals;
 
 using Number = std::optional<double>;
 using Count = std::optional<uint32_t>;
-
-// The progress callback of one run.
-struct ProgressCall {
-  py::object progress;
-  std::exception_ptr raised;
-
-  static int32_t callback(void *user, double share, double residual) {
-    auto &self = *static_cast<ProgressCall *>(user);
-    py::gil_scoped_acquire held;
-    return report_progress(self.progress, share, residual, self.raised);
-  }
-};
 
 mvs_ensemble_summary summary_of(const Ensemble &self) {
   auto found = sized<mvs_ensemble_summary>();
@@ -56,25 +44,20 @@ std::unique_ptr<Ensemble> run_ensemble(const Snapshot &start, double pressure,
   settle.solver = solver_of(solver);
   settle.max_iterations = given_or_default(max_iterations, "max_iterations");
   settle.residual = given_or_default(residual, "residual");
-  ProgressCall call{std::move(progress), nullptr};
+  ProgressCall call(std::move(progress));
   auto options = sized<mvs_ensemble_options>();
   options.members = members;
   options.start = from_start ? MVS_ENSEMBLE_START_SNAPSHOT : MVS_ENSEMBLE_START_REST;
   options.seed = seed;
+  // 0 is a perturbation of its own, not the default
   if (perturbation == 0.0) options.flags |= MVS_ENSEMBLE_FLAG_UNPERTURBED;
-  options.perturbation = given_or_default(perturbation, "perturbation");
+  options.perturbation = perturbation.value_or(0);
   options.wavelength = given_or_default(wavelength, "wavelength");
   options.tolerance = given_or_default(same, "same");
   options.progress = &ProgressCall::callback;
   options.user = &call;
   mvs_ensemble *made = nullptr;
-  Outcome outcome;
-  {
-    py::gil_scoped_release released;
-    outcome = outcome_of(mvs_ensemble_run(start.get(), &load, &settle, &options, &made));
-  }
-  if (call.raised) std::rethrow_exception(call.raised);
-  must(outcome);
+  call.run([&] { return mvs_ensemble_run(start.get(), &load, &settle, &options, &made); });
   return std::make_unique<Ensemble>(made);
 }
 
