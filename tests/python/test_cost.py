@@ -94,3 +94,11 @@ def test_the_report_has_a_column_for_each_valve(opened, closed):
     area = closed.cost().open_area
     assert f"<th>Open area, mm²</th><td>{area * 1e6:.0f}</td>" in text
     assert "Valve &lt;A&gt;" in text and "opened again by 5 mmHg" in text
+
+
+def test_the_opening_reports_progress_and_can_be_cancelled(closed):
+    shares = []
+    closed.cost(progress=lambda share, residual: shares.append(share))
+    assert shares and shares == sorted(shares)
+    with pytest.raises(mvs.CancelledError):
+        closed.cost(progress=lambda *_: True)

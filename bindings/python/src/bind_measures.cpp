@@ -5,6 +5,7 @@
 #include <array>
 
 #include "arrays.h"
+#include "progress.h"
 #include "snapshot.h"
 #include "values.h"
 
@@ -99,8 +100,11 @@ py::list orifice_parts_of(const Snapshot &self) {
 // Cost of the repair of the closed valve (mvs.Cost).
 py::object cost(const Snapshot &self, std::optional<double> flow, const py::object &septum,
                 std::optional<double> pressure, std::optional<double> density,
-                std::optional<double> discharge) {
+                std::optional<double> discharge, py::object progress) {
+  ProgressCall call(std::move(progress));
   auto options = sized<mvs_cost_options>();
+  options.progress = &ProgressCall::callback;
+  options.user = &call;
   options.flow = given_or_default(flow, "flow");
   options.pressure = given_or_default(pressure, "pressure");
   options.density = given_or_default(density, "density");
@@ -112,7 +116,7 @@ py::object cost(const Snapshot &self, std::optional<double> flow, const py::obje
   }
   auto figures = sized<mvs_cost>();
   const mvs_snapshot *opened = nullptr;
-  release_and([&] { return mvs_snapshot_measure_cost(self.get(), &options, &figures, &opened); });
+  call.run([&] { return mvs_snapshot_measure_cost(self.get(), &options, &figures, &opened); });
   return cost_value(figures, py::cast(Snapshot(opened)));
 }
 
@@ -125,11 +129,13 @@ void bind_measures(py::class_<Snapshot> &type) {
   type.def_property_readonly("frame", &frame, "The anatomical frame of the valve (mvs.Frame), m.");
   type.def("cost", &cost, py::kw_only(), "flow"_a = py::none(), "septum"_a = py::none(),
            "pressure_pa"_a = py::none(), "density"_a = py::none(), "discharge"_a = py::none(),
+           "progress"_a = py::none(),
            "Cost of the repair of this closed valve (mvs.Cost), and the valve opened in "
            "diastole.\n\nflow: m3/s through the open valve; None: no gradient\n"
            "septum: (k, 3), m: points of the septum that faces the anterior leaflet in systole; "
            "None: no risk of SAM\npressure_pa: Pa, atrium minus ventricle; None: 5 mmHg\n"
-           "density: kg/m3, of blood; None: 1060\ndischarge: discharge coefficient; None: 0.85");
+           "density: kg/m3, of blood; None: 1060\ndischarge: discharge coefficient; None: 0.85\n"
+           "progress: as for Simulator.settle, of the opening");
   type.def("_measure", &measures_of_groups);
   type.def("_chords", &chords_of);
   type.def("_regions", &regions_of);
