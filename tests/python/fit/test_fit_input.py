@@ -58,6 +58,11 @@ def test_questions_about_a_fit_are_checked(found, tmp_path):
         found.interval("coaptation_are")
     with pytest.raises(mvs.ArgumentError, match="level"):
         found.interval("coaptation", level=90)
+    with pytest.raises(mvs.ArgumentError, match="level: a number between 0 and 1 is needed, not '0.9'"):
+        found.interval("coaptation", level="0.9")
+    for call in (found.sample, lambda count, seed: found.interval("coaptation", samples=count, seed=seed)):
+        with pytest.raises(mvs.ArgumentError, match="seed: a whole number of at least 0"):
+            call(3, seed=-1)
     with pytest.raises(mvs.ArgumentError, match="samples: a whole number"):
         found.interval("coaptation", samples=1.5)
     with pytest.raises(mvs.ArgumentError, match="count: a whole number"):

@@ -96,7 +96,7 @@ def test_a_tilt_gives_the_mean_of_a_curved_posterior():
     jacobian, there = np.array([[slope(at)]]), np.array([residual(at)])
     linear = Linear(np.array([at]), jacobian.T @ jacobian, jacobian.T @ there, np.zeros(0, np.int64),
                     np.zeros(0), np.zeros((0, 1)), there, jacobian)
-    fit = types.SimpleNamespace(z=np.array([at]), free=types.SimpleNamespace(reach=np.array([3.0])))
+    fit = types.SimpleNamespace(z=np.array([at]), free=types.SimpleNamespace(low=np.array([-3.0]), high=np.array([3.0])))
     errors = []
     for _ in range(2):
         drawn = _chain(fit, linear, 3000, np.random.default_rng(1), 2)

@@ -32,19 +32,27 @@ def checked_number(name: str, value: Any, most: float = math.inf) -> float:
     return float(value)
 
 
-def checked_count(name: str, value: Any) -> int:
-    """A whole number of at least 1."""
+def checked_count(name: str, value: Any, least: int = 1) -> int:
+    """A whole number of at least this."""
     is_whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
-    if not is_whole or value < 1:
-        raise ArgumentError(f"{name}: a whole number of at least 1 is needed, not {shown(value)}", name)
+    if not is_whole or value < least:
+        raise ArgumentError(f"{name}: a whole number of at least {least} is needed, not {shown(value)}", name)
     return int(value)
+
+
+def checked_level(level: Any) -> float:
+    """The share of a distribution that an interval holds."""
+    if not isinstance(level, (int, float, np.number)) or not 0 < level < 1:
+        raise ArgumentError(f"level: a number between 0 and 1 is needed, not {shown(level)}", "level")
+    return float(level)
 
 
 def checked_start(start: Any) -> _core.Snapshot:
     """A snapshot; whether it is at rest is another question."""
     if not isinstance(start, _core.Snapshot):
         raise ArgumentError(
-            f"start: a closed mvs.Snapshot is needed (sim.snapshot(), mvs.load), not {shown(start)}", "start")
+            f"start: a closed mvs.Snapshot is needed (sim.snapshot() after sim.settle()), not {shown(start)}",
+            "start")
     return start
 
 

@@ -4,6 +4,7 @@ the exact Jacobian of Snapshot.sensitivity and normal priors."""
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Iterable, Mapping
 from typing import Any, Optional, Union
 
@@ -11,19 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import _core
-from ..errors import ArgumentError, DivergedError, StateError
+from ..errors import ArgumentError, DivergedError, OpError, StateError, ValveWarning
 from ..sensitivities import MOTION, NO_TEST
 from .checks import MOST_NOISE, checked_count, checked_groups, checked_number, checked_priors, checked_start
 from .quiet import quiet
 from .parameters import Free, Prior, free_parameters
-from .result import Fit, Start, Trace
+from .result import MISFIT, Fit, Start, Trace, misfit_words
 from .targets import Target, target_of
 
 Array = NDArray[np.float64]
 
 LOST = 10.0
-"""Residual in standard deviations of every datum of a trial that does not come to rest: worse than any
-trial that does, so that the step is refused."""
+"""Least residual in standard deviations of every datum of a trial that has no closed valve: it does not come to
+rest, or the library refuses it."""
 
 RADII = (8.0, 2.0, 0.5)
 """First trust regions, in standard deviations of the prior: about the length of a draw of 80 parameters; and, for
@@ -50,10 +51,13 @@ class Problem:
         self.closures = 0
         self.derivatives: Optional[Array] = None
         self.trace: list[Trace] = []
+        # worse than the start, so that the step to such a trial is refused
+        self.lost = max(LOST, 2 * float(np.abs(self.data(start)).max(initial=0)))
         self.sim = _core.Simulator(log=lambda level, text: None)
 
     def close(self, z: Array) -> Optional[_core.Snapshot]:
-        """The closed valve with these parameters, from the best closed shape; None if not at rest."""
+        """The closed valve with these parameters, from the best closed shape; None if it does not come to rest or
+        the library refuses it."""
         if np.isfinite(self.best_cost) and np.array_equal(z, self.best_z):
             return self.best
         if self.last[0] != z.tobytes():
@@ -63,14 +67,13 @@ class Problem:
     def _settle(self, z: Array) -> Optional[_core.Snapshot]:
         self.closures += 1
         with quiet():
-            self.sim.set_valve(self.free.valve(z, self.best.node_position))
-            self.sim.set_load(self.load.pressure, self.load.boundary_fraction)
             try:
-                if not self.sim.settle(residual=self.residual).converged:
-                    return None
-            except DivergedError:
+                self.sim.set_valve(self.free.valve(z, self.best.node_position))
+                self.sim.set_load(self.load.pressure, self.load.boundary_fraction)
+                converged = self.sim.settle(residual=self.residual).converged
+            except (DivergedError, OpError):
                 return None
-        return self.sim.snapshot()
+        return self.sim.snapshot() if converged else None
 
     def data(self, closed: _core.Snapshot) -> Array:
         return self.target.residuals(np.array(closed.node_position))[0] / self.noise
@@ -78,7 +81,7 @@ class Problem:
     def residuals(self, z: Array) -> Array:
         closed = self.close(z)
         count = len(self.data(self.start))
-        r = self.data(closed) if closed is not None else np.full(count, LOST)
+        r = self.data(closed) if closed is not None else np.full(count, self.lost)
         self.trace.append(Trace(self.closures, float(r @ r), float(z @ z), closed is not None))
         cost = 0.5 * float(r @ r + (z @ z if self.with_prior else 0))
         if closed is not None and cost < self.best_cost:
@@ -139,7 +142,10 @@ def fit(
     residual: N, at rest; most: closures of the first search, twice as many with shorter steps; tolerance: of
         the cost, relative
 
-    The closure of each trial starts from the closed shape of the best one so far. The start is not changed.
+    The closure of each trial starts from the closed shape of the best one so far. The start is not changed. Bounds
+    are those of the priors within the ranges of the law's constants and of the thickness; a trial that does not come
+    to rest, or whose valve the library refuses, counts as worse than the start. ValveWarning if the model does not
+    explain the data (Fit.misfit).
     """
     try:
         from scipy.optimize import least_squares
@@ -166,7 +172,7 @@ def fit(
         problem = Problem(first, rows, data, noise, with_prior, residual)
         z = np.zeros(len(rows.labels))
         before = problem.residuals(z)
-        fits.append(least_squares(problem.residuals, z, problem.jacobian, (-rows.reach, rows.reach),
+        fits.append(least_squares(problem.residuals, z, problem.jacobian, (rows.low, rows.high),
                                   method="trf", ftol=tolerance, xtol=1e-6, gtol=1e-6,
                                   max_nfev=most if radius == RADII[0] else SHORT_SEARCH * most,
                                   # "exact" is a dense SVD at each trial, whose BLAS threads take more
@@ -174,7 +180,10 @@ def fit(
                                   # plane, which one parameter does not have
                                   tr_solver="lsmr" if len(z) > 1 else "exact", x_scale=radius))
         problems.append((problem, before))
-    return _result(start, rows, data, noise, with_prior, fits, problems, begun)
+    found = _result(start, rows, data, noise, with_prior, fits, problems, begun)
+    if found.misfit > MISFIT:
+        warnings.warn(f"fit: {misfit_words(found)}", ValveWarning, stacklevel=2)
+    return found
 
 
 def _searches(start: _core.Snapshot, starts: int) -> list[tuple[_core.Snapshot, float]]:

@@ -17,10 +17,10 @@ from .. import _core
 from ..arrays import Leaflet, Valve
 from ..editing import valve_of
 from ..errors import ArgumentError
-from ..kinds import PartKind
 from ..laws import exact, leaflet_law
-from ..sensitivity_rows import AXES, PARAMETER
+from ..sensitivity_rows import AXES
 from ..words import did_you_mean, listed
+from .rows import THICKNESS, Row, rows_of
 
 Array = NDArray[np.float64]
 
@@ -29,9 +29,10 @@ Array = NDArray[np.float64]
 class Prior:
     """Spread of a group of parameters before the data: standard deviation and bounds.
 
-    deviation: relative to the value at the start for chords and tissue; m for heads; strain for
-        prestrain
-    reach: bounds, in standard deviations from the start
+    deviation: relative to the value at the start for chords and thickness; for tissue to its distance from the low
+        end of the range of the law's constant (mvs.leaflet_law), which is 3 for Ic and 0 or next to it for others;
+        of a constant at that end, relative to the distance of its default; m for heads; strain for prestrain
+    reach: bounds, in standard deviations from the start, within the values that the library accepts
     """
 
     deviation: float
@@ -46,12 +47,14 @@ PRIORS: dict[str, Prior] = {
     "prestrain": Prior(0.05, 2.0),
 }
 """Groups of parameters and their default priors: rest lengths of the chordae, constants of each leaflet,
-thickness of each leaflet, coordinates of the heads, prestrain of the leaflets."""
+thickness of each leaflet (the same change for all its triangles), coordinates of the heads, prestrain of the
+leaflets. The constant `bending` of a neo-Hookean leaflet is not free where it is 0, which means no limit."""
 
 
 @dataclasses.dataclass(frozen=True)
 class Free:
-    """The free parameters of one fit. Rows: label, unit, group, binding row, start, deviation, reach."""
+    """The free parameters of one fit, in the order of their rows (rows.py). lowest, highest: the values that the
+    library accepts, in the units of the parameters."""
 
     labels: tuple[str, ...]
     units: tuple[str, ...]
@@ -60,11 +63,28 @@ class Free:
     start: Array
     deviation: Array
     reach: Array
+    lowest: Array
+    highest: Array
     base: Valve
 
+    @property
+    def low(self) -> Array:
+        """Lower bounds of z."""
+        return np.maximum(-self.reach, (self.lowest - self.start) / self.deviation)
+
+    @property
+    def high(self) -> Array:
+        """Upper bounds of z."""
+        return np.minimum(self.reach, (self.highest - self.start) / self.deviation)
+
+    def at_bound(self, z: Array) -> NDArray[np.bool_]:
+        """Which parameters are at a bound, to a thousandth of their reach."""
+        near = 1e-3 * self.reach
+        return (z < self.low + near) | (z > self.high - near)
+
     def values(self, z: Array) -> Array:
-        """Parameters in their units."""
-        return self.start + self.deviation * z
+        """Parameters in their units; rounding does not lead out of what the library accepts."""
+        return np.clip(self.start + self.deviation * z, self.lowest, self.highest)
 
     def valve(self, z: Array, now: Array) -> Valve:
         """The valve with these parameters, in the shape `now`."""
@@ -101,8 +121,8 @@ class Free:
                 continue
             change = value[label] - leaflet.thickness  # type: ignore[union-attr]
             mine = self.base.triangle_leaflet == row
-            made.triangle_thickness = np.where(mine, made.triangle_thickness + change,
-                                               made.triangle_thickness)
+            changed = np.clip(made.triangle_thickness + change, *THICKNESS)  # beyond it by rounding only
+            made.triangle_thickness = np.where(mine, changed, made.triangle_thickness)
 
     def _move_heads(self, made: Valve, value: Mapping[str, float]) -> None:
         for name, node in zip(self.base.head_names or (), self.base.head_nodes):
@@ -134,43 +154,10 @@ def free_parameters(
                 f'free: "{group}" is not known{did_you_mean(group, PRIORS)}; there are '
                 f"{listed(PRIORS)}", "free"
             )
-    rows = [row for group in dict.fromkeys(groups) for row in _rows(start, group, known[group])]
+    rows = [row for group in dict.fromkeys(groups) for row in rows_of(start, group, known[group])]
     if not rows:
         raise ArgumentError("free: the valve has no parameters of these groups", "free")
-    labels, units, names, binding, values, deviations, reaches = zip(*rows)
-    return Free(labels, units, names, binding, np.array(values), np.array(deviations),
-                np.array(reaches), valve_of(start))
-
-
-def _rows(start: _core.Snapshot, group: str, prior: Prior) -> list[tuple]:  # type: ignore[type-arg]
-    parts = {kind: [p for p in start.parts if p.kind == kind] for kind in PartKind}
-    if not prior.deviation > 0 or not prior.reach > 0:
-        raise ArgumentError(f"priors: those of {group} need a positive deviation and reach", "priors")
-
-    def row(label: str, unit: str, key: str, index: int, component: int, value: float,
-            deviation: float) -> tuple:  # type: ignore[type-arg]
-        return (label, unit, group, (PARAMETER[key], index, component, None), value, deviation,
-                prior.reach)
-
-    if group == "chords":
-        return [row(f"chords {p.name}", "m", "length", p.index, 0, length, prior.deviation * length)
-                for p, length in zip(parts[PartKind.CHORD], start.chord_rest_length.tolist())]
-    if group == "heads":
-        return [row(f"head {p.name} {AXES[a]}", "m", "head", p.index, a,
-                    float(start.node_position[start.head_nodes[p.index], a]), prior.deviation)
-                for p in parts[PartKind.HEAD] for a in range(3)]
-    if group == "prestrain":
-        return [row("prestrain", "", "prestrain", 0, 0, 0.0, prior.deviation)]
-    rows = []
-    for p in parts[PartKind.LEAFLET]:
-        constants = start.leaflet_constants[p.index]
-        if group == "thickness":
-            rows.append(row(f"thickness {p.name}", "m", "leaflet_thickness", p.index, 0,
-                            float(constants[0]), prior.deviation * float(constants[0])))
-            continue
-        law = leaflet_law(int(start.leaflet_law[p.index]))
-        for c, constant in enumerate(law.constants):
-            value = float(constants[1 + c])
-            rows.append(row(f"tissue {p.name} {constant.key}", constant.unit, "constant", p.index, c,
-                            value, prior.deviation * (abs(value) or constant.default or 1.0)))
-    return rows
+    column = {field.name: [getattr(row, field.name) for row in rows] for field in dataclasses.fields(Row)}
+    texts = (tuple(column[name]) for name in ("label", "unit", "group", "binding"))
+    numbers = (np.array(column[name], float) for name in ("start", "deviation", "reach", "lowest", "highest"))
+    return Free(*texts, *numbers, valve_of(start))

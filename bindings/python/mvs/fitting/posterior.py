@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import DivergedError, StateError
+from ..errors import DivergedError, OpError, StateError
 from ..sensitivities import NO_TEST
 from ..sensitivity_rows import QUANTITY
 from .linear import SLACK, Linear, linearised
@@ -71,7 +71,7 @@ def linear_posterior(fit: Fit) -> Linear:
     for make in (linearised, lambda fit: linearised(fit, trees=False), _normal):
         try:
             linear = make(fit)
-        except (DivergedError, StateError):
+        except (DivergedError, OpError, StateError):
             continue
         drawn = _chain(fit, linear, CLOSED, random, PILOT)
         # a complementarity problem with several solutions stops the chain: the valve is about to snap where
@@ -113,7 +113,7 @@ def draw(fit: Fit, count: int, seed: int, thin: int = 6) -> Array:
 
 
 def _closures(fit: Fit, drawn: Array) -> Iterator[tuple[Array, Problem, _core.Snapshot]]:
-    """The draws that come to rest, with the problem of the fit and their closed valves."""
+    """The draws whose valves close, with the problem of the fit and their closed valves."""
     from .fit import Problem
 
     problem = Problem(fit.closed, fit.free, fit.target, fit.noise, fit.with_prior, AT_REST)
@@ -150,11 +150,11 @@ def _chain(fit: Fit, linear: Linear, count: int, random: np.random.Generator, th
     """Draws from the posterior of a linearisation by Hamiltonian Monte Carlo. The complementarity problem may have
     several solutions; each is sought from one guess, so that the energy is a function of z alone, without which
     these are no draws: with the last solution as a guess chains fell into one that was never found again."""
-    reach = fit.free.reach
+    low, high = fit.free.low, fit.free.high
     guess = linear.tension < SLACK
     # the mass is the posterior precision of a valve whose chordae are all taut
     inverse = np.linalg.inv(np.linalg.cholesky(linear.normal + np.eye(len(fit.z))))
-    z = np.clip(fit.z if linear.first is None else linear.first, -0.999 * reach, 0.999 * reach)
+    z = np.clip(fit.z if linear.first is None else linear.first, 0.999 * low, 0.999 * high)
     value, slope, _ = linear.energy(z, guess)
     drawn = []
     for number in range((count + 4) * thin):
@@ -168,7 +168,7 @@ def _chain(fit: Fit, linear: Linear, count: int, random: np.random.Generator, th
             energy, grade, _ = linear.energy(there, guess)
             momentum = momentum - 0.5 * step * (inverse @ grade)
         # bounds at the end only: most paths of a hundred parameters touch one
-        inside = bool((np.abs(there) <= reach).all())
+        inside = bool(((there >= low) & (there <= high)).all())
         if inside and np.log(random.uniform()) < begun - energy - 0.5 * momentum @ momentum:
             z, value, slope = there, energy, grade
         if number >= 4 * thin and number % thin == 0:

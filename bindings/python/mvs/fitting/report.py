@@ -60,7 +60,7 @@ def page_of(found: Fit, measures: Optional[Iterable[str]] = None) -> str:
 
 def warnings_of(found: Fit) -> list[str]:
     """Sentences about what makes the result doubtful."""
-    from .result import ILL_CONDITIONED
+    from .result import ILL_CONDITIONED, MISFIT, misfit_words
 
     sentences = []
     if not found.converged:
@@ -71,16 +71,15 @@ def warnings_of(found: Fit) -> list[str]:
         sentences.append(f"{weak} of {len(found.z)} parameters are set by their priors more than by the data.")
     if found.condition > ILL_CONDITIONED:
         sentences.append(f"The problem is ill-conditioned ({found.condition:.1e}): intervals mean little.")
-    bound = int((np.abs(found.z) > 0.999 * found.free.reach).sum())
+    bound = int(found.free.at_bound(found.z).sum())
     if bound:
         sentences.append(f"{bound} parameters are at a bound: widen it, or the model does not fit.")
-    ratio = found.rms / found.noise
-    if ratio > 1.5:
-        sentences.append(f"The residual is {ratio:.1f} times the noise: the model does not explain the data, "
-                         "and the intervals are too narrow.")
+    if found.misfit > MISFIT:
+        words = misfit_words(found)
+        sentences.append(f"{words[0].upper()}{words[1:]}.")
     lost = sum(not t.at_rest for t in found.trace)
     if lost:
-        sentences.append(f"{lost} trials did not come to rest.")
+        sentences.append(f"{lost} trials did not come to rest, or were refused.")
     return sentences
 
 

@@ -18,7 +18,7 @@ from ..sensitivity_rows import SHORT, measure_names
 from ..tables import Table
 from ..values import Measures, unit_of
 from ..words import did_you_mean, listed, shown
-from .checks import checked_count
+from .checks import checked_count, checked_level
 from .parameters import Free
 from .targets import Target
 
@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 
 ILL_CONDITIONED = 1e8
 """Ratio of the largest to the smallest singular value of the fit from which its intervals mean little."""
+MISFIT = 1.5
+"""Residual in standard deviations of the data above which the model does not explain them: noise alone gives 1."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -140,17 +142,23 @@ class Fit:
         """m, root mean square of the residuals at the end."""
         return float(np.sqrt(np.mean(self.residuals_after**2)))
 
+    @property
+    def misfit(self) -> float:
+        """RMS of the residuals in standard deviations of the data, the root of chi2/n: about 1 or less if the model
+        explains the data. Above 1.5 it does not, and all intervals are too narrow."""
+        return self.rms / self.noise
+
     def table(self) -> Table:
         """A row a parameter: start, value, posterior and prior deviation, share determined, at a bound."""
         units = {"parameter": "", "unit": "", "start": "", "value": "", "deviation": "", "prior": "",
                  "determined": "", "at_bound": ""}
-        deviation = np.sqrt(np.diag(self.covariance))
+        deviation, at_bound = np.sqrt(np.diag(self.covariance)), self.free.at_bound(self.z)
         return Table(
             (
                 {"parameter": label, "unit": self.free.units[k], "start": float(self.free.start[k]),
                  "value": float(self.values[k]), "deviation": float(deviation[k]),
                  "prior": float(self.free.deviation[k]), "determined": float(self.determined[k]),
-                 "at_bound": bool(abs(self.z[k]) > 0.999 * self.free.reach[k])}
+                 "at_bound": bool(at_bound[k])}
                 for k, label in enumerate(self.free.labels)
             ),
             units,
@@ -162,23 +170,24 @@ class Fit:
         samples: 0: by its derivative, to first order; else closures of draws from the posterior
             (sample), for measures that are not smooth, such as a leak
         """
-        if not 0 < level < 1:
-            raise ArgumentError(f"level: a number between 0 and 1 is needed, not {level}", "level")
+        level = checked_level(level)
         name = _measure(of)
+        unit = unit_of(Measures, name)
+        if samples != 0:
+            value = float(getattr(self.closed.measures, name))
+            drawn = self.draws(name, checked_count("samples", samples), seed)
+            low, high = np.quantile(drawn, [0.5 - level / 2, 0.5 + level / 2])
+            return Interval(name, unit, value, float(np.std(drawn)), float(low), float(high), level, drawn)
         found = self.closed._sensitivity([(8, 0, 0, name, None, None)], list(self.free.rows), NO_TEST, None)
         value = float(found["value"][0])
         slope = np.asarray(found["derivative"][0]) * self.free.deviation
         deviation = float(np.sqrt(max(slope @ self.covariance_z @ slope, 0)))
-        unit = unit_of(Measures, name)
-        if samples == 0:
-            reach = _normal_quantile(0.5 + level / 2) * deviation
-            return Interval(name, unit, value, deviation, value - reach, value + reach, level)
-        drawn = self.draws(name, checked_count("samples", samples), seed)
-        low, high = np.quantile(drawn, [0.5 - level / 2, 0.5 + level / 2])
-        return Interval(name, unit, value, float(np.std(drawn)), float(low), float(high), level, drawn)
+        reach = _normal_quantile(0.5 + level / 2) * deviation
+        return Interval(name, unit, value, deviation, value - reach, value + reach, level)
 
     def draws(self, measure: str, samples: int, seed: int = 0) -> Array:
-        """The measure of closed valves with parameters drawn from the posterior, within the bounds."""
+        """The measure of closed valves with parameters drawn from the posterior, within the bounds; without draws
+        that do not come to rest, or that the library refuses."""
         name = _measure(measure)
         found = [getattr(closed.measures, name) for closed in self.closures_of(self.sample(samples, seed))]
         if not found:
@@ -190,17 +199,17 @@ class Fit:
         slack have their one-sided posterior (fitting/posterior.py), which covariance does not describe."""
         from .posterior import draw
 
-        count = checked_count("count", count)
+        count, seed = checked_count("count", count), checked_count("seed", seed, 0)
         if self.with_prior:
             return draw(self, count, seed)
         random = np.random.default_rng(seed)
         root = np.linalg.cholesky(self.covariance_z + 1e-12 * np.eye(len(self.z)))
         drawn = self.z + random.normal(size=(count, len(self.z))) @ root.T
-        return np.clip(drawn, -self.free.reach, self.free.reach)
+        return np.clip(drawn, self.free.low, self.free.high)
 
     def closures_of(self, drawn: Array) -> Iterator[_core.Snapshot]:
-        """The closed valve of each row of parameters z, from the fitted shape; without those that do not
-        come to rest."""
+        """The closed valve of each row of parameters z, from the fitted shape; without those that do not come to
+        rest, or that the library refuses."""
         from .fit import Problem
 
         problem = Problem(self.closed, self.free, self.target, self.noise, self.with_prior, 1e-5)
@@ -218,8 +227,15 @@ class Fit:
             file.write(text)
 
     def __repr__(self) -> str:
+        doubt = f"; {misfit_words(self)}" if self.misfit > MISFIT else ""
         return (f"<mvs.Fit: {len(self.z)} parameters, residual {self.rms * 1e3:.3f} mm RMS, "
-                f"{self.closures} closures{'' if self.converged else ', not converged'}>")
+                f"{self.closures} closures{'' if self.converged else ', not converged'}{doubt}>")
+
+
+def misfit_words(found: Fit) -> str:
+    """What a residual above MISFIT means."""
+    return (f"the residual is {found.misfit:.1f} times the noise: the model does not explain the data, and the "
+            "intervals are too narrow")
 
 
 def _measure(name: str) -> str:
