@@ -1,6 +1,6 @@
 """Sweeps: rows in the order of the combinations, the same with every executor."""
 
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import mvs
 import numpy as np
@@ -67,6 +67,55 @@ def test_wrong_operations_are_refused_before_any_work(opened):
     ):
         with pytest.raises(mvs.ArgumentError, match=words):
             mvs.sweep(opened, ops)
+
+
+class Idle(Executor):
+    """Refuses to begin, which would be work."""
+
+    def submit(self, *given, **named):
+        raise AssertionError("work has begun")
+
+
+@pytest.mark.parametrize("options, error, words", [
+    ({"pressure_pa": float("nan")}, mvs.ArgumentError, "pressure"),
+    ({"settle": {"residual": -1}}, mvs.ArgumentError, "residual is -1"),
+    ({"settle": {"max_iterations": 0}}, mvs.ArgumentError, "max_iterations: 0 is given"),
+    ({"settle": {"residul": 1e-4}}, TypeError, "residul"),
+    ({"cost": {"flow": 5.0}}, mvs.ArgumentError, "flow is 5 m3/s"),
+    ({"cost": {"flwo": 5.0}}, TypeError, "flwo"),
+])
+def test_faults_that_every_row_has_are_raised_before_any_work(opened, options, error, words):
+    with pytest.raises(error, match=words):
+        mvs.sweep(opened, OPS, Idle(), **options)
+
+
+def test_valves_and_executors_of_other_kinds_are_refused(opened, sim):
+    for valve in (sim, "valve.obj"):
+        with pytest.raises(mvs.ArgumentError, match="^valve: a mvs.Valve or mvs.Snapshot is needed"):
+            mvs.sweep(valve, OPS)
+    with pytest.raises(mvs.ArgumentError, match="^executor: an executor .* not 3 "):
+        mvs.sweep(opened, OPS, 3)
+
+
+class Interrupted(Future):
+    """A row during which Ctrl-C comes."""
+
+    def result(self, timeout=None):
+        raise KeyboardInterrupt
+
+
+def test_ctrl_c_cancels_the_rows_that_have_not_begun(opened):
+    class Full(Executor):
+        """Begins nothing but a first row."""
+
+        def submit(self, *given, **named):
+            waiting.append(Future() if waiting else Interrupted())
+            return waiting[-1]
+
+    waiting = []
+    with pytest.raises(KeyboardInterrupt):
+        mvs.sweep(opened, OPS, Full(), settle=QUICK)
+    assert len(waiting) == 4 and all(row.cancelled() for row in waiting)
 
 
 @pytest.mark.parametrize("pool", [None, ProcessPoolExecutor])

@@ -6,7 +6,7 @@ import dataclasses
 import itertools
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import Executor
+from concurrent.futures import Executor, Future
 from typing import Any, Optional, Union
 
 import numpy as np
@@ -56,20 +56,23 @@ def sweep(
 
     Each combination starts from the same valve or snapshot, is settled under the pressure and
     measured. `mvs sweep` closes the valve before it operates, and this function operates on the valve
-    as given: give it a closed snapshot for the same figures. Arguments that fit no valve, as a factor of 0, raise. Columns: the parameters with several values ("ring.size"), "converged", the fields of
-    mvs.Measures in SI units, and "error", the sentence of an impossible combination, whose measures
-    are NaN. The rows are in the order of the combinations, the last parameter fastest, and do not
+    as given: give it a closed snapshot for the same figures. Arguments that fit no valve, as a factor of 0 or a
+    pressure of NaN, raise before any work. Columns: the parameters with several values ("ring.size"),
+    "converged", the fields of mvs.Measures in SI units, and "error", the sentence of an impossible
+    combination, whose measures are NaN. The rows are in the order of the combinations, the last parameter fastest, and do not
     depend on the executor. Warnings of the library (mvs.ValveWarning) come once for all rows.
 
     ops: pairs of a name and its fields, or mvs.Operation. A list holds the values of a parameter;
         numbers may also be a range or an array. Points of a curve are an array, a site a tuple
-    executor: any of concurrent.futures; None: one after another in this thread
+    executor: any of concurrent.futures; None: one after another in this thread. An exception, as of Ctrl-C,
+        cancels the rows that have not begun
     pressure_pa: Pa, with the annulus and the heads where they are under load; None: the load of the
         snapshot, pressure and boundary fraction, else 120 mmHg
     settle: arguments of Simulator.settle
     cost: arguments of Snapshot.cost, {} for its defaults; adds columns "cost.open_area", ... with
         the fields of mvs.Cost. None: costs are not measured
     """
+    _check_executor(executor)
     start = valve if isinstance(valve, Snapshot) else _snapshot_of(valve)
     load = Load(SYSTOLE_PA if pressure_pa is None else pressure_pa, 1.0)
     if pressure_pa is None and start.load_case.pressure:
@@ -80,14 +83,52 @@ def sweep(
     for values in itertools.product(*(c.values for c in choices)):
         parameters.append({c.label: v for c, v in zip(choices, values) if c.label in varied})
         tasks.append(_Task(start, _operations(choices, values), load, dict(settle or {}), cost))
-    if executor is None:
-        done: Iterable[_Done] = map(_run, tasks)
-    else:
-        done = [each.result() for each in [executor.submit(_run, task) for task in tasks]]
-    results = list(done)
+    _check_common(start, load, dict(settle or {}), cost)
+    results = list(map(_run, tasks)) if executor is None else _run_in(executor, tasks)
     _warn_once(sentence for each in results for sentence in each.warnings)
     units = _units(choices, varied, cost is not None)
     return Table(({**p, **each.row} for p, each in zip(parameters, results)), units)
+
+
+def _check_executor(executor: Any) -> None:
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise ArgumentError(
+            f"executor: an executor of concurrent.futures or None is needed, not {shown(executor)}", "executor"
+        )
+
+
+def _check_common(
+    start: Snapshot, load: Load, settle: dict[str, Any], cost: Optional[Mapping[str, Any]]
+) -> None:
+    """Raises for a load and options that no row can have, without closing or opening the valve.
+
+    Errors of other kinds are of the start, which the operations may change: they are left to the rows.
+    """
+    settle.pop("progress", None)  # begin_settle has none
+    try:
+        with Simulator(log=lambda level, text: None) as sim:
+            sim.restore(start)
+            sim.set_load(load.pressure, load.boundary_fraction)
+            sim.begin_settle(**settle)
+        if cost is not None:
+            start.cost(**{**cost, "progress": lambda share, residual: True})
+    except (ArgumentError, TypeError):
+        raise
+    except Error:
+        pass
+
+
+def _run_in(executor: Executor, tasks: Sequence[_Task]) -> list[_Done]:
+    """The rows in order. Rows that wait in the executor are cancelled if one raises or Ctrl-C comes."""
+    futures: list[Future[_Done]] = []
+    try:
+        for task in tasks:
+            futures.append(executor.submit(_run, task))
+        return [future.result() for future in futures]
+    except BaseException:
+        for future in futures:
+            future.cancel()
+        raise
 
 
 @dataclasses.dataclass(frozen=True)
@@ -186,7 +227,9 @@ def _cost_names() -> list[str]:
     return [name for name in names if name not in measures and name != "open_valve"]
 
 
-def _snapshot_of(valve: Valve) -> Snapshot:
+def _snapshot_of(valve: Any) -> Snapshot:
+    if not isinstance(valve, Valve):
+        raise ArgumentError(f"valve: a mvs.Valve or mvs.Snapshot is needed, not {shown(valve)}", "valve")
     with Simulator() as sim:
         sim.set_valve(valve)
         return sim.snapshot()
