@@ -152,6 +152,20 @@ def test_check_valve_lists_every_fault(valve):
     assert caught.value.part == faults[0].part
 
 
+def test_check_valve_gives_the_warnings_of_set_valve(valve):
+    chord_young = valve.chord_young.copy()
+    valve.chord_young = np.full(len(chord_young), 40.0)  # MPa given as Pa
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        set_and_look(valve)
+    said = [str(each.message) for each in caught]
+    found = mvs.check_valve(valve)
+    assert said and [fault.sentence for fault in found] == said
+    assert all(fault.is_warning for fault in found)
+    valve.chord_young = chord_young
+    assert mvs.check_valve(valve) == []
+
+
 def test_an_edited_chord_is_the_only_thing_that_changes(opened, valve):
     valve.chord_rest_length[5] *= 1.25
     changed = set_and_look(valve)

@@ -2,7 +2,9 @@
 // levels, tissue; and mvs.check_valve.
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "simulator.h"
 #include "values.h"
@@ -28,15 +30,45 @@ void set_valve(Simulator &self, const py::args &args, const py::kwargs &kwargs) 
   self.call([&](mvs_sim *sim) { return mvs_set_valve(sim, &valve.desc()); });
 }
 
-// The faults of a valve as a list of mvs.Fault; empty for a valid valve.
+// The part at fault and the sentence.
+using Fault = std::pair<std::string, std::string>;
+
+// The warnings of mvs_set_valve about a valve without faults.
+std::vector<std::string> warnings_of(const mvs_valve_desc &valve) {
+  std::vector<std::string> said;
+  auto options = sized<mvs_sim_desc>();
+  options.user = &said;
+  options.log = [](void *user, mvs_log_level level, const char *text) {
+    if (level <= MVS_LOG_WARNING) static_cast<decltype(said) *>(user)->emplace_back(text);
+  };
+  mvs_sim *sim = nullptr;
+  must(mvs_create(&options, &sim));
+  const std::unique_ptr<mvs_sim, void (*)(mvs_sim *)> held(sim, &mvs_destroy);
+  release_and([&] { return mvs_set_valve(sim, &valve); });
+  return said;
+}
+
+// mvs_check_valve knows of doubtful meshes only: adds the warnings about units.
+void add_warnings(const mvs_valve_desc &valve, std::vector<Fault> &found) {
+  for (const std::string &text : warnings_of(valve)) {
+    // a long sentence is cut in the log
+    const bool known = std::any_of(found.begin(), found.end(), [&](const Fault &fault) {
+      return fault.second.compare(0, text.size(), text) == 0;
+    });
+    if (!known) found.emplace_back("", text);
+  }
+}
+
+// The faults of a valve as a list of mvs.Fault; its warnings if it has none.
 py::list check_valve(const py::args &args, const py::kwargs &kwargs) {
   const ValveArguments valve(valve_of(args, kwargs));
-  std::vector<std::pair<std::string, std::string>> faults;
+  std::vector<Fault> faults;
   const auto note = [](void *user, const char *part, const char *sentence) {
     static_cast<decltype(faults) *>(user)->emplace_back(part, sentence);
   };
   const mvs_result result = mvs_check_valve(&valve.desc(), note, &faults);
   if (result != MVS_OK && faults.empty()) must(result);
+  if (result == MVS_OK) add_warnings(valve.desc(), faults);
   py::list list;
   const py::object type = py::module_::import("mvs.values").attr("Fault");
   for (const auto &[part, sentence] : faults) {
@@ -70,7 +102,8 @@ mvs_shape shape_of(const std::optional<std::string> &given) {
   if (!given) return 0;
   if (*given == "healthy") return MVS_SHAPE_HEALTHY;
   if (*given == "founding") return MVS_SHAPE_FOUNDING;
-  throw py::value_error("shape is '" + *given + "', it must be 'healthy' or 'founding'");
+  refuse(MVS_E_ARGUMENT, "shape",
+         "shape: \"healthy\" or \"founding\" is needed, not \"" + *given + "\"");
 }
 
 mvs_leaflet_law law_of(const py::object &given) {
@@ -119,8 +152,9 @@ void bind_generate(py::class_<Simulator> &type) {
       "annulus_contraction"_a = py::none(), "annulus_scale"_a = py::none(),
       "chord_slack"_a = py::none(), "indentation_depth"_a = py::none(),
       "coaptation_depth"_a = py::none(), "shape"_a = py::none(), "leaflet"_a = py::none(),
-      "Replaces the valve by a parametric mitral valve; None or 0 takes the default, an adult "
-      "valve.\n\nvertices: approximate number of leaflet vertices, 200 to 100000\nchords: "
+      "Replaces the valve by a parametric mitral valve; None takes the default, an adult "
+      "valve; 0 is refused.\n\nvertices: approximate number of leaflet vertices, 200 to "
+      "100000\nchords: "
       "approximate number of chord segments\nbranching: chordae share trunks; None: in the healthy "
       "shape\nlengths in "
       "m; annulus_contraction: loaded over open size\nannulus_scale: factor on the loaded annulus "
@@ -203,8 +237,9 @@ void bind_valve(py::module_ &module, py::class_<Simulator> &type) {
            "Replaces the valve by a mvs.Valve, or by the arguments of one. OpError has the first "
            "fault; mvs.check_valve lists all faults.");
   module.def("check_valve", &check_valve,
-             "The faults of a valve (list of mvs.Fault); for a valve without faults its warnings, "
-             "such as triangles that cross. Arguments as for Simulator.set_valve.");
+             "The faults of a valve (list of mvs.Fault); for a valve without faults the warnings "
+             "that Simulator.set_valve gives: triangles that cross, moduli that look like "
+             "another unit. Arguments as for Simulator.set_valve.");
 }
 
 }  // namespace mvs_python
