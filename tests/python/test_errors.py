@@ -73,6 +73,7 @@ def test_a_load_that_is_not_finite_is_refused(sim, pressure):
 
 def test_words_of_choices_are_checked(sim, closed):
     for call in (
+        lambda: sim.generate(shape="magic"),
         lambda: mvs.Simulator(backend="magic"),
         lambda: sim.settle(solver="magic"),
         lambda: closed.to_bytes(format="magic"),
@@ -101,6 +102,10 @@ MISFITS = [
      "settle: max_iterations has to be a non-negative integer or None, not 3.5 (float)"),
     (lambda sim: sim.settle(solver=3), "settle: solver has to be text, not 3 (int)"),
     (lambda sim: sim.step(-1), "step: count has to be a non-negative integer, not -1 (int)"),
+    (lambda sim: sim.snapshot().ensemble(1e4, seed=2**64), "ensemble: seed is too large: 184467"),
+    (lambda sim: sim.snapshot().ensemble(1e4, seed=2**40, members=2**33),
+     "ensemble: members or seed is too large: 8589934592"),
+    (lambda sim: sim.step(2**64), "step: count is too large: 184467"),
     (lambda sim: sim.apply(), "apply() needs the argument operation"),
     (lambda sim: sim.set_leaflet("A"), "set_leaflet() needs the argument law"),
     (lambda sim: sim.generate(vertices="many"), "generate: vertices has to be a non-negative"),
@@ -126,6 +131,18 @@ def test_a_type_error_says_which_argument_and_why(sim, call, words):
     assert words in said
     assert "\n" not in said and len(said) < 400 and "incompatible" not in said
     assert sim.snapshot().hash == before
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda sim: sim.step(0), "count: 1 or more steps are needed, not 0"),
+    (lambda sim: sim.generate(saddle_height=1.0), "0.01 to 15 mm (or None for 5.5 mm)"),
+    (lambda sim: sim.generate(vertices=3), "200 to 100000 (or None for"),
+    (lambda sim: sim.settle(residual=-1), "it has to be None (the default) or"),
+])
+def test_the_default_of_an_option_is_none_in_every_sentence(sim, call, words):
+    with pytest.raises(mvs.ArgumentError) as caught:
+        call(sim)
+    assert words in str(caught.value) and "or 0" not in str(caught.value)
 
 
 def test_a_type_error_of_a_callback_stays_as_it_is(sim):

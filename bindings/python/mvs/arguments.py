@@ -165,7 +165,21 @@ def sentence(call: str, text: str, given: Sequence[Any], named: Mapping[str, Any
             if not fits:
                 wanted += " or None" if "None" in p.type else ""
                 return f"{call}: {p.name} has to be {wanted}, not {shown(values[p.name])}"
+    large = _too_large(parameters, values)
+    if large:
+        return f"{call}: {' or '.join(large)} is too large: {', '.join(shown(values[name]) for name in large)}"
     return f"{call}: the arguments {', '.join(map(shown, values.values()))} do not fit; {words}"
+
+
+def _too_large(parameters: Sequence[Parameter], values: Mapping[str, Any]) -> list[str]:
+    """The names of integers that C has no type for, else of those beyond 32 bits, which most arguments have."""
+    whole = {p.name: operator.index(values[p.name]) for p in parameters
+             if p.name in values and _is_index(values[p.name])}
+    for bits in (64, 32):
+        found = [name for name, value in whole.items() if value >= 2**bits]
+        if found:
+            return found
+    return []
 
 
 def with_sentences(method: Callable[..., Any], call: str) -> Callable[..., Any]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 
 class Error(Exception):
     """A failed call; the simulator is unchanged, bit for bit.
@@ -111,6 +113,12 @@ class CancelledError(Error):
 BY_CODE: dict[int, type[Error]] = {kind.code: kind for kind in Error.__subclasses__()}
 
 
+_ZERO_IS_DEFAULT = re.compile(r"(?<=be )0(?= \(the default)|(?<=or )0(?= for )")
+"""The default in a sentence of the C interface, which an option that is None takes in Python."""
+
+
 def of(code: int, sentence: str, part: str, line: int) -> Error:
     """The exception for a result code of the C interface."""
+    if code == ArgumentError.code:
+        sentence = _ZERO_IS_DEFAULT.sub("None", sentence)
     return BY_CODE.get(code, InternalError)(sentence, part, line)

@@ -91,6 +91,7 @@ double advance_settle(Simulator &self, double seconds) {
 
 py::object step(Simulator &self, uint64_t count, const std::string &solver, Number dt,
                 Number damping, Count budget) {
+  if (count == 0) refuse(MVS_E_ARGUMENT, "count", "count: 1 or more steps are needed, not 0");
   auto options = sized<mvs_step_options>();
   options.solver = solver_of(solver);
   options.dt = given_or_default(dt, "dt");
@@ -117,7 +118,8 @@ void bind_work(py::class_<Simulator> &type) {
       "that does not converge raises no exception: check Stats.converged.\n\nsolver: "
       "\"newton\", \"implicit\" or \"explicit\", which does not prevent crossing\nresidual: N, "
       "largest out-of-balance force at "
-      "rest [1e-5]\ndt: s, and damping: 1/s, of the dynamic solvers\nmargins: False leaves the "
+      "rest; None: 1e-5\ndt: s, and damping: 1/s, of the dynamic solvers\nmargins: False leaves "
+      "the "
       "margins of stability of Stats at 0, which is quicker and the same shape; "
       "Snapshot.stability has them\nprogress: called with "
       "(share done, residual in N) in this thread; True cancels (CancelledError), an "
