@@ -1,4 +1,4 @@
-"""Ctrl-C stops every long call within 0.2 s, and the state is that after whole steps."""
+"""Ctrl-C stops the calls that the README lists within 0.2 s, and the state is that after whole steps."""
 
 import contextlib
 import json

@@ -183,7 +183,9 @@ void bind_simulator(py::module_ &module) {
   const std::string about =
       "Simulates one valve.\n\nCalls release the interpreter; threads that share a simulator wait "
       "for each other. A call that raises leaves the simulator as it was, unless the exception is "
-      "that of `log`, or a warning that a filter turns into an error: the call is done then.\n\n"
+      "that of `log`, or a warning that a filter turns into an error: the call is done then. "
+      "Ctrl-C "
+      "stops settle and step within 0.2 s, other calls later or at their end: see the README.\n\n"
       "backend: the sparse "
       "factorisation, one of " +
       backend_words() +
