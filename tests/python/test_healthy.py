@@ -31,7 +31,7 @@ def test_the_membrane_is_the_default_and_springs_the_founding_model():
         assert set(sim.snapshot().leaflet_law) == {mvs.LeafletLaw.SPRING}
         sim.generate(vertices=200, leaflet="fung")
         assert set(sim.snapshot().leaflet_law) == {mvs.LeafletLaw.FUNG}
-        with pytest.raises(ValueError, match="'healthy' or 'founding'"):
+        with pytest.raises(mvs.ArgumentError, match='^shape: "healthy" or "founding"'):
             sim.generate(shape="sick")
 
 

@@ -20,7 +20,7 @@ from ..errors import ArgumentError
 from ..laws import exact, leaflet_law
 from ..sensitivity_rows import AXES
 from ..words import did_you_mean, listed
-from .rows import THICKNESS, Row, rows_of
+from .rows import THICKNESS, rows_of
 
 Array = NDArray[np.float64]
 
@@ -157,7 +157,10 @@ def free_parameters(
     rows = [row for group in dict.fromkeys(groups) for row in rows_of(start, group, known[group])]
     if not rows:
         raise ArgumentError("free: the valve has no parameters of these groups", "free")
-    column = {field.name: [getattr(row, field.name) for row in rows] for field in dataclasses.fields(Row)}
-    texts = (tuple(column[name]) for name in ("label", "unit", "group", "binding"))
-    numbers = (np.array(column[name], float) for name in ("start", "deviation", "reach", "lowest", "highest"))
-    return Free(*texts, *numbers, valve_of(start))
+
+    def numbers(name: str) -> Array:
+        return np.array([getattr(row, name) for row in rows], float)
+
+    return Free(tuple(row.label for row in rows), tuple(row.unit for row in rows), tuple(row.group for row in rows),
+                tuple(row.binding for row in rows), numbers("start"), numbers("deviation"), numbers("reach"),
+                numbers("lowest"), numbers("highest"), valve_of(start))
