@@ -22,6 +22,7 @@ Aabb box_around(const Vec3 &from, const Vec3 &to, double margin) {
 }  // namespace
 
 void InstrumentBodies::set_tools(const std::vector<Tool> &tools, uint32_t first) {
+  first_ = first;
   if (convex_.set_tools(tools, first)) prepared_ = false;
   size_t k = 0;
   for (const Tool &tool : tools) {

@@ -6,6 +6,7 @@
 // tools.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "collision/convex_bodies.h"
@@ -38,6 +39,8 @@ class InstrumentBodies {
   // Points are nodes from `first` on. Without tools that push, all functions below have no effect.
   void set_tools(const std::vector<Tool> &tools, uint32_t first);
   const std::vector<InstrumentBody> &all() const { return bodies_; }
+  // The first node that is a point of an instrument; without instruments there is none.
+  uint32_t first_point() const { return first_; }
   ConvexBodies &convex() { return convex_; }
   const ConvexBodies &convex() const { return convex_; }
   bool empty() const { return bodies_.empty() && convex_.all().empty(); }
@@ -59,6 +62,7 @@ class InstrumentBodies {
                  double slack);
 
   const Model *model_;
+  uint32_t first_ = std::numeric_limits<uint32_t>::max();
   std::vector<InstrumentBody> bodies_;
   ConvexBodies convex_;
   bool prepared_ = true;

@@ -9,7 +9,10 @@ namespace mvs::core::settings {
 // One implicit Euler step.
 namespace implicit {
 
-inline constexpr double max_displacement = 1e-3;  // m, of a node in one step
+// m, of a node of tissue in one step, and of a point of an instrument: a hand at 0.5 m/s with steps
+// of 40 ms. An instrument that follows its hand by less in a step lags behind, and its spring pulls
+// the hand back to where it was: into tissue that it has left, with net energy on the hand.
+inline constexpr double max_displacement = 1e-3, max_instrument_displacement = 20e-3;
 // Residual of a valve at rest, N: rest_residual at systolic pressure, less in proportion to the
 // pressure, plus min_rest_residual; never above max_rest_residual.
 inline constexpr double rest_residual = 1e-5, min_rest_residual = 1e-9;

@@ -91,20 +91,23 @@ PreconditionerKey ImplicitEuler::key_here(const State &state, const StepOptions 
 // Sets the displacement of all nodes: the solution of the linear system and the boundary step, each
 // node at most the longest displacement, without collision. Returns the slack of the broad phase.
 double ImplicitEuler::limit_step(SolveStats &stats) {
-  constexpr double most = settings::implicit::max_displacement;
+  namespace set = settings::implicit;
   scatter_step(matrix_, rows_, boundary_, displacement_, 1);
-  total_energy_.instrument().bodies().shorten(displacement_, most);
+  const InstrumentBodies &instruments = total_energy_.instrument().bodies();
+  instruments.shorten(displacement_, set::max_instrument_displacement);
   const std::vector<Vec3> &x = start_.x;
   std::vector<Vec3> &to = line_search_.trial.x;
   to.resize(x.size());
   double farthest = 0;
   for (size_t i = 0; i < x.size(); ++i) {
     const double length = displacement_[i].norm();
+    const double most =
+        i < instruments.first_point() ? set::max_displacement : set::max_instrument_displacement;
     if (length > most) displacement_[i] *= most / length;
     farthest = std::max(farthest, std::min(length, most));
     to[i] = x[i] + displacement_[i];
   }
-  const double slow = settings::implicit::slow_displacement * model_->valve.contact_thickness;
+  const double slow = set::slow_displacement * model_->valve.contact_thickness;
   // a moving valve needs another broad phase in the next step anyway: the least slack serves
   const double slack = farthest > slow ? slow : slack_;
   if (farthest > slow || !total_energy_.prepared_for(to) || !total_energy_.prepared_for(x)) {
