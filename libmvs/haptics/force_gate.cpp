@@ -52,7 +52,8 @@ void ForceGate::latch(Cause cause) {
 
 void ForceGate::pass_gate(const Facts &facts, const mvs_device_limits &limits) {
   if (phase_ == DevicePhase::waiting) {
-    quiet_ = facts.wanted < limits.gate ? quiet_ + 1 : 0;
+    // without a model nothing is known of the force that begins with it
+    quiet_ = facts.may_feel && facts.wanted < limits.gate ? quiet_ + 1 : 0;
     if (quiet_ < quiet_ticks) return;
     phase_ = DevicePhase::ramping;
     ramp_ = 0;

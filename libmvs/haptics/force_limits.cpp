@@ -9,14 +9,14 @@ namespace {
 
 constexpr double margin = 5e-3;         // m, from the face of the box to the wall...
 constexpr double margin_share = 0.05;   // ...at most this share of the width of the box
-constexpr double wall_stiffness = 0.5;  // share of the device's largest stiffness
+constexpr double wall_stiffness = 0.5;  // share of the largest stiffness
 
 }  // namespace
 
-Vec3 workspace_wall(const DeviceTraits &traits, const Vec3 &hand) {
+Vec3 workspace_wall(const DeviceTraits &traits, const mvs_device_limits &limits, const Vec3 &hand) {
   Vec3 force = Vec3::Zero();
   if (!traits.has_workspace) return force;
-  const double stiffness = wall_stiffness * traits.info.max_stiffness;
+  const double stiffness = wall_stiffness * limits.stiffness;
   for (int k = 0; k < 3; ++k) {
     const double low = traits.info.workspace_min[k], high = traits.info.workspace_max[k];
     const double inside = std::min(margin, margin_share * (high - low));

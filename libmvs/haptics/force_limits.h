@@ -41,7 +41,7 @@ class HeatBudget {
 
 // Returns the force of a spring wall that pushes the hand back into the workspace box. The wall
 // begins at a margin inside the faces.
-Vec3 workspace_wall(const DeviceTraits &traits, const Vec3 &hand);
+Vec3 workspace_wall(const DeviceTraits &traits, const mvs_device_limits &limits, const Vec3 &hand);
 
 // Returns the force or torque shortened to the norm `most`; sets `bit` in `limited` if it was
 // longer.

@@ -6,6 +6,9 @@
 namespace mvs::core {
 namespace {
 
+// m/s and rad/s: at less than this along a wrench, the share that does work is reduced less.
+constexpr double slow = 0.01, slow_spin = 0.2;
+
 double work_over(const Wrench &wrench, const Twist &step) {
   return wrench.force.dot(step.linear) + wrench.torque.dot(step.angular);
 }
@@ -42,6 +45,15 @@ Wrench EnergyObserver::damp(const Twist &velocity, double dt, const Damping &mos
   if (energy_ <= 0 || square == 0) return {};
   const double damping = std::min(most.linear, energy_ / (square * dt));
   return {-damping * velocity.linear, -damping * ratio * velocity.angular};
+}
+
+double EnergyObserver::working_share(const Wrench &wrench, const Twist &velocity,
+                                     double most) const {
+  const double power = work_over(wrench, velocity);
+  if (energy_ <= most || power <= 0) return 1;
+  const double surplus = std::min(1.0, (energy_ - most) / most);
+  const double slow_power = slow * wrench.force.norm() + slow_spin * wrench.torque.norm();
+  return 1 - surplus * std::min(1.0, power / slow_power);
 }
 
 }  // namespace mvs::core

@@ -10,6 +10,11 @@
 // A spring K sampled at period T generates K v^2 T^2 / 2 per period. Damping takes out this energy,
 // which agrees with the condition b > K T / 2 of Colgate & Schenkel (J. Robotic Systems 14, 1997),
 // reduced by the damping of hand and device; for rotations likewise.
+//
+// A late simulation with a stiff tool generates more than the damping of a device can take out: the
+// force is then that of a model of tissue which has moved since. So a surplus also takes away the
+// work that the force does on the hand: a force along the motion is reduced, one against it is not.
+// A still hand feels the whole force, and the energy on the hand is bounded.
 #pragma once
 
 #include "haptics/tissue_model.h"
@@ -41,6 +46,10 @@ class EnergyObserver {
   // Returns the damping that dissipates the surplus energy at this velocity of the hand, at most
   // `most`. Force and torque are in the ratio of these limits.
   Wrench damp(const Twist &velocity, double dt, const Damping &most) const;
+  // Returns the share of a wrench that is rendered at this velocity of the hand: 1 for one that
+  // does no work on it, or while the surplus is at most `most`, J; 0 for one along a fast motion
+  // while it is twice that or more.
+  double working_share(const Wrench &wrench, const Twist &velocity, double most) const;
   double energy() const { return energy_; }
 
  private:

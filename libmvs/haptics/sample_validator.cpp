@@ -10,6 +10,9 @@ namespace {
 
 constexpr double sample_timeout = 1e-3 * MVS_DRIVER_PATIENCE_MS;  // s, without a new sample
 constexpr double max_coordinate = 10;                             // m
+// Share of the device's period: a clock that moves by less from sample to sample stands still. One
+// that counts us where ns are meant moves by a thousandth.
+constexpr double creep = 2e-3;
 constexpr double jump = 5;                // times the speed limit, in one sample
 constexpr uint32_t fast_samples = 3;      // consecutive, above the speed limit
 constexpr double velocity_filter = 5e-3;  // s, time constant of the velocity estimate
@@ -84,21 +87,22 @@ void SampleValidator::take_time(const mvs_driver_state &sample) {
   }
   passed_ = has_time_ ? 1e-9 * static_cast<double>(sample.time_ns - time_ns_) : 0;
   time_ns_ = sample.time_ns;
-  if (passed_ > 0) still_ = 0;
+  const bool stands = passed_ <= creep / traits_->info.rate;
+  if (!stands) still_ = 0;
   // if the clock stands still, ticks measure the silence
-  silent_ += passed_ > 0 ? passed_ : 1 / traits_->info.rate;
+  silent_ += stands ? 1 / traits_->info.rate : passed_;
   if (std::exchange(has_time_, true) && sample.sequence == sequence_) {
     if (silent_ > sample_timeout) faults_ |= MVS_SAMPLE_FAULT_SEQUENCE;
     return;
   }
-  if (passed_ == 0) still_ += silent_;
+  if (stands) still_ += silent_;
   if (still_ > sample_timeout) {
     // without a time nothing moves or ages: forces would stay as they are
     faults_ |= MVS_SAMPLE_FAULT_CLOCK;
     latch_cause(Cause::watchdog);
   }
   sequence_ = sample.sequence;
-  dt_ = passed_ > 0 ? silent_ : 0;
+  dt_ = stands ? 0 : silent_;
   if (silent_ > sample_timeout) latch_cause(Cause::watchdog);
   silent_ = 0;
 }

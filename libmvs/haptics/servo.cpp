@@ -10,7 +10,10 @@ namespace {
 
 constexpr double rate_filter = 0.1;  // s, time constant of the reported rate
 constexpr double onset_s = 0.05;     // s, of the ramp of a new grasp
-constexpr double late_periods = 2;   // between two samples; a longer interval counts as late
+// m: times the largest force it is the energy up to which a surplus is left to the damping.
+constexpr double surplus_way = 1e-3;
+constexpr double working_s = 0.03;  // s, in which a force that was withheld returns
+constexpr double late_periods = 2;  // between two samples; a longer interval counts as late
 
 bool is_finite(const TissueModel &t) {
   return t.origin.allFinite() && t.force.allFinite() && t.stiffness.allFinite() &&
@@ -38,7 +41,7 @@ void Servo::start() {
   gate_.start();
   energy_.forget();
   field_ = sent_ = before_ = {};
-  onset_ = 1;
+  onset_ = working_ = 1;
   tissue_ = {};
   links_->tissue.refresh();  // discards a model posted before the start
   status_ = {};
@@ -126,7 +129,7 @@ Wrench Servo::wanted(double share) const {
   Wrench wrench = wrench_at(tissue_, hand);
   wrench.force *= share;
   wrench.torque *= share;
-  wrench.force += workspace_wall(*traits_, hand.position);
+  wrench.force += workspace_wall(*traits_, limits_, hand.position);
   return wrench;
 }
 
@@ -155,12 +158,19 @@ Wrench Servo::limited(const Wrench &given) {
   field_ = rendered(given, bits_);
   if (share_ == 0) return {};
   const HandPose &pose = validator_.pose();
-  if (!workspace_wall(*traits_, pose.position).isZero(0)) bits_ |= MVS_LIMITED_WALL;
+  if (!workspace_wall(*traits_, limits_, pose.position).isZero(0)) bits_ |= MVS_LIMITED_WALL;
   const double dt = validator_.dt();
   Wrench next = field_;
   if (dt > 0) {
+    const Twist velocity = {pose.velocity, pose.spin};
+    const double working = energy_.working_share(field_, velocity, surplus_way * limits_.force);
+    // it returns slowly, as a velocity of changing sign would make the hand buzz
+    working_ = std::min(working, working_ + dt / working_s);
+    next.force *= working_;
+    next.torque *= working_;
+    if (working_ < 1) bits_ |= MVS_LIMITED_ENERGY;
     const Damping most = {traits_->info.max_damping, traits_->info.max_angular_damping};
-    Wrench damping = energy_.damp({pose.velocity, pose.spin}, dt, most);
+    Wrench damping = energy_.damp(velocity, dt, most);
     // it dissipates what forces of this share generate, and begins with their ramp
     damping.force *= share_;
     damping.torque *= share_;
@@ -168,11 +178,19 @@ Wrench Servo::limited(const Wrench &given) {
     next.force = clamped(next.force + damping.force, limits_.force, MVS_LIMITED_FORCE, bits_);
     next.torque = clamped(next.torque + damping.torque, limits_.torque, MVS_LIMITED_TORQUE, bits_);
   }
-  next.force =
-      sent_.force + clamped(next.force - sent_.force, limits_.slew * dt, MVS_LIMITED_SLEW, bits_);
-  next.torque = sent_.torque + clamped(next.torque - sent_.torque, limits_.torque_slew * dt,
-                                       MVS_LIMITED_SLEW, bits_);
+  const mvs_device_info &device = traits_->info;
+  next.force = slewed(sent_.force, next.force, limits_.slew, device.peak_force);
+  next.torque = slewed(sent_.torque, next.torque, limits_.torque_slew, device.peak_torque);
   return next;
+}
+
+// Returns the next force, at most `slew` times the time away from the last one. A gap between two
+// samples allows no more than a late one. A lower force may also fall as fast as the device's
+// default slew allows: a lowered limit, or a release, takes effect at once.
+Vec3 Servo::slewed(const Vec3 &last, const Vec3 &next, double slew, double peak) {
+  const double dt = std::min(validator_.dt(), late_periods / traits_->info.rate);
+  const double rate = next.norm() < last.norm() ? std::max(slew, default_slew * peak) : slew;
+  return last + clamped(next - last, rate * dt, MVS_LIMITED_SLEW, bits_);
 }
 
 void Servo::write_force(mvs_driver_force &force) const {

@@ -44,6 +44,7 @@ class Servo {
   Wrench wanted(double share) const;
   Wrench rendered(const Wrench &given, uint32_t &bits) const;
   Wrench limited(const Wrench &given);
+  Vec3 slewed(const Vec3 &last, const Vec3 &next, double slew, double peak);
   double gated_size(const Wrench &field) const;
   void age(double dt);
   void write_force(mvs_driver_force &force) const;
@@ -64,8 +65,9 @@ class Servo {
   Wrench before_;   // sent before that
   Placement last_;  // of the hand at the last tick
   double share_ = 0;
-  double onset_ = 1;   // share of the force of a new grasp, on its ramp
-  uint32_t bits_ = 0;  // MVS_LIMITED_*
+  double onset_ = 1;    // share of the force of a new grasp, on its ramp
+  double working_ = 1;  // share of a force that does work on the hand
+  uint32_t bits_ = 0;   // MVS_LIMITED_*
   ServoStatus status_;
   double servo_s_ = 0;
 };

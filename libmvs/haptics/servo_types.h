@@ -48,6 +48,9 @@ struct DeviceTraits {
   bool renders_torque = false;
 };
 
+// 1/s, times the largest force or torque: the default of the rate at which it changes.
+inline constexpr double default_slew = 100;
+
 // Checks a driver's description; throws MVS_E_DEVICE for numbers out of range.
 DeviceTraits read_traits(const mvs_driver_info &given, const char *driver);
 

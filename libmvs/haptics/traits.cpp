@@ -136,7 +136,7 @@ mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_devic
       out.force, at_most(given.continuous_force, info.continuous_force, "limits.continuous_force"));
   out.stiffness = at_most(given.stiffness, info.max_stiffness, "limits.stiffness");
   out.thermal_s = or_default(given.thermal_s, 10, 0.1, 1000, "limits.thermal_s");
-  out.slew = or_default(given.slew, 100 * out.force, 1e-3, 1e6, "limits.slew");
+  out.slew = or_default(given.slew, default_slew * out.force, 1e-3, 1e6, "limits.slew");
   out.gate = or_default(given.gate, 0.2, 1e-3, max_force, "limits.gate");
   out.ramp_s = or_default(given.ramp_s, 1, 0.01, 10, "limits.ramp_s");
   out.speed =
@@ -148,7 +148,7 @@ mvs_device_limits resolve_limits(const mvs_device_limits &given, const mvs_devic
       out.torque,
       at_most(given.continuous_torque, info.continuous_torque, "limits.continuous_torque"));
   out.torque_slew =
-      or_default(given.torque_slew, 100 * out.torque, 1e-6, 1e6, "limits.torque_slew");
+      or_default(given.torque_slew, default_slew * out.torque, 1e-6, 1e6, "limits.torque_slew");
   out.angular_stiffness =
       at_most(given.angular_stiffness, info.max_angular_stiffness, "limits.angular_stiffness");
   out.angular_speed =

@@ -203,9 +203,11 @@ mvs_driver_force after_a_ramp(Bare &bare, const TissueModel &tissue) {
   bare.tick(turn);
   bare.links().requests.arm();
   for (int k = 0; k < 30; ++k) bare.tick(turn);
+  bare.links().tissue.post({});  // free: forces wait for a model
+  for (int k = 0; k < 30; ++k) bare.tick(turn);
   bare.links().tissue.post(tissue);
   mvs_driver_force force = {};
-  for (int k = 0; k < 300; ++k) force = bare.tick(turn);  // without a model forces had faded
+  for (int k = 0; k < 300; ++k) force = bare.tick(turn);
   return force;
 }
 
