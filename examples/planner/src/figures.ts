@@ -71,8 +71,11 @@ export interface Measures {
   chordsOver: number;
   /** The largest share of its working limit that a chord carries; 1 is the limit. */
   chordLoad: number;
+  /** Pairs of triangles that cross: figures of leaflets that cross do not count. */
   crossings: number;
   atRest: boolean;
+  /** N, the largest force out of balance after the settle; left out where no settle of the page led to the valve. */
+  residual?: number;
   underLoad: boolean;
 }
 

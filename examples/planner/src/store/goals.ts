@@ -4,6 +4,7 @@ import { edgeHeights } from '../flail';
 import { percentOfLimit } from '../notable';
 import type { Figures, Shown } from '../protocol';
 import { apart, verdictTexts } from '../text/texts';
+import { doubtOf } from './doubt';
 import { allowedLoad, foldedShare, leastCoaptation, leastOpening, openingOf } from './limits';
 import * as state from './state';
 
@@ -20,20 +21,20 @@ export function flailHeight(shown: Shown | null): number | null {
   return edgeHeights(topology, shown.picture, shown.figures.frame).get(scallop) ?? null;
 }
 
+const unknown = { sealed: null, chords: null, open: null, edge: null, coaptation: null };
+
 /** The goals of the tour's valve, judged on one of its states; null where it is not known yet. */
 export function reached(shown: Shown | null): Record<Goal, boolean | null> {
-  if (!shown || state.coming.value)
-    return { sealed: null, chords: null, open: null, edge: null, coaptation: null };
+  if (!shown || state.coming.value) return unknown;
+  // of figures that do not count no goal is reached, and none is judged
+  if (doubtOf(shown.figures)) return { ...unknown, sealed: false };
   const height = flailHeight(shown);
   const { hash, known, measures } = shown.figures;
   const cost = openingOf(hash);
   const [least, allowed, length] = [leastOpening(), allowedLoad(), leastCoaptation()];
   const partly = known !== 'all';
   return {
-    sealed:
-      known === 'shape'
-        ? null
-        : measures.atRest && measures.orifice === 0 && foldedShare(measures.annulusCc) === null,
+    sealed: known === 'shape' ? null : measures.orifice === 0 && foldedShare(measures.annulusCc) === null,
     chords: partly || allowed === null ? null : percentOfLimit(measures.chordLoad) <= allowed,
     // a valve without a flail scallop has nothing to reach
     edge: height === null || height < 0,

@@ -23,6 +23,12 @@ export function openingOf(hash: string | undefined): Cost | null {
   return state.openings.value.get(hash) ?? null;
 }
 
+/** mm2: the open valves of healthy adults have 4 to 6 cm2. */
+const widest = 600;
+
+/** Whether a valve opens wider than a healthy one does, for want of a wall that stops its leaflets. */
+export const isWide = ({ openArea }: Cost): boolean => openArea > widest;
+
 /** mm from commissure to commissure below which an annulus is smaller than an adult's: those measured in adults are 35 to 39 mm wide, and
  *  rings for adults begin at 24. */
 const leastAdult = 28;

@@ -3,6 +3,7 @@ import { effect, untracked } from '@preact/signals';
 import { t, verdictTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import * as state from './state';
+import { doubtOf } from './doubt';
 import { leakBefore } from './leak_range';
 import { measuresItself, unmeasurable } from './limits';
 import { headline, relieved, verdictOf } from './verdict';
@@ -16,7 +17,7 @@ let held: Figures | null = null;
 const lineOf = (what: string, before: Figures | null, now: Figures): string => {
   const slack = relieved(before, now);
   const more = [slack.length ? verdictTexts.relieved(slack) : '', leakBefore(now)].filter(Boolean);
-  return t.statusLine(what, headline(now), now, more.join('. '));
+  return t.statusLine(what, headline(now), doubtOf(now) ? null : now, more.join('. '));
 };
 
 function speak(now: Figures): void {

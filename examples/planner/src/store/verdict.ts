@@ -2,7 +2,8 @@
 // valve that is sealed may open too little, or hang on chordae beyond their limit.
 import { beyondLimit, mostBillowing, percentOfLimit, shareOfLimit } from '../notable';
 import type { Figures } from '../protocol';
-import { apart, grade, headlineOf, isSevere, stenosis, verdictTexts, where } from '../text/texts';
+import { apart, doubtTexts, grade, headlineOf, isSevere, stenosis, verdictTexts, where } from '../text/texts';
+import { doubtOf, type Doubt } from './doubt';
 import { missedGoals } from './goals';
 import { ofLeakRange } from './leak_range';
 import {
@@ -28,6 +29,8 @@ export interface Verdict {
   severe: boolean;
   /** The annulus is so small that the leaflets lie in folds: the word is no grade of the leak. */
   folded: boolean;
+  /** Why its figures do not count: the word is no grade. */
+  doubt: Doubt | null;
 }
 
 /** Whether an operation of the plan narrows the open valve. */
@@ -93,15 +96,17 @@ function ofChordae(figures: Figures): string[] {
 
 export function verdictOf(figures: Figures): Verdict {
   const { known, measures } = figures;
-  const none = { level: null, but: [], unmeasured: false, folded: false, severe: false };
+  const none = { level: null, but: [], unmeasured: false, folded: false, severe: false, doubt: null };
   if (known === 'shape') return { ...none, word: verdictTexts.measuring };
-  if (!measures.atRest || !measures.underLoad) return { ...none, word: verdictTexts.notAtRest };
+  const doubt = doubtOf(figures);
+  if (doubt) return { ...none, word: doubtTexts.words[doubt], doubt };
   const share = foldedShare(measures.annulusCc);
   const { level, word } = grade(measures.orifice);
   return {
     level,
     word: share === null ? word : verdictTexts.noRepair,
     folded: share !== null,
+    doubt,
     severe: share !== null || opensTooLittle(figures),
     but: [
       ...(share === null ? [] : [verdictTexts.folded(share)]),
@@ -119,7 +124,8 @@ export function verdictOf(figures: Figures): Verdict {
 
 /** The verdict in one sentence, with the place of a leak. `lasting`: it is kept, and does not say what is still to be measured. */
 export function headline(figures: Figures, lasting = false): string {
-  const { level, word, but, unmeasured, folded } = verdictOf(figures);
+  const { level, word, but, unmeasured, folded, doubt } = verdictOf(figures);
+  if (doubt) return `${word}: ${doubtTexts.short[doubt]}`;
   const unknown = unmeasured && !lasting ? [verdictTexts.openingUnknown] : [];
   if (folded) return `${word}: ${[...but, ...unknown].join('; ')}`;
   return headlineOf(word, level ? where(figures) : '', [...unknown, ...but]);
@@ -127,7 +133,7 @@ export function headline(figures: Figures, lasting = false): string {
 
 /** Chordae far beyond their limit before that carry nothing any more, with their load before in per cent. */
 export function relieved(before: Figures | null, now: Figures): { name: string; percent: number }[] {
-  if (!before || before.hash === now.hash) return [];
+  if (!before || before.hash === now.hash || doubtOf(before) || doubtOf(now)) return [];
   const slack = new Set(now.chords.filter(({ strain }) => strain <= 0).map(({ id }) => id));
   return beyondLimit(before.chords)
     .filter(({ id }) => slack.has(id))

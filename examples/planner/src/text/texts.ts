@@ -296,12 +296,12 @@ export const t = {
   severalFiles: (name: string) => `One file at a time: ${name} was taken.`,
   importBegun: (triangles: number) =>
     `Surface with ${triangles} triangles. Mark both commissures, then build the valve.`,
-  /** The result of an operation, for the status line: `done` names it; all figures are known. */
-  statusLine: (done: string, headline: string, f: Figures, more: string) =>
+  /** The result of an operation, for the status line: `done` names it; all figures are known. `f`: null where they do not count. */
+  statusLine: (done: string, headline: string, f: Figures | null, more: string) =>
     [
       `${done ? `${done}: ` : ''}${headline}.`,
-      f.measures.orifice > 0 ? `Leak ${number(f.measures.orifice)} mm².` : '',
-      `Coaptation ${number(f.measures.coaptationMean)} mm.`,
+      f && f.measures.orifice > 0 ? `Leak ${number(f.measures.orifice)} mm².` : '',
+      f ? `Coaptation ${number(f.measures.coaptationMean)} mm.` : '',
       more ? `${more}.` : '',
     ]
       .filter(Boolean)
@@ -575,14 +575,31 @@ export const refusals = {
   noWorker: 'the worker did not start',
 };
 
+/** Of valves whose figures do not count. */
+export const doubtTexts = {
+  /** Beside each figure of such a valve. */
+  mark: '†',
+  words: { cross: 'Leaflets cross', notAtRest: 'Not at rest' },
+  /** After these words, in one line. */
+  short: { cross: 'its figures do not count', notAtRest: 'its figures are not final' },
+  /** The mark, explained below figures and tables. */
+  marks: {
+    cross: '† not valid: the leaflets of this valve cross.',
+    notAtRest: '† not final: this valve did not come to rest.',
+  },
+  crossNote: (pairs: number) =>
+    `Leaflets pass through each other (${pairs} ${pairs === 1 ? 'pair' : 'pairs'} of triangles): leak, coaptation and forces of this valve are wrong. Undo the last operation; where the file has crossing leaflets, mend its mesh.`,
+  /** `residual`: N, where it is known. */
+  restNote: (residual: number | undefined) =>
+    `The valve did not come to rest${residual === undefined ? '' : ` (forces of up to ${number(1000 * residual, residual < 1e-3 ? 2 : 1)} mN are out of balance; at rest it is less than 0.1 mN)`}. Do not judge it by these figures: undo the last operation, or change its size or place a little.`,
+};
+
 export const verdictTexts = {
   surface: 'A surface, not a valve yet',
   preview: 'preview',
   past: 'before',
   trying: 'trying…',
   measuring: 'Measuring…',
-  notAtRest: 'Not at rest',
-  notFinal: 'The valve did not come to rest; its figures are not final.',
   leak: 'mm² leak',
   atPressure: ' at 120 mmHg',
   was: (orifice: string) => ` was ${orifice}`,
@@ -834,8 +851,10 @@ export const valveTexts = {
     'Risk of an obstructed outflow tract (SAM): not determined, because the septum is not known here. A small ring and long leaflets raise it.',
   opens: 'How far it opens',
   openArea: 'Open area in diastole',
+  /** Beside an open area that is wider than in life. */
+  wideMark: '*',
   openAreaWide:
-    'More than the 4 to 6 cm² of healthy adults: the wall of the ventricle, which would stop the leaflets, is missing here.',
+    '* More than the 4 to 6 cm² of healthy adults: the wall of the ventricle, which would stop the leaflets, is missing here.',
   openAreaHelp: 'Smallest opening at 5 mmHg. In adults 1.5 cm² or less is a severe stenosis (ACC/AHA 2014).',
   annulusPull: 'Pull on the annulus',
   lengths: 'Length of A2 and P2 that is free',

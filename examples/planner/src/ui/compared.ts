@@ -1,8 +1,10 @@
 // The figures of two valves that stand side by side, in the comparison of plans and in the report.
 import { titlesOf } from '../notable';
+import { doubtNotes, marked } from '../store/doubt';
 import { gradientOf } from '../store/gradient';
-import { areaFigure, figure, figureNames, say } from '../text/texts';
-import type { Cost, Figures, Measures } from '../protocol';
+import { isWide, openingOf } from '../store/limits';
+import { areaFigure, figure, figureNames, say, valveTexts } from '../text/texts';
+import type { Figures, Measures } from '../protocol';
 
 /** Name, value, digits, unit. */
 type Compared = [string, (m: Measures) => number, number, string];
@@ -19,9 +21,9 @@ export const comparedFigures: Compared[] = [
   [figureNames.maxChordTension, (m) => 1000 * m.maxChordTension, 0, 'mN'],
 ];
 
-/** The value of one of them in a valve, with its unit. */
-export const valueIn = ([, get, digits, unit]: Compared, { measures }: Figures): string =>
-  `${figure(get(measures), digits)} ${unit}`.trim();
+/** The value of one of them in a valve, with its unit, and marked where it does not count. */
+export const valueIn = ([, get, digits, unit]: Compared, valve: Figures): string =>
+  marked(`${figure(get(valve.measures), digits)} ${unit}`.trim(), valve);
 
 /** Name and both values of each figure, with their units. */
 export function comparedRows(one: Figures, other: Figures): [string, string, string][] {
@@ -32,10 +34,23 @@ export function comparedRows(one: Figures, other: Figures): [string, string, str
 export const stepsOf = (figures: Figures): string[] => titlesOf(figures).map(say);
 
 /** The gradient of the given flow in words; empty where it is not known. */
-export function gradientText(cost: Cost | null): string {
-  const gradient = gradientOf(cost);
-  return gradient === null ? '' : `${figure(gradient)} mmHg`;
+export function gradientText(valve: Figures): string {
+  const gradient = gradientOf(openingOf(valve.hash));
+  return gradient === null ? '' : marked(`${figure(gradient)} mmHg`, valve);
 }
 
-/** An open area in words. */
-export const areaText = (cost: Cost): string => `${areaFigure(cost.openArea)} cm²`;
+/** The open area of a valve in words; empty where it is not measured. */
+export function areaText(valve: Figures): string {
+  const cost = openingOf(valve.hash);
+  if (!cost) return '';
+  return marked(`${areaFigure(cost.openArea)} cm²${isWide(cost) ? ` ${valveTexts.wideMark}` : ''}`, valve);
+}
+
+/** What the marks beside the figures of these valves mean. */
+export function markNotes(valves: Figures[]): string[] {
+  const wide = valves.some(({ hash }) => {
+    const cost = openingOf(hash);
+    return !!cost && isWide(cost);
+  });
+  return [...doubtNotes(valves), ...(wide ? [valveTexts.openAreaWide] : [])];
+}

@@ -1,5 +1,6 @@
 // Valves that were left, which can be opened again, and the present valve as the one before the repair.
 import { Flag, RotateCcw } from 'lucide-preact';
+import { doubtOf } from '../store/doubt';
 import { beginHere, comeBack } from '../store/files';
 import { leftValves, repairOf, type Left } from '../store/left';
 import * as state from '../store/state';
@@ -60,7 +61,11 @@ export function BeginHere() {
 export function MadeLeak() {
   const [first, main] = [state.first.value?.figures, state.main.value?.figures];
   const made =
-    first?.measures.orifice === 0 && main?.known === 'all' && main.measures.orifice > 0 && !state.tour.value;
+    first?.measures.orifice === 0 &&
+    main?.known === 'all' &&
+    main.measures.orifice > 0 &&
+    !doubtOf(main) &&
+    !state.tour.value;
   return made ? (
     <div data-testid="made-leak">
       <p class="hint">{startTexts.leaks}</p>

@@ -1,5 +1,6 @@
 // The goals of a valve of the tour with what is reached, in the panels "Learn" and "Repair" and in the form of an operation.
 import { Check, CircleHelp, FolderOpen, X } from 'lucide-preact';
+import { doubtOf } from '../store/doubt';
 import { allowedLoad, leastCoaptation, leastOpening, openingOf } from '../store/limits';
 import { percentOfLimit } from '../notable';
 import { flailHeight, flailOf, reached } from '../store/goals';
@@ -25,14 +26,16 @@ function checks(number: number, shown: Shown | null): Check[] {
   const { goals, goalHelp, shortGoals } = tourTexts;
   const { sealed, chords, open, edge, coaptation } = reached(shown);
   const scallop = flailOf(number);
-  const load = percentOfLimit(shown?.figures.measures.chordLoad ?? NaN);
+  // figures that do not count stand beside no goal
+  const measures = shown && !doubtOf(shown.figures) ? shown.figures.measures : null;
+  const load = percentOfLimit(measures?.chordLoad ?? NaN);
   return [
     { text: goals.sealed, short: shortGoals.sealed, done: sealed },
     ...(scallop
-      ? [{ text: goals.edge(scallop, flailHeight(shown)), short: shortGoals.edge(scallop), done: edge }]
+      ? [{ text: goals.edge(scallop, measures && flailHeight(shown)), short: shortGoals.edge(scallop), done: edge }]
       : []),
     {
-      text: goals.coaptation(leastCoaptation(), shown?.figures.measures.coaptationMean ?? NaN),
+      text: goals.coaptation(leastCoaptation(), measures?.coaptationMean ?? NaN),
       short: shortGoals.coaptation,
       done: coaptation,
       help: goalHelp.coaptation,
@@ -44,7 +47,7 @@ function checks(number: number, shown: Shown | null): Check[] {
       help: goalHelp.chords,
     },
     {
-      text: goals.open(leastOpening(), openingOf(shown?.figures.hash)?.openArea),
+      text: goals.open(leastOpening(), measures ? openingOf(shown?.figures.hash)?.openArea : undefined),
       short: shortGoals.open,
       done: open,
       help: goalHelp.open,

@@ -1,4 +1,5 @@
 // In the form of an operation that narrows the valve: how far it would open, beside the valve before and the goal; at a press why.
+import { marked } from '../store/doubt';
 import { gradientOf, isTooMuch } from '../store/gradient';
 import { leastOpening, narrowing, openingOf, smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
@@ -43,7 +44,7 @@ export function Opening({ kind }: { kind: string }) {
       data-testid="opening"
       title={openingTexts.help}
     >
-      {openingTexts.opens(now?.openArea)}
+      {marked(openingTexts.opens(now?.openArea), preview)}
       <span class="was"> {openingTexts.beside(before?.openArea, least, same)}</span>
       {flow && gradient !== null && (
         <small>{openingTexts.gradient(gradient, flow, gradientOf(before))}</small>

@@ -1,8 +1,9 @@
 // Small parts that all panels use.
 import type { ComponentChildren, JSX } from 'preact';
 import { BookOpen } from 'lucide-preact';
+import { beforeDoubt, doubtNotes, shownDoubt } from '../store/doubt';
 import * as state from '../store/state';
-import { figure, figureHelp, partTexts, tips } from '../text/texts';
+import { doubtTexts, figure, figureHelp, partTexts, tips } from '../text/texts';
 import type { Range } from '../protocol';
 
 export function Figure(props: {
@@ -21,22 +22,37 @@ export function Figure(props: {
   const digits = props.digits ?? 1;
   const waiting = Number.isNaN(props.value) && state.figures.value?.known !== 'all';
   const differs = props.before !== undefined && Math.abs(props.before - props.value) >= 0.5 * 10 ** -digits;
-  const better = differs && props.good ? (props.good === 'low') === props.value < props.before! : null;
+  // figures that do not count are no improvement
+  const counts = !shownDoubt.value && !beforeDoubt.value;
+  const better = differs && counts && props.good ? (props.good === 'low') === props.value < props.before! : null;
   return (
-    <div class={`figure${props.warn ? ' warn' : ''}`} title={props.help}>
+    <div class={`figure${props.warn ? ' warn' : ''}${shownDoubt.value ? ' doubtful' : ''}`} title={props.help}>
       <span class="figure-label">{props.label}</span>
       <span class="figure-value">
         {waiting ? '…' : figure(props.value, digits)} <small>{props.unit}</small>
+        {shownDoubt.value && <small> {doubtTexts.mark}</small>}
         {props.note && <small class="figure-note"> {props.note}</small>}
       </span>
       {differs && (
         <span class={`figure-before ${better === null ? '' : better ? 'better' : 'worse'}`}>
           {partTexts.before(figure(props.before!, digits))}
+          {beforeDoubt.value && ` ${doubtTexts.mark}`}
         </span>
       )}
       <Spread range={props.spread} digits={digits} />
     </div>
   );
+}
+
+/** What the mark of figures that do not count means, where the shown valve or the one before has it. */
+export function DoubtNote() {
+  const { figures, before } = state;
+  const notes = doubtNotes([figures.value, before.value].filter((valve) => valve !== null));
+  return notes.length ? (
+    <p class="doubt-note" data-testid="doubt-note">
+      {notes.join(' ')}
+    </p>
+  ) : null;
 }
 
 /** The range of a figure over the ways in which the leaflets can fold; nothing where its digits do not show it. `bare`: in a table,

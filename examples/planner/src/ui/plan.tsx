@@ -5,7 +5,6 @@ import { redo, undo } from '../store/history';
 import { compareCheckpoint } from '../store/measure';
 import { canKeepFile, chooseKeptFile, keptFile, leaveKeptFile, saveObj, saveSession } from '../store/keep';
 import { allowAutosave, autosave, storageWorks } from '../store/recovery';
-import { openingOf } from '../store/limits';
 import { planName } from '../store/plans';
 import * as state from '../store/state';
 import { headline } from '../store/verdict';
@@ -21,7 +20,7 @@ import {
 } from '../text/texts';
 import { Checkpoints } from './checkpoints';
 import { BeginHere, EarlierValves } from './earlier';
-import { areaText, comparedRows, gradientText, stepsOf } from './compared';
+import { areaText, comparedRows, gradientText, markNotes, stepsOf } from './compared';
 import { Button, Section } from './parts';
 
 export function PlanPanel() {
@@ -117,12 +116,6 @@ export function PlanPanel() {
   );
 }
 
-/** The open area of a valve; dots until it is measured. */
-function openArea(hash: string): string {
-  const cost = openingOf(hash);
-  return cost ? areaText(cost) : '…';
-}
-
 function SideBySide() {
   const now = state.main.value!.figures;
   const other = state.compared.value!.figures;
@@ -161,15 +154,15 @@ function SideBySide() {
           ))}
           <tr>
             <th scope="row">{valveTexts.openArea}</th>
-            {[other, now].map(({ hash }) => (
-              <td>{openArea(hash)}</td>
+            {[other, now].map((valve) => (
+              <td>{areaText(valve) || '…'}</td>
             ))}
           </tr>
           {state.flow.value && (
             <tr>
               <th scope="row">{reportTexts.gradient(state.flow.value)}</th>
-              {[other, now].map(({ hash }) => (
-                <td>{gradientText(openingOf(hash)) || '…'}</td>
+              {[other, now].map((valve) => (
+                <td>{gradientText(valve) || '…'}</td>
               ))}
             </tr>
           )}
@@ -181,6 +174,9 @@ function SideBySide() {
           </tr>
         </tbody>
       </table>
+      {markNotes([other, now]).map((note) => (
+        <p class="hint">{note}</p>
+      ))}
     </>
   );
 }

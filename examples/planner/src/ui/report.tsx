@@ -4,9 +4,10 @@ import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
 import { download, fileName } from '../store/keep';
 import * as state from '../store/state';
+import { doubtNote, marked } from '../store/doubt';
 import { headline, relieved } from '../store/verdict';
 import { reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
-import type { Cost, Figures, SectionRequest, Shown } from '../protocol';
+import type { Figures, SectionRequest, Shown } from '../protocol';
 import { openingOf } from '../store/limits';
 import { measureReport, toMeasure } from '../store/opening';
 import { keptName, readPlans } from '../store/plans';
@@ -15,7 +16,7 @@ import { view } from './app';
 import { areaText, gradientText, comparedRows, stepsOf } from './compared';
 import { Modal } from './modal';
 import { Button } from './parts';
-import { escape, otherPlans } from './report_plans';
+import { cellOf, escape, notesBelow, otherPlans } from './report_plans';
 import { boxOf, lines } from './section';
 
 interface Pictures {
@@ -86,27 +87,25 @@ function takePictures(seen: Shown): Pictures {
 }
 
 const tableRow = (label: string, was: string, now: string): string =>
-  `<tr><th>${escape(label)}</th><td>${escape(was)}</td><td>${escape(now)}</td></tr>`;
+  `<tr><th>${escape(label)}</th>${cellOf(was)}${cellOf(now)}</tr>`;
 
 /** How long both leaflets are where they do not touch. */
-function lengthsText(cost: Cost | null): string {
+function lengthsText(valve: Figures): string {
+  const cost = openingOf(valve.hash);
   if (!cost) return '';
   const { anteriorLength: anterior, posteriorLength: posterior } = cost;
   const known = Number.isFinite(anterior) || Number.isFinite(posterior);
-  return known ? valveTexts.lengthsOf(anterior, posterior) : valveTexts.lengthsUnknown;
+  return known ? marked(valveTexts.lengthsOf(anterior, posterior), valve) : valveTexts.lengthsUnknown;
 }
 
 /** Open areas, gradients and the lengths of the leaflets, if they were measured. */
 function openingRows(then: Figures, now: Figures): string {
-  const [before, after] = [openingOf(then.hash), openingOf(now.hash)];
-  if (!after) return '';
-  const area = (cost: Cost | null) => (cost ? areaText(cost) : '');
+  if (!openingOf(now.hash)) return '';
+  const row = (label: string, text: (valve: Figures) => string) => tableRow(label, text(then), text(now));
   return (
-    tableRow(valveTexts.openArea, area(before), area(after)) +
-    (state.flow.value
-      ? tableRow(reportTexts.gradient(state.flow.value), gradientText(before), gradientText(after))
-      : '') +
-    tableRow(valveTexts.lengths, lengthsText(before), lengthsText(after))
+    row(valveTexts.openArea, areaText) +
+    (state.flow.value ? row(reportTexts.gradient(state.flow.value), gradientText) : '') +
+    row(valveTexts.lengths, lengthsText)
   );
 }
 
@@ -127,6 +126,12 @@ ${word(left, y + 1.3 * size, 'start', sectionTexts.anterior)}${word(right, y + 1
 ${word(x + width / 2, bottom - 0.7 * size, 'middle', sectionTexts.ventricle)}${word(left + 5, bottom - 0.7 * size, 'middle', sectionTexts.scale)}
 ${word(left, bottom + 0.9 * size, 'start', reportTexts.dashed)}${word(right, bottom + 0.9 * size, 'end', reportTexts.line, '#b5493b')}
 ${word(left, bottom + 2.2 * size, 'start', reportTexts.thin)}</svg>`;
+}
+
+/** Why the figures of a valve do not count, below its verdict. */
+function doubt(valve: Figures): string {
+  const note = doubtNote(valve);
+  return note && `<p class="doubt-note" data-testid="report-doubt">${escape(note)}</p>`;
 }
 
 /** The report as the body of an HTML page. */
@@ -150,20 +155,21 @@ function reportHtml({ shown }: Seen, pictures: Pictures, plot: string): string {
     .map((row) => tableRow(...row))
     .join('');
   return `<h1>${escape(state.title.value || now.valve)}</h1><p data-testid="report-plan">${escape(reportTexts.closed(date, keptName(now.hash)))}</p>
-<div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(headline(then))}</p></section>
-<section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
+<div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(headline(then))}</p>${doubt(then)}</section>
+<section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${doubt(now)}${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
 <div class="pair"><section>${images(pictures.before)}</section><section>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
-<div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table></section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
+<div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table>${notesBelow([then, now])}</section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
 ${otherPlans(now)}
 ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
 <p><small>${escape(valveTexts.outflow)} ${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;
 }
 
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
-.pair{display:grid;grid-template-columns:1fr 1fr;gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
-table{border-collapse:collapse}th,td{text-align:left;padding:.25rem 1.2rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400;white-space:nowrap}.wrap{white-space:normal}.plans th,.plans td{padding-right:.6rem}
-@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:54mm;object-fit:cover}svg.cut{max-height:60mm}}`;
+.pair{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
+table{border-collapse:collapse;width:100%}th,td{text-align:left;padding:.25rem .8rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400}td{white-space:nowrap}.wrap{white-space:normal}.plans th,.plans td{padding-right:.6rem;vertical-align:top}
+svg.cut{width:100%}td.doubtful{color:#5a6a79;font-style:italic}.doubt-note{border-left:4px dashed #b3261e;background:#f3f0f4;padding:.3rem .6rem}.marks{font-size:.9em;color:#5a6a79}
+@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:54mm;object-fit:contain}svg.cut{max-height:60mm}}`;
 
 export function ReportDialog() {
   const html = useSignal('');

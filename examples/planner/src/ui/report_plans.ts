@@ -1,12 +1,11 @@
 // The plans that are kept beside the one of a report, with their figures in a table, as HTML.
-import { openingOf } from '../store/limits';
 import { toMeasure } from '../store/opening';
 import { planName } from '../store/plans';
 import * as state from '../store/state';
 import { headline } from '../store/verdict';
-import { figureNames, reportTexts, valveTexts } from '../text/texts';
+import { doubtTexts, figureNames, reportTexts, valveTexts } from '../text/texts';
 import type { Figures } from '../protocol';
-import { areaText, comparedFigures, valueIn } from './compared';
+import { areaText, comparedFigures, markNotes, valueIn } from './compared';
 
 export function escape(text: string): string {
   return text.replace(/[&<>"']/g, (c) => `&#${c.charCodeAt(0)};`);
@@ -22,13 +21,27 @@ const chosen = new Set([
 ]);
 const columns = comparedFigures.filter(([name]) => chosen.has(name));
 
+/** Characters of a cell that stays on one line: a figure with its unit and marks; a sentence would push the plot beside it away. */
+const oneLine = 16;
+
+/** A cell of a table; a figure that does not count is drawn less strongly. */
+export function cellOf(text: string): string {
+  const classes = [text.length > oneLine ? 'wrap' : '', text.endsWith(doubtTexts.mark) ? 'doubtful' : ''];
+  return `<td class="${classes.join(' ').trim()}">${escape(text)}</td>`;
+}
+
+/** The marks in a table of these valves, in words. */
+export const notesBelow = (valves: Figures[]): string =>
+  markNotes(valves)
+    .map((note) => `<p class="marks">${escape(note)}</p>`)
+    .join('');
+
 function row(name: string, figures: Figures): string {
-  const cost = openingOf(figures.hash);
   const cells = [
     ...columns.map((column) => valueIn(column, figures)),
-    cost ? areaText(cost) : toMeasure.value ? reportTexts.coming : reportTexts.notMeasured,
+    areaText(figures) || (toMeasure.value ? reportTexts.coming : reportTexts.notMeasured),
   ];
-  const all = cells.map((cell) => `<td>${escape(cell)}</td>`).join('');
+  const all = cells.map(cellOf).join('');
   return `<tr><th>${escape(name)}</th><td class="wrap">${escape(headline(figures))}</td>${all}</tr>`;
 }
 
@@ -48,5 +61,5 @@ export function otherPlans(now: Figures): string {
   const heads = names.map((name) => `<th class="wrap">${escape(name)}</th>`).join('');
   const own = planName(now.hash);
   const rows = [row(own, now), ...others.map(([name, { figures }]) => row(name, figures))].join('');
-  return `<h2>${reportTexts.otherPlans}</h2><table class="plans" data-testid="report-plans"><tr>${heads}</tr>${rows}</table>`;
+  return `<h2>${reportTexts.otherPlans}</h2><table class="plans" data-testid="report-plans"><tr>${heads}</tr>${rows}</table>${notesBelow([now, ...others.map(([, { figures }]) => figures)])}`;
 }

@@ -4,7 +4,8 @@ import { figure, kindOf, partTexts, tableTexts, tipTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import { shownEdges } from '../store/edges';
 import { chordValue, percentOfLimit, shareOfLimit, suture } from '../notable';
-import { Section, Spread, times } from './parts';
+import { shownDoubt } from '../store/doubt';
+import { DoubtNote, Section, Spread, times } from './parts';
 
 /** mm2: less is shown as 0.0. */
 const shownLeak = 0.05;
@@ -19,7 +20,8 @@ export function Scallops({ figures }: { figures: Figures }) {
   const ranges = waiting ? undefined : state.shownSpread.value?.regions;
   return (
     <Section title={tableTexts.scallops} open>
-      <table class="table scallops" data-testid="scallops">
+      <DoubtNote />
+      <table class={`table scallops${shownDoubt.value ? ' doubtful' : ''}`} data-testid="scallops">
         <thead>
           <tr>
             <th>{tableTexts.scallop}</th>
@@ -83,9 +85,10 @@ export function Chordae({ figures }: { figures: Figures }) {
       <p class="hint">
         {tableTexts.chordaeHint} {chordae.some((chord) => chord.artificial) && tableTexts.artificialHint}
       </p>
+      <DoubtNote />
       {pulls && <Ranges />}
       <div class="scroll">
-        <table class="table" data-testid="chords">
+        <table class={`table${shownDoubt.value ? ' doubtful' : ''}`} data-testid="chords">
           <thead>
             <tr>
               <th>{tableTexts.chord}</th>

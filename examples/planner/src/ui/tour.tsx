@@ -3,13 +3,14 @@
 import { Check, Eye, Wrench } from 'lucide-preact';
 import { percentOfLimit } from '../notable';
 import * as state from '../store/state';
+import { marked } from '../store/doubt';
 import { reachesAll } from '../store/goals';
 import { openingOf } from '../store/limits';
 import { showChord, startValve } from '../store/tour';
 import { areaFigure, figure, say, tipTexts, tourTexts } from '../text/texts';
 import { OwnRepair } from './earlier';
 import { Goals } from './goals';
-import { Button, Section } from './parts';
+import { Button, DoubtNote, Section } from './parts';
 
 /** Whether the present plan reaches all goals of a valve, or another one did since the page was opened. */
 function signOf(number: number): 'now' | 'before' | 'none' {
@@ -102,8 +103,8 @@ function Score() {
   const row = (label: string, get: (column: (typeof columns)[number]) => string) => (
     <tr>
       <th scope="row">{label}</th>
-      {columns.map((column) => (
-        <td>{get(column)}</td>
+      {columns.map((column, k) => (
+        <td>{k === 0 ? marked(get(column), figures) : get(column)}</td>
       ))}
     </tr>
   );
@@ -126,6 +127,7 @@ function Score() {
           {row(tourTexts.rows.ap, (c) => figure(c.m.annulusAp, 1))}
         </tbody>
       </table>
+      <DoubtNote />
       {founding?.repaired && <p class="hint">{tourTexts.columnsHelp(other.help)}</p>}
       {founding?.repaired && (
         <Section title={other.title} name={`${other.title} ${tour.number}`}>

@@ -2,14 +2,14 @@
 import { Activity, Layers } from 'lucide-preact';
 import { measureCost, measureSpread } from '../store/measure';
 import { gradientOf, isTooMuch } from '../store/gradient';
-import { openingOf } from '../store/limits';
+import { isWide, openingOf } from '../store/limits';
 import { mostBillowing } from '../notable';
 import * as state from '../store/state';
 import { appTexts, valveTexts } from '../text/texts';
 import type { Figures, Measures } from '../protocol';
 import { Devices } from './devices';
 import { Flow } from './flow';
-import { Button, Figure, FigureHelpButton, Section, times } from './parts';
+import { Button, DoubtNote, Figure, FigureHelpButton, Section, times } from './parts';
 import { SectionPlot } from './section';
 import { Chordae, Scallops } from './tables';
 
@@ -22,6 +22,7 @@ export function ValvePanel() {
   const range = (name: keyof Measures, factor = 1) => times(spread?.measures[name], factor);
   return (
     <div class="panel-body">
+      <DoubtNote />
       <div class="figures">
         <Figure
           label={valveTexts.coaptationMean}
@@ -219,13 +220,10 @@ function Certainty() {
   );
 }
 
-/** mm2: the open valves of healthy adults have 4 to 6 cm2. */
-const widest = 600;
-
 function OpenArea({ figures }: { figures: Figures }) {
   const cost = openingOf(figures.hash);
   const gradient = gradientOf(cost);
-  const wide = !!cost && cost.openArea > widest;
+  const wide = !!cost && isWide(cost);
   return (
     <Section title={valveTexts.opens}>
       <Flow known={!!cost} />
@@ -236,7 +234,7 @@ function OpenArea({ figures }: { figures: Figures }) {
             value={cost.openArea / 100}
             unit="cm²"
             help={valveTexts.openAreaHelp}
-            note={wide ? '*' : ''}
+            note={wide ? valveTexts.wideMark : ''}
           />
           {gradient !== null && (
             <Figure
@@ -254,7 +252,7 @@ function OpenArea({ figures }: { figures: Figures }) {
           {valveTexts.measureOpen}
         </Button>
       )}
-      {wide && <p class="hint">* {valveTexts.openAreaWide}</p>}
+      {wide && <p class="hint">{valveTexts.openAreaWide}</p>}
       <p class="hint" data-testid="outflow">
         {valveTexts.outflow}
       </p>

@@ -1,7 +1,7 @@
 // The verdict in large letters over all panels: sealed or leaking, where and how much; dots stand for what is still to
 // come.
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
-import { leakBefore } from '../store/leak_range';
+import { beforeDoubt, doubtNote, marked } from '../store/doubt';
 import { allowedLoad, faultyLoad, smallAnnulus } from '../store/limits';
 import * as state from '../store/state';
 import { showChord } from '../store/tour';
@@ -19,13 +19,12 @@ export function Verdict() {
         <strong>{surface ? verdictTexts.surface : '…'}</strong>
       </div>
     );
-  const shape = figures.known === 'shape';
-  const { level, word, but, unmeasured, folded, severe } = verdictOf(figures);
+  const { level, word, but, unmeasured, folded, severe, doubt } = verdictOf(figures);
   const small = smallAnnulus();
   const tag = tagOf();
   const held = isHeld();
   // of the valve in the hand there is no grade
-  const grading = level === null || held ? 'none' : severe ? 4 : but.length && !level ? 'but' : level;
+  const grading = held ? 'none' : (doubt ?? (level === null ? 'none' : severe ? 4 : but.length && !level ? 'but' : level));
   return (
     <div
       class={`verdict level-${grading}${state.outdated.value ? ' outdated' : ''}`}
@@ -47,13 +46,16 @@ export function Verdict() {
           {reservation}
         </strong>
       ))}
-      <Leak figures={figures} graded={level !== null} />
+      {doubt !== 'cross' && <Leak figures={figures} graded={level !== null} />}
       {held && <div class="verdict-note">{verdictTexts.notWhileHeld}</div>}
-      {level === null && !shape && <div class="verdict-where">{verdictTexts.notFinal}</div>}
+      {doubt && (
+        <div class="verdict-where" data-testid="doubt">
+          {doubtNote(figures)}
+        </div>
+      )}
       {unmeasured && <div class="verdict-note">{verdictTexts.openingUnknown}</div>}
-      <Beyond figures={figures} />
+      {!doubt && <Beyond figures={figures} />}
       <Relieved figures={figures} />
-      {!shape && leakBefore(figures) && <div class="verdict-note">{leakBefore(figures)}</div>}
     </div>
   );
 }
@@ -142,9 +144,8 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
         <span class="big" data-testid="orifice">
           {shape ? '…' : size(orifice)}
         </span>{' '}
-        {words.leak}
-        {orifice === 0 && graded && words.atPressure}
-        {before !== undefined && !shape && size(before) !== size(orifice) && (
+        {marked(words.leak + words.atPressure, figures)}
+        {before !== undefined && graded && !beforeDoubt.value && size(before) !== size(orifice) && (
           <span class="was">{words.was(size(before))}</span>
         )}
         <Spread range={spread?.orifice} digits={digits(orifice)} />

@@ -15,6 +15,7 @@ import type {
 import { beyondLimit, shareOfLimit } from '../notable';
 import { mostSent, Recent } from '../recent';
 import { clipsOf, historyOf } from './history';
+import { residualOf } from './residuals';
 import { ml, mm, mm2, scaled } from './units';
 
 /** Pa; natural chordae have less, expanded PTFE 400 MPa. */
@@ -136,7 +137,7 @@ function measuresOf(snapshot: Snapshot, known: Known): Measures {
     known === 'all'
       ? snapshot.measure()
       : known === 'orifice'
-        ? snapshot.measure('orifice', 'coaptation', 'chords', 'annulus')
+        ? snapshot.measure('orifice', 'coaptation', 'chords', 'annulus', 'crossings')
         : snapshot.measure('chords', 'annulus');
   return {
     orifice: m.regurgitant_orifice_area * mm2,
@@ -242,6 +243,7 @@ export function figuresOf(mvs: Mvs, snapshot: Snapshot, known: Known = 'all'): F
   const all = known === 'all';
   const chords = chordsOf(mvs, snapshot);
   const measures = measuresOf(snapshot, known);
+  measures.residual = residualOf(snapshot.hash);
   measures.chordsOver = beyondLimit(chords).length;
   measures.chordLoad = Math.max(0, ...chords.map(shareOfLimit));
   const force = snapshot.array<Float64Array>('head_force');

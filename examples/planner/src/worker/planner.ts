@@ -28,6 +28,7 @@ import { libraryFields } from './operations';
 import { ofRepair } from './history';
 import { costOf } from './opening';
 import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
+import { keepResidual } from './residuals';
 import { sectionOf } from './section';
 import { spreadOf } from './spread';
 
@@ -123,6 +124,7 @@ export class Planner {
 
   private async settle(sim: Simulator, signal: AbortSignal, report: (share: number) => void): Promise<void> {
     await sim.settleInSlices({ ...settleOptions, slice, signal, onProgress: report });
+    keepResidual(sim);
   }
 
   shown(): Shown {

@@ -7,6 +7,7 @@ import type { Range, SessionContents, SessionOpened } from '../protocol';
 import { refusals } from '../text/texts';
 import { isFlow } from '../units';
 import type { Planner } from './planner';
+import { keepResidual } from './residuals';
 
 const format = 'mvs-planner-session';
 const version = 1;
@@ -114,11 +115,13 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
       ({ name, plan }) => {
         trial.load(valve, 'obj');
         trial.replayPlan(text(String(plan)));
+        keepResidual(trial);
         return [String(name), trial.snapshot()] as const;
       },
     );
     trial.load(valve, 'obj');
     trial.replayPlan(text('plan.json'));
+    keepResidual(trial);
     const repaired = trial.snapshot();
     const done = () => trial.read((snapshot) => snapshot.history().done.length);
     const before = Math.min(done(), Math.max(0, Math.floor(Number(description.before) || 0)));
