@@ -60,6 +60,10 @@ export interface CheckpointList {
 export interface Shown {
   picture: Picture;
   figures: Figures;
+  /** What the library warned of on the way to it. */
+  warnings?: string[];
+  /** mmHg: the load of the valve file that was opened, where it is another one than the page closes with. */
+  ownLoad?: number;
 }
 
 /** A picture while something moves: a settle, the opening slider, a hand. */
@@ -148,6 +152,8 @@ export interface SessionOpened {
   notes: string;
   title: string;
   leakRange: Range | null;
+  /** The range is that of the first valve, and not of one from which operations made it. */
+  leakRangeOwn: boolean;
   flow: number | null;
   tour: number | null;
   sameResult: boolean;

@@ -8,6 +8,7 @@ import { rangeFault } from './bounds';
 import { cancel, complete as addFigures, fail, isCancelled, request, sentenceOf, show } from './requests';
 import { sayPreview } from './result';
 import * as state from './state';
+import { warnOfStep } from './warnings';
 
 /** ms for which a newer value waits for the shape of an older one. */
 const patience = 250;
@@ -194,6 +195,7 @@ export async function apply(): Promise<void> {
     state.busy.value = null;
     show(shown, false, say(titlesOf(shown.figures).at(-1) ?? ''));
     state.changed.value = true;
+    warnOfStep(shown);
   });
   try {
     const last = await accepted;

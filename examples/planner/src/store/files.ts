@@ -4,14 +4,16 @@ import { titlesOf } from '../notable';
 import { shippedVertices } from '../shipped';
 import { leaveTexts, say, startTexts, t } from '../text/texts';
 import { millimetres } from '../units';
-import type { FileUnit, Shown } from '../protocol';
+import type { FileUnit, Motion, Shown } from '../protocol';
 import { mayReplace } from './ask';
 import { discard } from './edit';
 import { knownFounding, learnFounding } from './founding';
-import { keepLeakRange, rangeIn } from './leak_range';
+import { keepLeakRange, leakRange, rangeIn } from './leak_range';
 import { forget, leave, remember, repairOf, type Left } from './left';
 import { run, show, whole } from './requests';
 import * as state from './state';
+import { noteIn } from './valve_note';
+import { warnOfFile, warnOfPlan } from './warnings';
 
 type Said = typeof state.notice.value;
 
@@ -81,7 +83,7 @@ function begun(
   title: string,
   left: Left | null,
   onlyHere = false,
-  said: Said = null,
+  said: (shown: Shown) => Said = () => null,
 ): void {
   if (!shown) return;
   leaveSurface();
@@ -92,7 +94,23 @@ function begun(
     state.onlyHere.value = onlyHere;
     show(shown, true);
   });
-  offerReturn(left, said);
+  // once it is the valve of the plan
+  offerReturn(left, said(shown));
+}
+
+/** Shows the open valve that closes: the figures of the valve of the plan do not stand beside it. */
+function showComing(motion: Motion): void {
+  batch(() => {
+    state.motion.value = motion;
+    state.coming.value = true;
+    state.choice.value = null;
+  });
+}
+
+/** It is closed, or the valve of the plan is shown again. */
+function arrived(): void {
+  state.coming.value = false;
+  state.motion.value = null;
 }
 
 export const openShipped = (...shipped: Parameters<typeof leaveForShipped>): Promise<void> =>
@@ -107,25 +125,10 @@ async function leaveForShipped(
   const was = state.tour.value;
   // goals are judged as soon as there is something to compare with: not on the valve that is still shown
   state.tour.value = tour && { ...tour, founding: null };
-  const shown = await run(
-    t.closing,
-    'open_shipped',
-    { name, vertices: shippedVertices },
-    {
-      motion: (motion) => {
-        batch(() => {
-          state.motion.value = motion;
-          state.coming.value = true;
-          state.choice.value = null;
-        });
-      },
-    },
-  );
+  const shown = await run(t.closing, 'open_shipped', { name, vertices: shippedVertices }, { motion: showComing });
   batch(() => {
-    state.coming.value = false;
+    arrived();
     if (!shown) {
-      // the valve of the plan is shown again
-      state.motion.value = null;
       state.tour.value = was;
       return;
     }
@@ -142,15 +145,17 @@ async function leaveForItself(): Promise<void> {
   const figures = state.main.value?.figures;
   if (!figures) return;
   discard();
+  const range = leakRange();
   const title = state.title.value || figures.valve;
   const steps = titlesOf(figures).map(say);
   const notes = [state.notes.value, startTexts.steps(title, steps)].filter(Boolean).join('\n');
   const left = await leave();
   const shown = await run(t.saving, 'begin_here', null);
   if (!shown) return;
+  keepLeakRange(shown.figures.hash, range, false);
   batch(() => {
     state.tour.value = null;
-    begun(shown, startTexts.title(title), left, true, { kind: 'info', text: startTexts.done });
+    begun(shown, startTexts.title(title), left, true, () => ({ kind: 'info', text: startTexts.done }));
     state.notes.value = notes;
   });
 }
@@ -165,13 +170,23 @@ async function leaveForFile(file: File): Promise<void> {
   if (/\.mvsplan$|\.zip$/i.test(file.name)) return void (await openSession(bytes, left, file.name));
   const head = new TextDecoder().decode(bytes.subarray(0, 4000));
   if (/\.obj$/i.test(file.name) && /^#mvs|^# ?mvs|mvs:/m.test(head)) {
-    const shown = await run(t.closing, 'open_file', { name: file.name, bytes });
-    if (!shown) return blame(file.name);
-    state.tour.value = null;
-    return begun(shown, file.name.replace(/\.obj$/i, ''), left);
+    return openValve(file.name, bytes, left);
   }
   if (/\.(stl|ply|obj|off|vtp|vtk)$/i.test(file.name)) return void (await beginImport(file.name, bytes));
   state.notice.value = { kind: 'error', text: t.unknownFile(file.name) };
+}
+
+/** Opens a valve in a file of the library. */
+async function openValve(name: string, bytes: Uint8Array, left: Left | null): Promise<void> {
+  const shown = await run(t.closing, 'open_file', { name, bytes }, { motion: showComing });
+  batch(() => {
+    arrived();
+    if (!shown) return blame(name);
+    state.tour.value = null;
+    const note = noteIn(bytes);
+    if (note) keepLeakRange(shown.figures.hash, note.range, note.own);
+    begun(shown, name.replace(/\.obj$/i, ''), left, false, warnOfFile);
+  });
 }
 
 /** Shows a surface to build a valve from, with points that were clicked on it before; whether it could be read. */
@@ -239,8 +254,11 @@ async function leaveForSurface(): Promise<void> {
 
 /** Whether it was opened. */
 export async function openSession(bytes: Uint8Array, left: Left | null = null, name = ''): Promise<boolean> {
+  // figures of the valve before do not stand as those of the one that comes
+  state.coming.value = true;
   const opened = await run(t.replaying, 'open_session', { bytes });
   if (!opened) {
+    state.coming.value = false;
     const { value } = state.notice;
     if (value?.kind === 'error' && name)
       state.notice.value = { ...value, text: t.refusedFile(name, value.text) };
@@ -248,7 +266,8 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
   }
   leaveSurface();
   batch(() => {
-    keepLeakRange(opened.first.figures.hash, opened.leakRange);
+    state.coming.value = false;
+    keepLeakRange(opened.first.figures.hash, opened.leakRange, opened.leakRangeOwn);
     show(opened.shown, true);
     state.tour.value = opened.tour === null ? null : { number: opened.tour, founding: knownFounding() };
     state.first.value = opened.first;
@@ -261,6 +280,7 @@ export async function openSession(bytes: Uint8Array, left: Left | null = null, n
     state.notice.value = opened.sameResult
       ? { kind: 'info', text: t.sessionOpened }
       : { kind: 'error', text: t.sessionDiffers };
+    warnOfPlan(opened.shown);
   });
   offerReturn(left);
   // its goals are those of the tour again

@@ -1,12 +1,14 @@
 // Keeping: downloads of valve and session, and the file that follows the plan.
 import { effect, signal, untracked } from '@preact/signals';
 import { autosave, followSurface, keepCopy, leaveCopy, rest, sessionNow } from './recovery';
+import { leakNote } from './leak_range';
 import { fail, run } from './requests';
 import { sessionContents } from './session';
 import * as state from './state';
 import { t } from '../text/texts';
+import { withNote } from './valve_note';
 
-export function download(bytes: Uint8Array | string, name: string, type: string): void {
+export function download(bytes: Uint8Array | Blob | string, name: string, type: string): void {
   const url = URL.createObjectURL(new Blob([bytes], { type }));
   const link = document.createElement('a');
   link.href = url;
@@ -41,7 +43,8 @@ export function fileName(): string {
 
 export async function saveObj(): Promise<void> {
   const bytes = await run(t.saving, 'save_obj', null);
-  if (bytes) download(bytes, `${fileName()}.obj`, 'model/obj');
+  // the name of a surface that the valve was built from stays free
+  if (bytes) download(withNote(bytes, leakNote(state.main.value!.figures)), `${fileName()} valve.obj`, 'model/obj');
 }
 
 export async function saveSession(): Promise<void> {

@@ -1,13 +1,19 @@
 // The range within which the leak of a valve from an image is known: its chordae are guessed, so that the leak of its one closure says
-// little. It belongs to the valve as it was built; the leak after operations is compared with it.
+// little. It belongs to the valve as it was built; operations make the chordae no better known, so that its reservation stays.
 import { signal } from '@preact/signals';
 import type { Figures, Finding, Range } from '../protocol';
 import { verdictTexts } from '../text/texts';
 import { mm2 } from '../worker/units';
 import * as state from './state';
 
-/** mm2, by the hash of the closed valve as it was built. */
-const ranges = signal<Map<string, Range>>(new Map());
+export interface Known {
+  range: Range;
+  /** The range is that of this valve; else of the valve as it was built, from which operations led to this one. */
+  own: boolean;
+}
+
+/** By the hash of the closed valve with which a plan begins. */
+const ranges = signal<Map<string, Known>>(new Map());
 
 /** mm2; a range that is narrower reads as one number. */
 const least = 0.05;
@@ -19,21 +25,26 @@ export function rangeIn(findings: Finding[]): Range | null {
   return high === undefined ? null : [low, high];
 }
 
-export function keepLeakRange(hash: string, range: Range | null): void {
-  if (range && range[1] - range[0] >= least) ranges.value = new Map([...ranges.value, [hash, range]]);
+/** `own`: the valve is the one that was built. */
+export function keepLeakRange(hash: string, range: Range | null, own = true): void {
+  if (range && range[1] - range[0] >= least)
+    ranges.value = new Map([...ranges.value, [hash, { range, own }]]);
 }
 
-/** The range of the valve with which the plan begins, if that was built from an image. */
-export const leakRange = (): Range | null => ranges.value.get(state.first.value?.figures.hash ?? '') ?? null;
+const ofPlan = (): Known | undefined => ranges.value.get(state.first.value?.figures.hash ?? '');
 
-/** Remark beside the leak of a valve as it was built; empty for others. */
-export const ofLeakRange = ({ hash }: Figures): string[] => {
-  const range = ranges.value.get(hash);
-  return range ? [verdictTexts.leakKnown(...range)] : [];
-};
+/** mm2, of the valve from an image with which the plan begins, or from which that was made. */
+export const leakRange = (): Range | null => ofPlan()?.range ?? null;
 
-/** Remark beside a valve after operations; empty where the leak before is known. */
-export function leakBefore({ hash }: Figures): string {
-  const range = leakRange();
-  return range && !ranges.value.has(hash) ? verdictTexts.leakBefore(...range) : '';
+/** What is known of a valve of the plan, to keep beside its file; null where its chordae are not guessed. */
+export function leakNote({ hash }: Figures): Known | null {
+  const known = ranges.value.get(hash) ?? ofPlan();
+  return known ? { range: known.range, own: known.own && ranges.value.has(hash) } : null;
+}
+
+/** Reservation on a valve whose chordae are guessed: the range of its leak, or, after operations, that of the leak before. */
+export function ofLeakRange(figures: Figures): string[] {
+  const known = leakNote(figures);
+  if (!known) return [];
+  return [(known.own ? verdictTexts.leakKnown : verdictTexts.leakBefore)(...known.range)];
 }

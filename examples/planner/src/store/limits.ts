@@ -23,6 +23,11 @@ export function openingOf(hash: string | undefined): Cost | null {
   return state.openings.value.get(hash) ?? null;
 }
 
+/** mm: the widths of the annuli of patients, from an infant's to a most dilated one; a valve beyond is probably in another unit. */
+const widths: [number, number] = [8, 80];
+
+export const isPlausible = (cc: number): boolean => cc >= widths[0] && cc <= widths[1];
+
 /** mm2: the open valves of healthy adults have 4 to 6 cm2. */
 const widest = 600;
 

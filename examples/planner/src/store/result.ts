@@ -4,7 +4,6 @@ import { t, verdictTexts } from '../text/texts';
 import type { Figures } from '../protocol';
 import * as state from './state';
 import { doubtOf } from './doubt';
-import { leakBefore } from './leak_range';
 import { measuresItself, unmeasurable } from './limits';
 import { headline, relieved, verdictOf } from './verdict';
 
@@ -16,8 +15,8 @@ let held: Figures | null = null;
 
 const lineOf = (what: string, before: Figures | null, now: Figures): string => {
   const slack = relieved(before, now);
-  const more = [slack.length ? verdictTexts.relieved(slack) : '', leakBefore(now)].filter(Boolean);
-  return t.statusLine(what, headline(now), doubtOf(now) ? null : now, more.join('. '));
+  const more = slack.length ? verdictTexts.relieved(slack) : '';
+  return t.statusLine(what, headline(now), doubtOf(now) ? null : now, more);
 };
 
 function speak(now: Figures): void {

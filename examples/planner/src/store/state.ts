@@ -93,7 +93,8 @@ export const compared = signal<Shown | null>(null);
 export const busy = signal<{ text: string; share: number; cancel?: () => void } | null>(null);
 export const notice = signal<{
   text: string;
-  kind: 'info' | 'error';
+  /** A warning stays until it is closed. */
+  kind: 'info' | 'warning' | 'error';
   /** The result code of the library behind an error. */
   code?: string;
   action?: { text: string; run: () => void };

@@ -6,9 +6,11 @@ import { apart, doubtTexts, grade, headlineOf, isSevere, stenosis, verdictTexts,
 import { doubtOf, type Doubt } from './doubt';
 import { missedGoals } from './goals';
 import { ofLeakRange } from './leak_range';
+import { ofMiddle, otherLeaflets } from './names';
 import {
   faultyLoad,
   foldedShare,
+  isPlausible,
   leastCentralCoaptation,
   leastOpening,
   narrowing,
@@ -67,7 +69,7 @@ function ofAnnulus({ measures }: Figures): string[] {
 function ofCentre({ measures: { orifice, coaptationHeight } }: Figures): string[] {
   const least = leastCentralCoaptation();
   return orifice === 0 && coaptationHeight < least
-    ? [verdictTexts.centreMeets(apart(coaptationHeight, least))]
+    ? [ofMiddle(verdictTexts.centreMeets(apart(coaptationHeight, least)))]
     : [];
 }
 
@@ -110,6 +112,7 @@ export function verdictOf(figures: Figures): Verdict {
     severe: share !== null || opensTooLittle(figures),
     but: [
       ...(share === null ? [] : [verdictTexts.folded(share)]),
+      ...ofKind(figures),
       ...ofLeakRange(figures),
       ...ofOpening(figures),
       ...(share === null ? ofAnnulus(figures) : []),
@@ -120,6 +123,15 @@ export function verdictOf(figures: Figures): Verdict {
     ],
     unmeasured: isNarrowed(figures) && !openingOf(figures.hash),
   };
+}
+
+/** What makes a valve no mitral valve of a patient: its size, or its leaflets. */
+function ofKind({ measures: { annulusCc } }: Figures): string[] {
+  const others = otherLeaflets.value;
+  return [
+    ...(isPlausible(annulusCc) ? [] : [verdictTexts.implausible(annulusCc)]),
+    ...(others ? [verdictTexts.notMitral(others)] : []),
+  ];
 }
 
 /** The verdict in one sentence, with the place of a leak. `lasting`: it is kept, and does not say what is still to be measured. */

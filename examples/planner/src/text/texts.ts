@@ -575,6 +575,25 @@ export const refusals = {
   noWorker: 'the worker did not start',
 };
 
+/** Figures of the middle section in a valve whose scallops are not called A2 and P2. */
+export const middleWords = (text: string): string =>
+  text
+    .replace(/,? A2[–-]P2/g, ' in the middle')
+    .replace('Length of A2 and P2 that is free', 'Free length of both leaflets in the middle')
+    .replace(/A2 and P2 (do not touch|meet) in the middle/, 'the leaflets $1 in the middle')
+    .replace('A2 and P2 meet', 'the leaflets meet in the middle');
+
+/** What is doubtful about a valve file. */
+export const warningTexts = {
+  size: (cc: number) =>
+    `The annulus of this valve is ${number(cc)} mm wide; those of patients are 8 to 80 mm. If the file is in another unit than mm, none of the figures holds.`,
+  notMitral: (leaflets: string[]) =>
+    `This valve has ${leaflets.length === 1 ? 'one leaflet' : 'the leaflets'} ${listOf(leaflets)}, not an anterior and a posterior one: the grades, limits and views of this page are those of the mitral valve and do not apply.`,
+  /** mmHg. */
+  otherLoad: (own: number) =>
+    `The file has this valve under ${number(own)} mmHg. It is closed under 120 mmHg here: the figures are not those of the file’s own load.`,
+};
+
 /** Of valves whose figures do not count. */
 export const doubtTexts = {
   /** Beside each figure of such a valve. */
@@ -601,6 +620,10 @@ export const verdictTexts = {
   trying: 'trying…',
   measuring: 'Measuring…',
   leak: 'mm² leak',
+  /** Reservations on a valve whose size or leaflets are not those of a mitral valve. */
+  implausible: (cc: number) => `annulus ${number(cc)} mm wide: is its file in mm?`,
+  notMitral: (leaflets: string[]) =>
+    `leaflets ${listOf(leaflets)}: grades of a mitral valve do not apply`,
   atPressure: ' at 120 mmHg',
   was: (orifice: string) => ` was ${orifice}`,
   at: (place: string) => `at ${place}`,
@@ -617,10 +640,11 @@ export const verdictTexts = {
   /** Beside the leak of a valve from an image. */
   leakKnown: (low: number, high: number) =>
     `chordae are guessed: a leak of ${number(low)} to ${number(high)} mm² is possible`,
+  /** Beside the leak of such a valve after operations. */
   leakBefore: (low: number, high: number) =>
-    `The leak before the repair is known as ${number(low)} to ${number(high)} mm² only: chordae were guessed, and the result is no better known`,
+    `chordae are guessed: the leak before the repair is known as ${number(low)} to ${number(high)} mm² only, and the result is no better known`,
   butHelp:
-    'A sealed valve may still open too little, have an annulus that is much too small, hardly meet in the middle, miss another goal, or hang on chordae that may tear.',
+    'A sealed valve may still hang on guessed chordae, open too little, have an annulus that is much too small, hardly meet in the middle, miss another goal, or hang on chordae that may tear.',
   /** `adult`: the annulus is smaller than an adult's, for whom the limits hold. */
   openingIs: (area: number, word: string, adult: boolean, goal: number | null) =>
     `opens to ${number(area / 100)} cm²: ${word}${adult ? ' for an adult' : ''}${goal === null ? '' : `, goal ${number(goal / 100)}`}`,
@@ -1192,9 +1216,9 @@ export const reportTexts = {
   title: 'Report',
   fileTitle: 'Valve report',
   fileName: (title: string) => `${title || 'valve'} report.html`,
-  /** `name`: under which the plan is kept. */
-  closed: (when: string, name: string) =>
-    `${when}. ${name ? `The plan “${name}”` : 'The present plan, which is not kept under a name'}, closed at 120 mmHg.`,
+  /** `name`: under which the plan is kept; `doubtful`: its figures do not count. */
+  closed: (when: string, name: string, doubtful: boolean) =>
+    `${when}. ${name ? `The plan “${name}”` : 'The present plan, which is not kept under a name'}, ${doubtful ? 'under 120 mmHg, but without a valid closed state' : 'closed at 120 mmHg'}.`,
   otherPlans: 'This plan and the other kept plans',
   notMeasured: 'not measured',
   coming: '…',
@@ -1300,7 +1324,7 @@ export const figureHelp: {
           names: ['Grade'],
           unit: 'in words',
           meaning:
-            'Sealed, mild, moderate, moderate–severe, severe. “Sealed, but” names what is wrong beside: a narrow opening, a much undersized annulus, leaflets that hardly meet in the middle, an unmet goal, chordae that may tear.',
+            'Sealed, mild, moderate, moderate–severe, severe. “Sealed, but” names what is wrong beside: guessed chordae, a narrow opening, a much undersized annulus, leaflets that hardly meet in the middle, an unmet goal, chordae that may tear.',
           measured:
             'By the leak: below 20, 30, 40 mm², and more, as an effective orifice in echocardiography.',
         },

@@ -3,6 +3,7 @@ import { titlesOf } from '../notable';
 import { doubtNotes, marked } from '../store/doubt';
 import { gradientOf } from '../store/gradient';
 import { isWide, openingOf } from '../store/limits';
+import { ofMiddle } from '../store/names';
 import { areaFigure, figure, figureNames, say, valveTexts } from '../text/texts';
 import type { Figures, Measures } from '../protocol';
 
@@ -27,7 +28,7 @@ export const valueIn = ([, get, digits, unit]: Compared, valve: Figures): string
 
 /** Name and both values of each figure, with their units. */
 export function comparedRows(one: Figures, other: Figures): [string, string, string][] {
-  return comparedFigures.map((row) => [row[0], valueIn(row, one), valueIn(row, other)]);
+  return comparedFigures.map((row) => [ofMiddle(row[0]), valueIn(row, one), valueIn(row, other)]);
 }
 
 /** The names of the operations of a plan. */

@@ -85,7 +85,7 @@ function Notice() {
   }, [notice]);
   if (!notice) return null;
   return (
-    <Floating kind={notice.kind} role={notice.kind === 'error' ? 'alert' : 'status'} id="notice">
+    <Floating kind={notice.kind} role={notice.kind === 'info' ? 'status' : 'alert'} id="notice">
       <span>{notice.text}</span>
       {notice.action && (
         <Button kind="main" onClick={() => ((state.notice.value = null), notice.action!.run())}>

@@ -3,8 +3,9 @@ import { useSignal } from '@preact/signals';
 import { useEffect } from 'preact/hooks';
 import { Download, Printer } from 'lucide-preact';
 import { download, fileName } from '../store/keep';
+import { ofMiddle } from '../store/names';
 import * as state from '../store/state';
-import { doubtNote, marked } from '../store/doubt';
+import { doubtNote, doubtOf, marked } from '../store/doubt';
 import { headline, relieved } from '../store/verdict';
 import { reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
 import type { Figures, SectionRequest, Shown } from '../protocol';
@@ -95,7 +96,7 @@ function lengthsText(valve: Figures): string {
   if (!cost) return '';
   const { anteriorLength: anterior, posteriorLength: posterior } = cost;
   const known = Number.isFinite(anterior) || Number.isFinite(posterior);
-  return known ? marked(valveTexts.lengthsOf(anterior, posterior), valve) : valveTexts.lengthsUnknown;
+  return known ? marked(valveTexts.lengthsOf(anterior, posterior), valve) : ofMiddle(valveTexts.lengthsUnknown);
 }
 
 /** Open areas, gradients and the lengths of the leaflets, if they were measured. */
@@ -105,7 +106,7 @@ function openingRows(then: Figures, now: Figures): string {
   return (
     row(valveTexts.openArea, areaText) +
     (state.flow.value ? row(reportTexts.gradient(state.flow.value), gradientText) : '') +
-    row(valveTexts.lengths, lengthsText)
+    row(ofMiddle(valveTexts.lengths), lengthsText)
   );
 }
 
@@ -154,7 +155,7 @@ function reportHtml({ shown }: Seen, pictures: Pictures, plot: string): string {
   const table = comparedRows(then, now)
     .map((row) => tableRow(...row))
     .join('');
-  return `<h1>${escape(state.title.value || now.valve)}</h1><p data-testid="report-plan">${escape(reportTexts.closed(date, keptName(now.hash)))}</p>
+  return `<h1>${escape(state.title.value || now.valve)}</h1><p data-testid="report-plan">${escape(reportTexts.closed(date, keptName(now.hash), !!doubtOf(now)))}</p>
 <div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(headline(then))}</p>${doubt(then)}</section>
 <section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${doubt(now)}${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
 <div class="pair"><section>${images(pictures.before)}</section><section>${images(pictures.after)}</section></div>

@@ -4,6 +4,7 @@ import { measureCost, measureSpread } from '../store/measure';
 import { gradientOf, isTooMuch } from '../store/gradient';
 import { isWide, openingOf } from '../store/limits';
 import { mostBillowing } from '../notable';
+import { ofMiddle } from '../store/names';
 import * as state from '../store/state';
 import { appTexts, valveTexts } from '../text/texts';
 import type { Figures, Measures } from '../protocol';
@@ -35,7 +36,7 @@ export function ValvePanel() {
           note={valveTexts.alongLeaflets}
         />
         <Figure
-          label={valveTexts.coaptationHeight}
+          label={ofMiddle(valveTexts.coaptationHeight)}
           value={m.coaptationHeight}
           before={before?.coaptationHeight}
           unit="mm"

@@ -3,6 +3,7 @@
 import { beyondLimit, percentOfLimit, shareOfLimit } from '../notable';
 import { beforeDoubt, doubtNote, marked } from '../store/doubt';
 import { allowedLoad, faultyLoad, smallAnnulus } from '../store/limits';
+import { ofMiddle } from '../store/names';
 import * as state from '../store/state';
 import { showChord } from '../store/tour';
 import { isOverloaded, relieved, verdictOf } from '../store/verdict';
@@ -137,7 +138,7 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
   const before = state.before.value?.measures.orifice;
   const spread = state.shownSpread.value?.measures;
   const little = orifice === 0 && coaptationHeight < littleHeight;
-  const help = little ? words.meetLittle + valveTexts.coaptationHeightHelp : valveTexts.coaptationMeanHelp;
+  const help = little ? ofMiddle(words.meetLittle) + valveTexts.coaptationHeightHelp : valveTexts.coaptationMeanHelp;
   return (
     <>
       <div class="verdict-figure">
@@ -154,7 +155,7 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
         <div class={little ? 'verdict-where little' : 'verdict-where'} title={orifice > 0 ? undefined : help}>
           {orifice > 0
             ? words.at(where(figures))
-            : words.meet(figure(coaptationMean), little ? coaptationHeight : null)}
+            : ofMiddle(words.meet(figure(coaptationMean), little ? coaptationHeight : null))}
           {orifice === 0 && <Spread range={spread?.coaptationMean} digits={1} />}
         </div>
       )}

@@ -57,6 +57,9 @@ async function start(library: string): Promise<Calls['start']['result']> {
   return { version: mvs.version, operations: operationsOf(mvs) };
 }
 
+/** The open valve is shown while it closes. */
+const showOpen = (id: number): void => post({ id, motion: planner.motion(0) });
+
 type Handlers = {
   [Name in CallName]: (
     argument: Calls[Name]['argument'],
@@ -68,16 +71,12 @@ const handlers: Handlers = {
   start: ({ library }) => start(library),
   open_shipped: ({ name, vertices }, { id, signal, report }) => {
     letGo();
-    const bytes = shippedValve(mvs, name, vertices);
-    const closed = planner.openBytes(bytes, signal, report);
-    // the open valve is shown while it closes
-    post({ id, motion: planner.motion(0) });
-    return closed;
+    return planner.openBytes(shippedValve(mvs, name, vertices), signal, report, () => showOpen(id));
   },
   begin_here: () => (letGo(), planner.beginHere()),
-  open_file: ({ bytes }, { signal, report }) => {
+  open_file: ({ bytes }, { id, signal, report }) => {
     letGo();
-    return planner.openBytes(bytes, signal, report);
+    return planner.openBytes(bytes, signal, report, () => showOpen(id));
   },
   preview: (operation, { signal, report, stage }) => planner.previewOf(operation, signal, report, stage),
   accept: ({ has }, { stage }) => planner.accept(has, stage),

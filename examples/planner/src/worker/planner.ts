@@ -31,6 +31,8 @@ import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
 import { keepResidual } from './residuals';
 import { sectionOf } from './section';
 import { spreadOf } from './spread';
+import { mmHg } from './units';
+import { Warnings } from './warnings';
 
 /** Settles run in slices of this length, s, so that a cancel is heard. */
 const slice = 0.03;
@@ -38,8 +40,14 @@ const slice = 0.03;
  * page shows no margins of stability. */
 const settleOptions = { residual: 1e-4, flags: SettleFlags.no_margins };
 
+/** mmHg: the load of a closed valve in a file, where it is another one than systole; an open valve has none to be closed under. */
+function otherLoad({ loadCase: { pressure } }: Simulator): number | undefined {
+  return pressure > 0 && Math.abs(pressure / SYSTOLE_PA - 1) > 0.01 ? pressure / mmHg : undefined;
+}
+
 export class Planner {
   readonly main: Simulator;
+  readonly warnings = new Warnings();
   private readonly second: Simulator;
   private preview: Snapshot | null = null;
   /** Bytes of the starting valve, an OBJ file. */
@@ -55,27 +63,32 @@ export class Planner {
   private forgotten = false;
 
   constructor(readonly mvs: Mvs) {
-    this.main = mvs.simulator();
-    this.second = mvs.simulator();
+    this.main = this.warnings.simulator(mvs);
+    this.second = this.warnings.simulator(mvs);
   }
 
-  /** Closes a valve file beside the plan, of which nothing changes where that fails or is cancelled; then begins a plan with it. */
+  /** Closes a valve file beside the plan, of which nothing changes where that fails or is cancelled; then begins a plan with it.
+   *  `loaded`: the file is read, and closing begins. */
   async openBytes(
     bytes: Uint8Array | string,
     signal: AbortSignal,
     report: (share: number) => void,
+    loaded = () => {},
   ): Promise<Shown> {
     this.discard();
+    this.warnings.take();
     this.second.load(bytes, 'obj');
+    const ownLoad = otherLoad(this.second);
     const start = this.second.read((snapshot) => snapshot.save('obj'));
     this.second.load(start, 'obj');
+    loaded();
     this.second.setLoad({ pressure: SYSTOLE_PA, boundary_fraction: 1 });
     await this.settle(this.second, signal, report);
     this.forget();
     this.first = this.second.snapshot();
     this.main.restore(this.first);
     this.start = start;
-    return this.shown();
+    return { ...this.shown(), warnings: this.warnings.take(), ownLoad };
   }
 
   /**
@@ -188,11 +201,14 @@ export class Planner {
     const fields = libraryFields(this.mvs, operation);
     this.main.check(operation.kind, fields);
     this.main.read((snapshot) => this.second.restore(snapshot));
+    this.warnings.take();
     this.second.apply(operation.kind, fields);
     await this.settle(this.second, signal, report);
+    const warnings = this.warnings.take();
     const preview = this.second.snapshot();
     this.preview = preview;
-    return this.inStages(preview, stage, null, signal);
+    const last = await this.inStages(preview, (shown) => stage({ ...shown, warnings }), null, signal);
+    return { ...last, warnings };
   }
 
   discard(): void {

@@ -108,7 +108,8 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
   const description = describe(files);
   const text = (name: string): string =>
     files[name] ? strFromU8(files[name]) : refuse(refusals.missing(name));
-  const trial = planner.mvs.simulator();
+  planner.warnings.take();
+  const trial = planner.warnings.simulator(planner.mvs);
   try {
     const valve = files['valve.obj'] ?? refuse(refusals.missing('valve.obj'));
     const checkpoints = (Array.isArray(description.checkpoints) ? description.checkpoints : []).map(
@@ -132,7 +133,7 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
   } finally {
     trial.dispose();
   }
-  const shown = planner.shown();
+  const shown = { ...planner.shown(), warnings: planner.warnings.take() };
   return {
     shown,
     first: planner.shownFirst(),
@@ -140,6 +141,7 @@ export function openSession(planner: Planner, bytes: Uint8Array): SessionOpened 
     notes: String(description.notes ?? ''),
     title: String(description.title ?? ''),
     leakRange: rangeOf(description.leak_range_mm2),
+    leakRangeOwn: !planner.before,
     flow: isFlow(Number(description.flow_ml_s)) ? Number(description.flow_ml_s) : null,
     tour: tourValves.has(Number(description.tour)) ? Number(description.tour) : null,
     sameResult: shown.figures.hash === description.hash,
