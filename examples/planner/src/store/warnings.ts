@@ -1,5 +1,5 @@
 // Notices on what is doubtful about a valve file, and the warnings of the library on opening it and on running a plan.
-import { say, warningTexts } from '../text/texts';
+import { warningTexts } from '../text/texts';
 import type { Shown } from '../protocol';
 import { isMitral, leafletNames } from './names';
 import { isPlausible } from './limits';
@@ -14,7 +14,7 @@ function fresh({ warnings = [] }: Shown): string[] {
   if (plan !== state.plan.value) [told, plan] = [new Set(), state.plan.value];
   const all = warnings.filter((text) => !told.has(text));
   for (const text of all) told.add(text);
-  return all.map((text) => `${say(text)}.`);
+  return all.map(warningTexts.library);
 }
 
 /** A notice with these sentences, which stays until it is closed; null without any. */

@@ -585,6 +585,12 @@ export const middleWords = (text: string): string =>
 
 /** What is doubtful about a valve file. */
 export const warningTexts = {
+  /** A warning of the library as a sentence of the page, without its commands and fields. */
+  library: (text: string) =>
+    `${say(text)
+      .replace(/; for contact there too: .*$/, '')
+      .replace(/: (thickness|rest_length) is in m\b(, not a share of the distance)?/, '')
+      .replace(/^./, (letter) => letter.toUpperCase())}.`,
   size: (cc: number) =>
     `The annulus of this valve is ${number(cc)} mm wide; those of patients are 8 to 80 mm. If the file is in another unit than mm, none of the figures holds.`,
   notMitral: (leaflets: string[]) =>
@@ -983,6 +989,9 @@ export const formTexts = {
     const [all, from, to] = [value, low, high].map((one) => +one.toPrecision(4));
     return `${all} ${unit} is beyond the slider, which goes from ${from} to ${to} ${unit}.`;
   },
+  /** Refusal of a text that is no number; `kept` stays in its box. */
+  noNumber: (text: string, kept: string) =>
+    `“${text}” is no number here: write 8.5 or 8,5, and no sign between thousands. ${kept ? `It stays ${kept}.` : 'The field stays empty.'}`,
   /** Refusal of a number that no operation takes. */
   outside: (label: string, value: number, low: number, high: number, unit: string) => {
     const [is, from, to] = [value, low, high].map((one) => String(+one.toPrecision(4)).replace('-', '−'));

@@ -22,7 +22,6 @@ import { TopBar, ViewBar } from './toolbar';
 import { TourPanel } from './tour';
 import { ValvePanel } from './valve';
 import { Verdict } from './verdict';
-import { watchWheel } from './wheel';
 
 let viewport: Viewport | null = null;
 export const view = (): Viewport | null => viewport;
@@ -204,13 +203,13 @@ export function App() {
     window.addEventListener('dragover', onDrag);
     window.addEventListener('dragleave', onDragEnd);
     window.addEventListener('drop', onDrop);
-    const ends = [watchPresses(), watchWheel()];
+    const endPresses = watchPresses();
     return () => {
       window.removeEventListener('keydown', onKeyDown);
       window.removeEventListener('dragover', onDrag);
       window.removeEventListener('dragleave', onDragEnd);
       window.removeEventListener('drop', onDrop);
-      ends.forEach((end) => end());
+      endPresses();
     };
   }, []);
   if (state.broken.value) {

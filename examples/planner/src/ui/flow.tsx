@@ -4,14 +4,14 @@ import { measureCost } from '../store/measure';
 import * as state from '../store/state';
 import { tips, valveTexts } from '../text/texts';
 import { flowRange, isFlow } from '../units';
+import { DecimalBox } from './decimal';
 
 /** The flow whose gradient is shown. `known`: the opening is. */
 export function Flow({ known }: { known: boolean }) {
   const refused = useSignal('');
-  const take = (text: string) => {
-    const given = parseFloat(text);
-    const fits = isFlow(given);
-    refused.value = fits || Number.isNaN(given) ? '' : valveTexts.flowOutside(given, ...flowRange);
+  const take = (given: number | undefined) => {
+    const fits = given !== undefined && isFlow(given);
+    refused.value = fits || given === undefined ? '' : valveTexts.flowOutside(given, ...flowRange);
     state.flow.value = fits ? given : null;
     state.changed.value = true;
     if (fits && !known) void measureCost();
@@ -20,16 +20,14 @@ export function Flow({ known }: { known: boolean }) {
     <div class="field">
       <label for="flow">{valveTexts.flow}</label>
       <div class="number">
-        <input
+        <DecimalBox
           id="flow"
           title={tips[valveTexts.flow]}
-          type="number"
-          inputMode="decimal"
-          min={flowRange[0]}
-          max={flowRange[1]}
-          step="any"
-          value={state.flow.value ?? ''}
-          onChange={(event) => take(event.currentTarget.value)}
+          range={flowRange}
+          step={10}
+          text={String(state.flow.value ?? '')}
+          onTake={take}
+          onRefuse={(sentence) => (refused.value = sentence)}
         />
         <span class="unit">{valveTexts.flowUnit}</span>
       </div>

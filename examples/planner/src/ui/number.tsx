@@ -7,6 +7,7 @@ import * as state from '../store/state';
 import { ringCurves } from '../view/heart';
 import { clipPlaceIn, fieldTip, figure, formTexts } from '../text/texts';
 import type { FieldInfo } from '../protocol';
+import { DecimalBox } from './decimal';
 import { SliderEnds } from './parts';
 
 /** Ranges and steps of sliders: usual values, where the library accepts more. */
@@ -130,12 +131,6 @@ function sizeWords(size: number, largest: number): string {
 /** Sizes of rings go by 2 mm, about 5 %: the nearest size above the annulus is none too large. */
 const oversized = 1.05;
 
-/** ms without a key after which a typed number is tried. */
-const pause = 700;
-let typing = 0;
-/** Whether a number was typed that no Enter has taken yet, also where its preview came by itself. */
-let typed = false;
-
 export function NumberField(props: FieldProps) {
   const { kind, field } = props;
   const value = state.draft.value?.fields[field.name] as number | undefined;
@@ -144,10 +139,9 @@ export function NumberField(props: FieldProps) {
   const rest = kind === 'chord_length' && field.name === 'length' ? restOfChord() : null;
   const given = fallbackOf(field);
   const fallback = field.name === 'length' ? (state.added.value?.rest ?? given) : given;
-  const set = (text: string) => {
-    const number = parseFloat(text.replace(',', '.'));
-    setField(field.name, Number.isFinite(number) ? number / scale : undefined);
-  };
+  const set = (number: number | undefined) =>
+    setField(field.name, number === undefined ? undefined : number / scale);
+  const noNumber = useSignal('');
   const shown = value ?? (range ? fallback : undefined);
   const position = isPosition(kind, field.name);
   const text = textOf(position && value ? Math.abs(value) : value, scale, rest);
@@ -157,9 +151,9 @@ export function NumberField(props: FieldProps) {
   // of a position the box has the distance from the middle, and words beside it have the side
   const sense = useSignal(1);
   if (position && value) sense.value = Math.sign(value);
-  /** Takes what was typed into the box. */
-  const type = (typed: string) =>
-    set(position && sense.value < 0 ? `${-parseFloat(typed.replace(',', '.'))}` : typed);
+  /** Takes the number of the box. */
+  const take = (number: number | undefined) =>
+    set(position && sense.value < 0 && number !== undefined ? -number : number);
   // a number that is refused says so beside Apply
   const refused = isOutside(field, value);
   const beyond = value !== undefined && !!range && !refused && (value < low! || value > high!);
@@ -178,19 +172,16 @@ export function NumberField(props: FieldProps) {
               max={slider(position ? low! : high!)}
               step={range[2] * scale}
               value={slider(shown ?? (low! + high!) / 2)}
-              onInput={({ currentTarget: { value: text } }) => set(position ? String(0 - +text) : text)}
+              onInput={({ currentTarget: { value: text } }) => set(position ? 0 - +text : +text)}
             />
             <SliderEnds
               ends={position ? formTexts.sides : [low!, high!].map((end) => +(end * scale).toPrecision(4))}
             />
           </span>
         )}
-        <input
+        <DecimalBox
           id={`f-${field.name}`}
-          type="number"
-          inputMode="decimal"
-          step="any"
-          value={text}
+          text={text}
           placeholder={
             fallback !== undefined
               ? String(+(fallback * scale).toPrecision(3))
@@ -198,28 +189,18 @@ export function NumberField(props: FieldProps) {
                 ? formTexts.auto
                 : ''
           }
-          onInput={(event) => {
-            // a number that was typed to its end is tried without Enter; "19." goes on
-            const { currentTarget: box } = event;
-            const now = box.value;
-            typed = true;
-            window.clearTimeout(typing);
-            if (now === text || String(parseFloat(now)) !== now) return;
-            typing = window.setTimeout(() => box.isConnected && box.value === now && type(now), pause);
-          }}
-          onChange={(event) => event.currentTarget.value !== text && type(event.currentTarget.value)}
-          onKeyDown={(event) => {
-            // Enter takes a number that was typed; once more, with its preview in sight, it applies
-            const { key, currentTarget: box } = event;
-            if (key !== 'Enter' || (!typed && box.value === text)) return;
-            event.preventDefault();
-            typed = false;
-            if (box.value !== text) type(box.value);
-          }}
-          onBlur={() => (typed = false)}
+          step={Math.min(1, (range?.[2] ?? 1) * scale)}
+          eager
+          onTake={take}
+          onRefuse={(sentence) => (noNumber.value = sentence)}
         />
         <span class="unit">{unit}</span>
       </div>
+      {noNumber.value && (
+        <small class="warn" role="alert">
+          {noNumber.value}
+        </small>
+      )}
       {position && <Side sense={sense} value={value ?? 0} />}
       {kind === 'ring' && field.name === 'size' && <small>{sizeWords(shown ?? high!, high!)}</small>}
       {beyond && (
