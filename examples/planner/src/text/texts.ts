@@ -270,6 +270,8 @@ export function say(sentence: string): string {
 export const t = {
   product: 'Mitral repair planner',
   research: 'Research simulator. Not for decisions on treatment.',
+  /** The same where there is less room. */
+  researchShort: 'Research only, not for treatment',
   starting: 'Starting…',
   closing: 'Closing the valve…',
   previewing: 'Trying it…',

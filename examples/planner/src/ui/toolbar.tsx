@@ -94,8 +94,13 @@ function PresentValve() {
       ? tourTexts.present(tour.value.number)
       : title.value || state.figures.value?.valve;
   return (
-    <div class="present" data-testid="present" title={`${barTexts.present}: ${name ?? ''}`}>
-      {name}
+    <div class="present">
+      <div class="present-name" data-testid="present" title={`${barTexts.present}: ${name ?? ''}`}>
+        {name}
+      </div>
+      <small class="research" data-testid="research-short" title={t.research}>
+        {t.researchShort}
+      </small>
     </div>
   );
 }
