@@ -173,7 +173,8 @@ async function leaveForFile(file: File): Promise<void> {
     return openValve(file.name, bytes, left);
   }
   if (/\.(stl|ply|obj|off|vtp|vtk)$/i.test(file.name)) return void (await beginImport(file.name, bytes));
-  state.notice.value = { kind: 'error', text: t.unknownFile(file.name) };
+  const words = /\.(mrk\.json|fcsv|csv)$/i.test(file.name) ? t.landmarkFile : t.unknownFile;
+  state.notice.value = { kind: 'error', text: words(file.name) };
 }
 
 /** Opens a valve in a file of the library. */

@@ -24,5 +24,15 @@ const noMiddle = computed(() => {
   return !!scallops && ['A2', 'P2'].some((wanted) => !scallops.some(({ name }) => name === wanted));
 });
 
+/** The first scallops of both leaflets of a valve that has no A2 and P2, for operations that begin with these; else null. */
+export function insteadOfMiddle(): { anterior: string; posterior: string } | null {
+  const scallops = state.main.value && state.topologyOf(state.main.value.picture)?.scallops;
+  if (!noMiddle.value || !scallops) return null;
+  const [anterior, posterior] = ['a', 'p'].map((letter) =>
+    scallops.find(({ name }) => name.toLowerCase().startsWith(letter)),
+  );
+  return anterior && posterior ? { anterior: anterior.id, posterior: posterior.id } : null;
+}
+
 /** A text with the names of the middle scallops, which stand aside for "the middle" in a valve that has none. */
 export const ofMiddle = (text: string): string => (noMiddle.value ? middleWords(text) : text);

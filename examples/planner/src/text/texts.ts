@@ -260,6 +260,9 @@ export function say(sentence: string): string {
     .replace(/(?:divide|multiply) by \d+ or give --unit (\w+)/, (_, unit: string) =>
       importTexts.chooseUnit(unit),
     )
+    .replace('; give the closed leaflets to fit the lengths to them', importTexts.closedByCommand)
+    .replace('; give it if it is known', importTexts.thicknessByCommand)
+    .replace('; give the open leaflets, and these as the closed ones', importTexts.openOnly)
     .replace(clipEnd, () => `, ${clipSaid(clipWords(sentence)!)}`)
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) x (?=\d)/g, '$1 × ')
@@ -291,6 +294,8 @@ export const t = {
     'Session opened, but the repeated plan differs from the saved valve: it was saved by another version, or the file was changed.',
   unknownFile: (name: string) =>
     `${name} is not a file this page can open: it takes a session (.mvsplan), a valve (.obj), or a surface (.stl, .ply, .obj, .off, .vtk, .vtp).`,
+  landmarkFile: (name: string) =>
+    `${name} has landmarks, which this page does not read from a file: open the surface, and click the points on it.`,
   refusedFile: (name: string, why: string) => `${name} was not opened: ${why}.`,
   damagedFile: (name: string, why: string) =>
     `${name} is damaged, cut short or no ${name.replace(/.*\./, '').toUpperCase()} file: ${why}.`,
@@ -542,6 +547,11 @@ export const importTexts = {
   },
   tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
   again: 'Change and build again',
+  /** What the library asks for and this page has no field for. */
+  closedByCommand: ' (this page cannot fit their lengths to closed leaflets; the command “mvs import --closed” can)',
+  thicknessByCommand: ' (this page takes no other one; the command “mvs import --thickness” does)',
+  openOnly:
+    '; this page needs the open leaflets (the command “mvs import --closed” takes closed ones beside them)',
   kindGuessed: '; if it is not, choose what it is by “Change and build again”',
   chooseUnit: (unit: string) => `choose ${unit} as the unit of the file`,
   found: 'What was found and what was guessed',
@@ -583,7 +593,8 @@ export const middleWords = (text: string): string =>
     .replace(/,? A2[–-]P2/g, ' in the middle')
     .replace('Length of A2 and P2 that is free', 'Free length of both leaflets in the middle')
     .replace(/A2 and P2 (do not touch|meet) in the middle/, 'the leaflets $1 in the middle')
-    .replace('A2 and P2 meet', 'the leaflets meet in the middle');
+    .replace('A2 and P2 meet', 'the leaflets meet in the middle')
+    .replace('Join A2 and P2', 'Join both leaflets');
 
 /** What is doubtful about a valve file. */
 export const warningTexts = {

@@ -3,6 +3,7 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { Check, Crosshair, X } from 'lucide-preact';
 import { apply, complete, discard, replacements } from '../store/edit';
+import { ofMiddle } from '../store/names';
 import * as state from '../store/state';
 import { appTexts, formTexts, t, tips, wordsOf } from '../text/texts';
 import type { FieldInfo } from '../protocol';
@@ -51,6 +52,11 @@ export function OperationForm() {
   );
   const ready = complete(draft.kind, draft.fields);
   const foot = useRoomAboveFoot();
+  const head = useRef<HTMLHeadingElement>(null);
+  // the card that was pressed is gone: a screen reader goes on with the name of the form
+  useEffect(() => {
+    if (document.activeElement === document.body) head.current?.focus({ preventScroll: true });
+  }, []);
   return (
     <form
       class="panel-body form"
@@ -58,10 +64,12 @@ export function OperationForm() {
       onSubmit={(event) => (event.preventDefault(), void apply())}
     >
       <div class="form-head">
-        <h2>{words.title}</h2>
+        <h2 ref={head} tabIndex={-1}>
+          {words.title}
+        </h2>
         <Button kind="quiet" icon={<X size={18} />} label={formTexts.leave} keys="Escape" onClick={discard} />
       </div>
-      <p class="hint">{words.short}</p>
+      <p class="hint">{ofMiddle(words.short)}</p>
       {picking && (
         <p class="ask" role="status">
           <Crosshair size={16} aria-hidden="true" />{' '}

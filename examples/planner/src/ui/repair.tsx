@@ -18,6 +18,7 @@ import {
 } from 'lucide-preact';
 import { edit, presentLength } from '../store/edit';
 import { shownEdges } from '../store/edges';
+import { insteadOfMiddle, ofMiddle } from '../store/names';
 import * as state from '../store/state';
 import { appTexts, figure, operationTips, repairTexts, wordsOf } from '../text/texts';
 import type { FieldValue } from '../protocol';
@@ -65,6 +66,9 @@ export function firstFields(kind: string): Record<string, FieldValue> {
   const chord = choice?.kind === 'chord' ? figures?.chords.find((item) => item.id === choice.id) : undefined;
   if (kind === 'ring')
     return { size: Math.min(40, Math.max(24, 2 * Math.round((figures?.measures.annulusCc ?? 34) / 2))) };
+  const parts = insteadOfMiddle();
+  if (parts && kind === 'clip') return parts;
+  if (parts && kind === 'resect') return { scallop: parts.posterior };
   if (kind === 'band') return { factor: 0.9 };
   if (kind === 'annulus_scale') return { factor: 0.95 };
   if (kind === 'chord_length') return chord ? { chord: chord.id, length: presentLength(chord.id) } : {};
@@ -127,7 +131,7 @@ export function RepairPanel() {
           <Icon size={22} aria-hidden="true" />
           <span>
             <strong>{words.title}</strong>
-            <small>{words.short}</small>
+            <small>{ofMiddle(words.short)}</small>
           </span>
         </button>
       );
