@@ -167,7 +167,7 @@ describe('planner verdict', () => {
       };
     });
     assert.match(await card(), /^Not at rest/);
-    assert.equal((await inReport()).text, 'Not at rest');
+    assert.equal((await inReport()).text, 'Not at rest: its figures are not final');
     await page.getByRole('button', { name: 'Start from a healthy valve' }).click();
     await answered(page, 200);
   });

@@ -85,10 +85,12 @@ describe('planner figures that do not count', { skip: withoutCommand }, () => {
     assert.match(await said.innerText(), /† not final: this valve did not come to rest/);
     // wider than in life, for want of a wall
     assert.match((await cells(said, 'Open area'))[0], /\*$/);
-    assert.match(await said.innerText(), /\* More than the 4 to 6 cm² of healthy adults/);
+    assert.match(flat(await said.innerText()), /\* More than the 4 to 6 cm² of healthy adults/);
+    await page.keyboard.press('Escape');
   });
 
   it('prints_the_pictures_whole_and_the_section_in_a_size_to_read', async () => {
+    await report();
     const [download] = await Promise.all([
       page.waitForEvent('download'),
       page.getByRole('button', { name: 'Save as HTML' }).click(),
