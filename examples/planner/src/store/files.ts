@@ -125,7 +125,12 @@ async function leaveForShipped(
   const was = state.tour.value;
   // goals are judged as soon as there is something to compare with: not on the valve that is still shown
   state.tour.value = tour && { ...tour, founding: null };
-  const shown = await run(t.closing, 'open_shipped', { name, vertices: shippedVertices }, { motion: showComing });
+  const shown = await run(
+    t.closing,
+    'open_shipped',
+    { name, vertices: shippedVertices },
+    { motion: showComing },
+  );
   batch(() => {
     arrived();
     if (!shown) {

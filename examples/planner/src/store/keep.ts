@@ -44,7 +44,8 @@ export function fileName(): string {
 export async function saveObj(): Promise<void> {
   const bytes = await run(t.saving, 'save_obj', null);
   // the name of a surface that the valve was built from stays free
-  if (bytes) download(withNote(bytes, leakNote(state.main.value!.figures)), `${fileName()} valve.obj`, 'model/obj');
+  if (bytes)
+    download(withNote(bytes, leakNote(state.main.value!.figures)), `${fileName()} valve.obj`, 'model/obj');
 }
 
 export async function saveSession(): Promise<void> {

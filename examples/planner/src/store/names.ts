@@ -10,7 +10,8 @@ export const leafletNames = (picture: Picture): string[] =>
 
 /** Two leaflets, by their names the anterior and the posterior one. */
 export const isMitral = (names: string[]): boolean =>
-  names.length === 2 && ['a', 'p'].every((letter) => names.some((name) => name.toLowerCase().startsWith(letter)));
+  names.length === 2 &&
+  ['a', 'p'].every((letter) => names.some((name) => name.toLowerCase().startsWith(letter)));
 
 /** The leaflets of the valve of the plan where they are not those of a mitral valve; else null. */
 export const otherLeaflets = computed<string[] | null>(() => {

@@ -548,7 +548,8 @@ export const importTexts = {
   tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
   again: 'Change and build again',
   /** What the library asks for and this page has no field for. */
-  closedByCommand: ' (this page cannot fit their lengths to closed leaflets; the command “mvs import --closed” can)',
+  closedByCommand:
+    ' (this page cannot fit their lengths to closed leaflets; the command “mvs import --closed” can)',
   thicknessByCommand: ' (this page takes no other one; the command “mvs import --thickness” does)',
   openOnly:
     '; this page needs the open leaflets (the command “mvs import --closed” takes closed ones beside them)',
@@ -641,8 +642,7 @@ export const verdictTexts = {
   leak: 'mm² leak',
   /** Reservations on a valve whose size or leaflets are not those of a mitral valve. */
   implausible: (cc: number) => `annulus ${number(cc)} mm wide: is its file in mm?`,
-  notMitral: (leaflets: string[]) =>
-    `leaflets ${listOf(leaflets)}: grades of a mitral valve do not apply`,
+  notMitral: (leaflets: string[]) => `leaflets ${listOf(leaflets)}: grades of a mitral valve do not apply`,
   atPressure: ' at 120 mmHg',
   was: (orifice: string) => ` was ${orifice}`,
   at: (place: string) => `at ${place}`,

@@ -32,7 +32,13 @@ function checks(number: number, shown: Shown | null): Check[] {
   return [
     { text: goals.sealed, short: shortGoals.sealed, done: sealed },
     ...(scallop
-      ? [{ text: goals.edge(scallop, measures && flailHeight(shown)), short: shortGoals.edge(scallop), done: edge }]
+      ? [
+          {
+            text: goals.edge(scallop, measures && flailHeight(shown)),
+            short: shortGoals.edge(scallop),
+            done: edge,
+          },
+        ]
       : []),
     {
       text: goals.coaptation(leastCoaptation(), measures?.coaptationMean ?? NaN),

@@ -24,9 +24,13 @@ export function Figure(props: {
   const differs = props.before !== undefined && Math.abs(props.before - props.value) >= 0.5 * 10 ** -digits;
   // figures that do not count are no improvement
   const counts = !shownDoubt.value && !beforeDoubt.value;
-  const better = differs && counts && props.good ? (props.good === 'low') === props.value < props.before! : null;
+  const better =
+    differs && counts && props.good ? (props.good === 'low') === props.value < props.before! : null;
   return (
-    <div class={`figure${props.warn ? ' warn' : ''}${shownDoubt.value ? ' doubtful' : ''}`} title={props.help}>
+    <div
+      class={`figure${props.warn ? ' warn' : ''}${shownDoubt.value ? ' doubtful' : ''}`}
+      title={props.help}
+    >
       <span class="figure-label">{props.label}</span>
       <span class="figure-value">
         {waiting ? '…' : figure(props.value, digits)} <small>{props.unit}</small>

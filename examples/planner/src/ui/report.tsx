@@ -96,7 +96,9 @@ function lengthsText(valve: Figures): string {
   if (!cost) return '';
   const { anteriorLength: anterior, posteriorLength: posterior } = cost;
   const known = Number.isFinite(anterior) || Number.isFinite(posterior);
-  return known ? marked(valveTexts.lengthsOf(anterior, posterior), valve) : ofMiddle(valveTexts.lengthsUnknown);
+  return known
+    ? marked(valveTexts.lengthsOf(anterior, posterior), valve)
+    : ofMiddle(valveTexts.lengthsUnknown);
 }
 
 /** Open areas, gradients and the lengths of the leaflets, if they were measured. */

@@ -25,7 +25,9 @@ export function Verdict() {
   const tag = tagOf();
   const held = isHeld();
   // of the valve in the hand there is no grade
-  const grading = held ? 'none' : (doubt ?? (level === null ? 'none' : severe ? 4 : but.length && !level ? 'but' : level));
+  const grading = held
+    ? 'none'
+    : (doubt ?? (level === null ? 'none' : severe ? 4 : but.length && !level ? 'but' : level));
   return (
     <div
       class={`verdict level-${grading}${state.outdated.value ? ' outdated' : ''}`}
@@ -138,7 +140,9 @@ function Leak({ figures, graded }: { figures: Figures; graded: boolean }) {
   const before = state.before.value?.measures.orifice;
   const spread = state.shownSpread.value?.measures;
   const little = orifice === 0 && coaptationHeight < littleHeight;
-  const help = little ? ofMiddle(words.meetLittle) + valveTexts.coaptationHeightHelp : valveTexts.coaptationMeanHelp;
+  const help = little
+    ? ofMiddle(words.meetLittle) + valveTexts.coaptationHeightHelp
+    : valveTexts.coaptationMeanHelp;
   return (
     <>
       <div class="verdict-figure">

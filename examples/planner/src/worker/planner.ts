@@ -30,20 +30,14 @@ import { costOf } from './opening';
 import { figuresOf, frameOf, motionOf, pictureOf } from './picture';
 import { keepResidual } from './residuals';
 import { sectionOf } from './section';
-import { spreadOf } from './spread';
-import { mmHg } from './units';
-import { Warnings } from './warnings';
+import { closedOften } from './spread';
+import { otherLoad, Warnings } from './warnings';
 
 /** Settles run in slices of this length, s, so that a cancel is heard. */
 const slice = 0.03;
 /** N, largest out-of-balance force at rest: that of the library's recommendation for closures. The
  * page shows no margins of stability. */
 const settleOptions = { residual: 1e-4, flags: SettleFlags.no_margins };
-
-/** mmHg: the load of a closed valve in a file, where it is another one than systole; an open valve has none to be closed under. */
-function otherLoad({ loadCase: { pressure } }: Simulator): number | undefined {
-  return pressure > 0 && Math.abs(pressure / SYSTOLE_PA - 1) > 0.01 ? pressure / mmHg : undefined;
-}
 
 export class Planner {
   readonly main: Simulator;
@@ -299,17 +293,6 @@ export class Planner {
 
   /** Figures of several closures along different loading paths. */
   spread(members: number, report: (share: number) => void): Spread {
-    return this.main.read((snapshot) => {
-      const ensemble = snapshot.ensemble(
-        { pressure: SYSTOLE_PA, boundary_fraction: 1 },
-        { members, progress: (share: number) => (report(share), false) },
-        settleOptions,
-      );
-      try {
-        return { hash: snapshot.hash, ...spreadOf(this.mvs, ensemble) };
-      } finally {
-        ensemble.dispose();
-      }
-    });
+    return this.main.read((snapshot) => closedOften(this.mvs, snapshot, members, settleOptions, report));
   }
 }

@@ -1,5 +1,5 @@
 // The spread of the figures over the closures of an ensemble: their ranges over the members at rest.
-import type { Ensemble, Mvs } from 'libmvs';
+import { SYSTOLE_PA, type Ensemble, type Mvs, type Snapshot } from 'libmvs';
 import type { Figures, Measures, Range, Spread } from '../protocol';
 import { figuresOf } from './picture';
 import { mm } from './units';
@@ -42,7 +42,7 @@ function regionRanges(all: Figures[]): Spread['regions'] {
   );
 }
 
-export function spreadOf(mvs: Mvs, ensemble: Ensemble): Omit<Spread, 'hash'> {
+function spreadOf(mvs: Mvs, ensemble: Ensemble): Omit<Spread, 'hash'> {
   const all = figuresOfMembers(mvs, ensemble);
   const { members, converged, equilibria, node_max } = ensemble.summary;
   const numbers = ({ measures }: Figures) =>
@@ -59,4 +59,24 @@ export function spreadOf(mvs: Mvs, ensemble: Ensemble): Omit<Spread, 'hash'> {
     chords: rangesBy(all.map(({ chords }) => chords.map(({ id, tension }) => [id, tension]))),
     heads: all[0]?.heads.map((_, h) => rangeOf(all.map(({ heads }) => heads[h]))) ?? [],
   };
+}
+
+/** The spread over several closures of a valve along different loading paths. */
+export function closedOften(
+  mvs: Mvs,
+  snapshot: Snapshot,
+  members: number,
+  settle: Parameters<Snapshot['ensemble']>[2],
+  report: (share: number) => void,
+): Spread {
+  const ensemble = snapshot.ensemble(
+    { pressure: SYSTOLE_PA, boundary_fraction: 1 },
+    { members, progress: (share: number) => (report(share), false) },
+    settle,
+  );
+  try {
+    return { hash: snapshot.hash, ...spreadOf(mvs, ensemble) };
+  } finally {
+    ensemble.dispose();
+  }
 }

@@ -1,5 +1,11 @@
-// Warnings of the library while a valve is loaded, changed and closed: they go to the page with the valve.
-import type { Mvs, Simulator } from 'libmvs';
+// Warnings of the library while a valve is loaded, changed and closed, and the load of a file: they go to the page with the valve.
+import { SYSTOLE_PA, type Mvs, type Simulator } from 'libmvs';
+import { mmHg } from './units';
+
+/** mmHg: the load of a closed valve in a file, where it is another one than systole; an open valve has none to be closed under. */
+export function otherLoad({ loadCase: { pressure } }: Simulator): number | undefined {
+  return pressure > 0 && Math.abs(pressure / SYSTOLE_PA - 1) > 0.01 ? pressure / mmHg : undefined;
+}
 
 /** That it did not come to rest is in the figures of a valve. */
 const known = /^settle: /;

@@ -55,4 +55,28 @@ describe('planner under a careless hand', () => {
     await page.keyboard.press('Escape');
     await undo(page);
   });
+
+  it('never_calls_leaflets_that_cross_sealed', async () => {
+    const verdict = await page.evaluate(async () => {
+      const { main } = window.planner.state;
+      const [kept, { picture, figures: found }] = [main.value, main.value];
+      main.value = { picture, figures: { ...found, measures: { ...found.measures, crossings: 3 } } };
+      await new Promise((drawn) => setTimeout(drawn, 50));
+      const card = document.querySelector('[data-testid=verdict]').innerText;
+      main.value = kept;
+      return card;
+    });
+    assert.match(verdict, /^Leaflets cross/);
+    assert.doesNotMatch(verdict, /Sealed/);
+  });
+
+  it('takes_a_typed_decimal_comma_as_the_decimal_sign', async () => {
+    await begin(page, 'ring');
+    await page.locator('#f-size').focus();
+    await page.keyboard.press('Control+a');
+    await page.keyboard.type('32,5');
+    await page.keyboard.press('Tab');
+    assert.equal(await page.evaluate(() => window.planner.state.draft.value.fields.size), 32.5);
+    await page.keyboard.press('Escape');
+  });
 });

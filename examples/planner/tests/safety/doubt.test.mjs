@@ -76,7 +76,10 @@ describe('planner figures that do not count', { skip: withoutCommand }, () => {
       if (figure.trim()) assert.match(figure, /†/);
     assert.equal(await page.locator('.panel .better').count(), 0);
     const said = await report();
-    assert.match(flat(await said.innerText()), /After Not at rest: its figures are not final The valve did not/);
+    assert.match(
+      flat(await said.innerText()),
+      /After Not at rest: its figures are not final The valve did not/,
+    );
     for (const name of ['Leak', 'Coaptation length', 'Chordae beyond', 'Open area']) {
       const [before, after] = await cells(said, name);
       assert.match(after, /†$/, name);
