@@ -1,11 +1,12 @@
 // The box of a decimal number. Browsers' own boxes for numbers drop a decimal comma, so that 8,5 becomes 85: this one reads it, and
 // refuses what it cannot read, in a sentence.
+import { useSignal } from '@preact/signals';
 import { decimalOf } from '../decimal';
 import { formTexts } from '../text/texts';
 
 /** ms without a key after which a typed number is tried. */
 const pause = 700;
-let typing = 0;
+let timer = 0;
 /** Whether a number was typed that no Enter has taken yet, also where its preview came by itself. */
 let typed = false;
 
@@ -28,8 +29,11 @@ interface DecimalProps {
 
 export function DecimalBox(props: DecimalProps) {
   const { text, step = 1, range, onTake, onRefuse } = props;
+  // what is typed stays in the box while the page is drawn anew
+  const typing = useSignal<string | null>(null);
   const take = (box: HTMLInputElement) => {
     const value = decimalOf(box.value);
+    typing.value = null;
     if (value === null) {
       onRefuse(formTexts.noNumber(box.value, text));
       box.value = text;
@@ -67,20 +71,24 @@ export function DecimalBox(props: DecimalProps) {
       aria-valuemin={range?.[0]}
       aria-valuemax={range?.[1]}
       title={props.title}
-      value={text}
+      value={typing.value ?? text}
       placeholder={props.placeholder}
       onInput={({ currentTarget: box }) => {
         // "19." goes on
         const now = box.value;
         typed = true;
+        typing.value = now;
         onRefuse('');
-        window.clearTimeout(typing);
+        window.clearTimeout(timer);
         if (!props.eager || now === text || String(decimalOf(now)) !== now.replace(',', '.')) return;
-        typing = window.setTimeout(() => box.isConnected && box.value === now && take(box), pause);
+        timer = window.setTimeout(() => box.isConnected && box.value === now && take(box), pause);
       }}
       onChange={({ currentTarget: box }) => box.value !== text && take(box)}
       onKeyDown={onKeyDown}
-      onBlur={() => (typed = false)}
+      onBlur={() => {
+        typed = false;
+        typing.value = null;
+      }}
     />
   );
 }

@@ -47,7 +47,9 @@ function topologyKey(snapshot: Snapshot): string {
     Uint32Array.from(snapshot.array<Float64Array>('chord_area'), (area) => 1e12 * area),
   );
   hash = hashWords(hash, artificialOf(snapshot));
-  const names = ['chord', 'ring', 'head'].flatMap((kind) =>
+  // two files may have the same mesh with other names, or other scallops
+  hash = hashWords(hash, snapshot.array<Uint32Array>('triangle_scallop'));
+  const names = ['chord', 'ring', 'head', 'leaflet', 'scallop'].flatMap((kind) =>
     partsOf(snapshot, kind as 'chord').map((p) => `${p.id}${p.name}`),
   );
   const text = new Uint32Array(

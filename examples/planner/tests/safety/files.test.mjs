@@ -57,7 +57,7 @@ describe('planner valve files', { skip: withoutCommand }, () => {
   });
 
   it('without_scallops_have_no_A2_and_P2_in_words_and_begin_a_clip', async () => {
-    await said(withoutScallops());
+    assert.equal(await said(withoutScallops()), '');
     await openPanel(page, 'Valve');
     assert.match(flat(await page.locator('.panel').innerText()), /Coaptation height in the middle/);
     assert.doesNotMatch(await page.locator('.panel .figures').first().innerText(), /A2/);
