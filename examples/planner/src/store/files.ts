@@ -107,10 +107,12 @@ function showComing(motion: Motion): void {
   });
 }
 
-/** It is closed, or the valve of the plan is shown again. */
+/** It is closed, or the valve of the plan is shown again: where the file was refused before, nothing has changed. */
 function arrived(): void {
+  if (!state.coming.value) return;
   state.coming.value = false;
   state.motion.value = null;
+  state.openness.value = 1;
 }
 
 export const openShipped = (...shipped: Parameters<typeof leaveForShipped>): Promise<void> =>

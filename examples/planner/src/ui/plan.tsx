@@ -24,7 +24,7 @@ import { areaText, comparedRows, gradientText, markNotes, stepsOf } from './comp
 import { Button, Section } from './parts';
 
 export function PlanPanel() {
-  const figures = state.main.value?.figures;
+  const figures = state.resting.value?.figures;
   if (!figures) return <p class="hint">{appTexts.closing}</p>;
   return (
     <div class="panel-body">

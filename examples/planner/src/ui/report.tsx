@@ -162,7 +162,7 @@ function reportHtml({ shown }: Seen, pictures: Pictures, plot: string): string {
 <section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${doubt(now)}${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
 <div class="pair"><section>${images(pictures.before)}</section><section>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
-<div class="pair"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table>${notesBelow([then, now])}</section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
+<div class="pair figures-and-plot"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table>${notesBelow([then, now])}</section><section><h2>${reportTexts.section}</h2>${plot}</section></div>
 ${otherPlans(now)}
 ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.value)}</p>` : ''}
 <p><small>${escape(valveTexts.outflow)} ${escape(reportTexts.foot(state.version.value, now.hash))}</small></p>`;
@@ -171,8 +171,8 @@ ${state.notes.value ? `<h2>${reportTexts.notes}</h2><p>${escape(state.notes.valu
 const style = `body{font:15px/1.45 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem;color:#1c2733}
 .pair{display:grid;grid-template-columns:repeat(2,minmax(0,1fr));gap:1rem}img{width:100%;border:1px solid #ccd5de;border-radius:6px}figure{margin:.4rem 0}figcaption{font-size:.85em;color:#5a6a79}
 table{border-collapse:collapse;width:100%}th,td{text-align:left;padding:.25rem .8rem .25rem 0;border-bottom:1px solid #dde4ea;font-weight:400}td{white-space:nowrap}.wrap{white-space:normal}.plans th,.plans td{padding-right:.6rem;vertical-align:top}
-svg.cut{width:100%}td.doubtful{color:#5a6a79;font-style:italic}.doubt-note{border-left:4px dashed #b3261e;background:#f3f0f4;padding:.3rem .6rem}.marks{font-size:.9em;color:#5a6a79}
-@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:54mm;object-fit:contain}svg.cut{max-height:60mm}}`;
+.figures-and-plot{grid-template-columns:minmax(0,4fr) minmax(0,3fr)}.figures-and-plot th:first-child{width:48%}svg.cut{width:100%}td.doubtful{color:#5a6a79;font-style:italic}.doubt-note{border-left:4px dashed #b3261e;background:#f3f0f4;padding:.3rem .6rem}.marks{font-size:.9em;color:#5a6a79}
+@page{margin:15mm}@media print{body{font-size:10pt;line-height:1.3;margin:0;padding:0}h1{margin:0}h2{margin:.8rem 0 0}p,ol{margin:.2rem 0}th,td{padding:.12rem .6rem .12rem 0}figure,tr{break-inside:avoid}img{max-height:40mm;object-fit:contain}svg.cut{max-height:60mm}}`;
 
 export function ReportDialog() {
   const html = useSignal('');

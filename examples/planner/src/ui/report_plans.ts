@@ -22,7 +22,7 @@ const chosen = new Set([
 const columns = comparedFigures.filter(([name]) => chosen.has(name));
 
 /** Characters of a cell that stays on one line: a figure with its unit and marks; a sentence would push the plot beside it away. */
-const oneLine = 16;
+const oneLine = 14;
 
 /** A cell of a table; a figure that does not count is drawn less strongly. */
 export function cellOf(text: string): string {

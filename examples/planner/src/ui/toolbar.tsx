@@ -87,12 +87,14 @@ export function TopBar() {
 
 /** What is shown: a file, a valve of the tour, the shipped valve. */
 function PresentValve() {
-  const { tour, surface, title } = state;
+  const { tour, surface, title, coming } = state;
   const name = surface.value
     ? surface.value.name
-    : tour.value
-      ? tourTexts.present(tour.value.number)
-      : title.value || state.figures.value?.valve;
+    : coming.value
+      ? '…'
+      : tour.value
+        ? tourTexts.present(tour.value.number)
+        : title.value || state.figures.value?.valve;
   return (
     <div class="present">
       <div class="present-name" data-testid="present" title={`${barTexts.present}: ${name ?? ''}`}>

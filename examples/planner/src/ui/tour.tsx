@@ -80,7 +80,7 @@ function Goal() {
       >
         {reachesAll.value ? tourTexts.repairOn : tourTexts.repair}
       </Button>
-      <Score />
+      {!state.coming.value && <Score />}
     </>
   );
 }

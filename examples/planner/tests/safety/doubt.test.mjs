@@ -108,7 +108,7 @@ describe('planner figures that do not count', { skip: withoutCommand }, () => {
         document.querySelector('svg.cut').getBoundingClientRect().width,
       ]);
       assert.ok(wide <= width, `${wide} px in a window of ${width}`);
-      assert.ok(plot >= 300, `the plot is ${plot} px wide in ${width}`);
+      assert.ok(plot >= 280, `the plot is ${plot} px wide in ${width}`);
     }
     await paper.emulateMedia({ media: 'print' });
     const fits = await paper.evaluate(() =>
