@@ -121,8 +121,8 @@ double first_strain(Condition holds) {
 // and push beyond another. Returns whether it does.
 bool judge_falling(const Valve &valve, const Chord &chord, ChordWarning &falling) {
   if (chord.law != ChordLawId::ogden) return false;
-  const double falls = first_strain(
-      [&](double strain) { return chord_response(valve, chord, strain).slope < 0; });
+  const double falls =
+      first_strain([&](double strain) { return chord_response(valve, chord, strain).slope < 0; });
   const double pushes =
       first_strain([&](double strain) { return chord_tension(valve, chord, strain) < 0; });
   if (falls == 0) return false;

@@ -1,11 +1,13 @@
-// The energy account after a rejected sample and at the beginning of forces.
+// The energy account after a rejected sample, at the beginning of forces, and of a late simulation.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+#include "tests/about.h"
 #include "tests/haptics/loop.h"
 
 using namespace mvs::core;
+using mvs::core::test::about;
 
 TEST_CASE("a_jump_books_no_energy_and_arming_begins_with_an_empty_account") {
   Loop loop(
@@ -58,4 +60,54 @@ TEST_CASE("damping_begins_with_the_ramp_of_the_force") {
   CHECK((limited & MVS_LIMITED_ENERGY) != 0);
   CHECK_GT(speed, 0.05);
   CHECK_LT(most, 0.03);
+}
+
+TEST_CASE("a_surplus_takes_away_the_work_of_a_force_on_the_hand_only") {
+  EnergyObserver observer;
+  const Wrench push = {Vec3(2, 0, 0), Vec3::Zero()};
+  const Twist out = {Vec3(0.1, 0, 0), Vec3::Zero()}, in = {Vec3(-0.1, 0, 0), Vec3::Zero()};
+  const double most = 1e-3;
+  CHECK_EQ(observer.working_share(push, out, most), 1);
+  // 2 N over 0.75 mm that no tissue has given
+  observer.take_step({Vec3(0.75e-3, 0, 0), Vec3::Zero()}, {push, push}, {}, {});
+  CHECK_EQ(observer.working_share(push, out, most), about(0.5));
+  CHECK_EQ(observer.working_share(push, in, most), 1);
+  CHECK_EQ(observer.working_share(push, {}, most), 1);
+  observer.take_step({Vec3(0.75e-3, 0, 0), Vec3::Zero()}, {push, push}, {}, {});
+  CHECK_EQ(observer.working_share(push, out, most), 0);
+  // half of the speed from which the whole share is taken
+  CHECK_EQ(observer.working_share(push, {Vec3(5e-3, 0, 0), Vec3::Zero()}, most), about(0.5));
+}
+
+// The force of each model is that of the place of the hand 30 ms before, and it holds for 30 ms.
+// The spring of the arm would swing in it with growing motion: 1.9 J of work on the hand in 4 s.
+TEST_CASE("a_late_simulation_does_little_work_on_the_hand") {
+  Loop loop("device=desktop\nfrom=0,0,0\ntarget=0.012,0,0\nresolution=0");
+  loop.arm();
+  mvs_device_limits limits = {};
+  limits.ramp_s = 0.01;
+  limits.speed = 10;
+  loop.device().set_limits(limits);
+  const double force = loop.device().info().peak_force;
+  TissueModel late;
+  late.kind = TissueModel::held;
+  late.contact = 1;
+  late.most = 100;
+  Vec3 last = loop.run(0).pose.position;
+  double work = 0, begun = 0;
+  for (int k = 0; k < 133; ++k) {
+    if (k == 66) begun = work;
+    late.origin = last;
+    loop.post(late);
+    late.force = -1000 * last;
+    for (int tick = 0; tick < 30; ++tick) {
+      const ServoStatus status = loop.run(loop.period());
+      work += status.force.dot(status.pose.position - last);
+      last = status.pose.position;
+    }
+  }
+  // a few times the energy up to which only damping acts, 1 mm at the largest force; it began with
+  // the surplus of a model that was late by 12 mm
+  CHECK_LE(work - begun, 5 * 1e-3 * force);
+  MESSAGE(begun << " J in the first half, " << work << " J in all");
 }

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "tests/about.h"
+#include "tests/haptics/bare_servo.h"
 #include "tests/haptics/loop.h"
 
 using namespace mvs::core;
@@ -155,50 +156,7 @@ TEST_CASE("a torque model with NaN latches, and never reaches the motors") {
 
 namespace {
 
-// A servo without a driver, which returns the output for a sample.
-class Bare {
- public:
-  Bare(uint32_t freedoms_in, uint32_t freedoms_out) {
-    mvs_driver_info info = {};
-    info.struct_size = sizeof info;
-    info.freedoms_in = freedoms_in;
-    info.freedoms_out = freedoms_out;
-    info.peak_torque = 0.2;
-    traits_ = read_traits(info, "bare");
-    mvs_device_limits limits = {};
-    limits.ramp_s = 0.01;
-    limits.stale_s = 10;
-    servo_ = std::make_unique<Servo>(traits_, resolve_limits(limits, traits_.info), links_);
-    servo_->start();
-  }
-  mvs_driver_force tick(const Eigen::Quaterniond &turn) {
-    mvs_driver_state sample = {};
-    sample.struct_size = sizeof sample;
-    sample.flags = MVS_DRIVER_FLAG_CALIBRATED;
-    sample.time_ns = now_ += 1000000;
-    sample.sequence = now_;
-    sample.position[0] = 1e-3;
-    sample.orientation[0] = turn.w();
-    for (int k = 0; k < 3; ++k) sample.orientation[1 + k] = turn.vec()[k];
-    mvs_driver_force force = {};
-    force.torque[0] = 1;  // has to be overwritten
-    servo_->tick(sample, force);
-    return force;
-  }
-  ServoLinks &links() { return links_; }
-  ServoStatus status() {
-    links_.status.refresh();
-    return links_.status.get();
-  }
-
- private:
-  DeviceTraits traits_;
-  ServoLinks links_;
-  std::unique_ptr<Servo> servo_;
-  uint64_t now_ = 0;
-};
-
-mvs_driver_force after_a_ramp(Bare &bare, const TissueModel &tissue) {
+mvs_driver_force after_a_ramp(BareServo &bare, const TissueModel &tissue) {
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.1, Vec3::UnitY()));
   bare.tick(turn);
   bare.links().requests.arm();
@@ -223,7 +181,7 @@ TEST_CASE("a device without motors for torque, or without orientation, gets zero
     const uint32_t in = freedoms[0], out = freedoms[1];
     CAPTURE(in);
     CAPTURE(out);
-    Bare bare(in, out);
+    BareServo bare(in, out);
     const mvs_driver_force force = after_a_ramp(bare, grasp);
     REQUIRE_EQ(force.on, 1);
     const double torque = Vec3::Map(force.torque).norm();
@@ -241,7 +199,7 @@ TEST_CASE("a device without motors for torque, or without orientation, gets zero
 TEST_CASE("an orientation that jumps or spins too fast latches a device that renders torque") {
   for (const bool jumps : {true, false}) {
     CAPTURE(jumps);
-    Bare bare(6, 6);
+    BareServo bare(6, 6);
     after_a_ramp(bare, {});
     REQUIRE_EQ(bare.status().phase, DevicePhase::on);
     double angle = 0.1;

@@ -11,6 +11,7 @@
 #include "energy/instrument.h"
 #include "geometry/intersect.h"
 #include "solve/tools/tool_points.h"
+#include "solve/tools/tool_stiffness.h"
 #include "tests/model/small_valve.h"
 #include "tests/solve/bench.h"
 
@@ -75,6 +76,26 @@ void push(const Model &model, State &state, const Vec3 &each, int steps) {
 }
 
 }  // namespace
+
+// A hand at 0.15 m/s with steps of 30 ms. If a point moved by 1 mm a step at most, the spring would
+// pull the hand back by 0.7 N more in each.
+TEST_CASE("an_instrument_far_from_tissue_follows_its_hand_without_a_force") {
+  const ModelPtr model = make_model(small_valve());
+  for (const bool is_rod : {false, true}) {
+    State state = initial_state(*model);
+    const Vec3 far = Vec3(0, 0, 0.05);
+    add_tool(*model, state, is_rod ? rod(far, Vec3(0, 0, 1), 1e-3, 4e-3) : ball(far, 1e-3));
+    Solver solver(Backend::fastest);
+    SolveOptions how;
+    how.dt = 0.03;
+    for (int k = 0; k < 5; ++k) {
+      state.tools[0].position += Vec3(0, 0, 4.5e-3);
+      solver.step(*model, state, how);
+      // the inertia of the instrument, far below what a hand feels
+      CHECK(force_of(state, state.tools[0]).force.norm() < 0.01);
+    }
+  }
+}
 
 TEST_CASE("a_pushing_tool_has_the_gradient_and_hessian_of_its_energy") {
   const ModelPtr valve = make_model(small_valve());

@@ -1,4 +1,4 @@
-#include "laws.h"
+#include "module_parts.h"
 
 #include <mvs/valve.h>
 

@@ -2,10 +2,9 @@
 #include <mvs/base.h>
 
 #include "device.h"
-#include "laws.h"
+#include "module_parts.h"
 #include "simulator.h"
 #include "snapshot.h"
-#include "surface_file.h"
 #include "values.h"
 
 namespace {

@@ -1,4 +1,4 @@
-#include "surface_file.h"
+#include "module_parts.h"
 
 #include <mvs/surface_file.h>
 #include <pybind11/stl.h>

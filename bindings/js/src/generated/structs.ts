@@ -339,7 +339,10 @@ export interface Stats {
   lowered: number;
   /** 1: the last settle found a stable equilibrium, and nothing has changed since */
   stable: number;
-  /** N, largest out-of-balance force on a free node or tool point */
+  /**
+   * N, largest out-of-balance force on a free node or tool point. An explicit step finds its forces
+   * once, at its start: residual and energy are of that state
+   */
   residual: number;
   /**
    * J, potential energy at the end, of tissue with a node that moves. Without the work of the
