@@ -30,7 +30,9 @@
  * syncs calls mvs_device_get_state from another thread. Both can be armed again after
  * mvs_device_stop and mvs_device_start. A new grasp or felt chord acts with
  * a ramp of 50 ms. A passivity observer measures energy that the sampled loop generates, and
- * damping removes it. These measures do not make a device a medical one.
+ * damping removes it. What the damping of a device cannot take out, as of a stiff tool in a
+ * simulation that is late by 30 ms or more, takes away the work of the force on the hand: a force
+ * along the motion of the hand is reduced. These measures do not make a device a medical one.
  *
  * Threads of the library and those that it starts in a driver block all signals but those of a
  * fault of their own (SIGSEGV, SIGBUS, SIGFPE, SIGILL). A function of a driver has to return within
@@ -137,13 +139,16 @@ typedef struct mvs_device_limits {
   double force;            /* N [peak force of the device] */
   double continuous_force; /* N, allowed average of the force [that of the device] */
   double thermal_s;        /* s, averaging time of that limit; 0.1 to 1000 [10] */
-  double slew;             /* N/s, largest rate of change of the force [100 / s times `force`] */
-  double gate;             /* N, forces start only while the force is below it, and the torque
-                              below the same share of `torque` as it is of `force` [0.2] */
+  double slew;             /* N/s, largest rate of change of the force [100 / s times `force`]; a
+                              force may fall by 100 / s times the peak force of the device */
+  double gate;             /* N, forces start only once a tissue model is there, and while the force
+                              is below it, and the torque below the same share of `torque` as it is
+                              of `force` [0.2] */
   double ramp_s;           /* s, duration of the initial ramp; 0.01 to 10 [1] */
   double speed;            /* m/s, above it forces latch off [that of the device, at most 1] */
   double stale_s;          /* s, an older tissue model fades; 0.005 to 10 [0.1] */
-  double fade_s;           /* s, duration of fading; 0.001 to 1 [0.05] */
+  double fade_s;           /* s, duration of fading; 0.001 to 1 [0.05]. A fresh model brings forces
+                              back in four times as long, without the gate */
   double stiffness;        /* N/m, largest stiffness felt by the hand [that of the device] */
   /* For devices that render torque; 0 for others. thermal_s, ramp_s, stale_s and fade_s hold for
    * the torque as well. */
@@ -275,7 +280,8 @@ MVS_API mvs_result mvs_device_sync(mvs_device *device, mvs_sim *sim, mvs_device_
 enum mvs_device_phase_e {
   MVS_DEVICE_PHASE_STOPPED = 0,
   MVS_DEVICE_PHASE_OFF = 1,     /* started, not armed */
-  MVS_DEVICE_PHASE_WAITING = 2, /* armed; the tissue force exceeds the gate: move the hand away */
+  MVS_DEVICE_PHASE_WAITING = 2, /* armed; there is no tissue model yet, or its force exceeds the
+                                   gate: move the hand away */
   MVS_DEVICE_PHASE_RAMPING = 3,
   MVS_DEVICE_PHASE_ON = 4,
   MVS_DEVICE_PHASE_FADED = 5,  /* the tissue model is too old */
@@ -288,7 +294,7 @@ enum mvs_limited_flags_e {
   MVS_LIMITED_FORCE = 1 << 0,      /* clamped */
   MVS_LIMITED_CONTINUOUS = 1 << 1, /* to the continuous limit of the motors; also of the torque */
   MVS_LIMITED_SLEW = 1 << 2,       /* also of the torque */
-  MVS_LIMITED_ENERGY = 1 << 3,     /* damped, because the loop had generated energy */
+  MVS_LIMITED_ENERGY = 1 << 3,     /* damped or reduced: the loop had generated energy */
   MVS_LIMITED_WALL = 1 << 4,       /* the wall of the workspace acted */
   MVS_LIMITED_NUMBER = 1 << 5,     /* a force was not finite and became zero */
   MVS_LIMITED_TORQUE = 1 << 6      /* the torque was clamped */
