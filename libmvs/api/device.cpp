@@ -93,16 +93,24 @@ mvs_device_state public_state(const ServoStatus &now, const DeviceView &view) {
   return out;
 }
 
+// Takes the tools of the hand out of the simulator that it was in before; one at work keeps them.
+void leave_other(mvs_device &d, const mvs_sim &next) {
+  const auto alive = d.alive.lock();
+  if (!alive || alive == next.alive) return;
+  call_at_boundary(d.sim, [&](mvs_sim &s) { d.hand.leave(s); });
+}
+
 // Applies the buttons and the position of the hand to the simulator, then posts the tissue model to
 // the servo loop. Before the first sample of the device the hand is nowhere: a tool at the centre
 // of the workspace could lie on the other side of a leaflet. The part that the hand points at is
 // searched only for a report.
 void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
-  d.sim = &sim;
-  d.alive = sim.alive;
   const ServoStatus now = d.device.status();
   ServoLinks &links = d.device.links();
   d.hand.begin(now, {d.device.limits().stiffness, d.device.limits().angular_stiffness});
+  leave_other(d, sim);
+  d.sim = &sim;
+  d.alive = sim.alive;
   ButtonEvent event;
   while (links.buttons.pop(event)) d.hand.take_button(event, sim);
   if (now.phase == DevicePhase::stopped) {

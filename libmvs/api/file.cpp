@@ -56,13 +56,18 @@ void check_rest(const mvs_sim &sim, const Model &model, State &state) {
   state.rest_tolerance = 0;
 }
 
+void load_session(mvs_sim &sim, std::string_view bytes) {
+  replace_valve(sim, read_session(bytes));
+  if (sim.history_start()) sim.file_starts.push_back(sim.history_start());
+}
+
 void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   MVS_MUST(format_given != MVS_FORMAT_VTP && format_given != MVS_FORMAT_VTM, MVS_E_UNSUPPORTED,
            "format",
            "VTP and VTM files are written for other programs, not read: load the OBJ or HDF5 file");
   MVS_MUST(format_given != MVS_FORMAT_FEB, MVS_E_UNSUPPORTED, "format",
            "FEBio models are written for FEBio, not read: load the OBJ or HDF5 file");
-  if (format_given == MVS_FORMAT_H5) return replace_valve(sim, read_session(bytes));
+  if (format_given == MVS_FORMAT_H5) return load_session(sim, bytes);
   if (format_given == MVS_FORMAT_INP) return load_inp(sim, bytes);
   Loaded loaded = read_obj(bytes);
   ModelPtr model = make_model(std::move(loaded.valve), sim.model());

@@ -40,13 +40,6 @@ Vec3 Hand::axis() const {
   return turn_ * Vec3::UnitZ();
 }
 
-const Tool *Hand::tool(const mvs_sim &sim) const {
-  for (const Tool &t : sim.current().state.tools.get()) {
-    if (t.id == tool_) return &t;
-  }
-  return nullptr;
-}
-
 const Chord *Hand::chord(const mvs_sim &sim) const {
   for (const Chord &c : sim.current().model->valve.chords.get()) {
     if (c.id == chord_) return &c;
@@ -75,14 +68,14 @@ void Hand::take_button(const ButtonEvent &event, mvs_sim &sim) {
 }
 
 void Hand::press(mvs_sim &sim) {
-  if (mode() == HandMode::grasp && tool_ == 0) {
+  if (mode() == HandMode::grasp && tools_.held() == 0) {
     const bool found = add(sim, describe(ToolKind::grasp));
     events_ |= uint32_t{found ? MVS_EVENT_GRASPED : MVS_EVENT_MISSED};
   }
   if (mode() != HandMode::feel && mode() != HandMode::drag) return;
   if (hand_.chord == 0) choose_chord(sim);
   const Chord *const chosen = chord(sim);
-  if (!chosen || mode() == HandMode::feel || tool_ != 0) return;
+  if (!chosen || mode() == HandMode::feel || tools_.held() != 0) return;
   mvs_tool_desc desc = describe(ToolKind::grasp);
   desc.by_node = 1;
   desc.node = chosen->b;
@@ -111,9 +104,9 @@ void Hand::release(mvs_sim &sim) {
 }
 
 void Hand::let_go(mvs_sim &sim) {
-  if (tool_ == 0) return;
-  if (tool(sim)) remove_tool_now(sim, tool_);
-  tool_ = 0;
+  if (tools_.held() == 0) return;
+  if (tool(sim)) remove_tool_now(sim, tools_.held());
+  tools_.drop();
   events_ |= MVS_EVENT_LET_GO;
   builder_.begin_contact();
 }
@@ -158,24 +151,14 @@ mvs_tool_desc Hand::describe(ToolKind kind) const {
 // Returns false if the position does not allow the tool.
 bool Hand::add(mvs_sim &sim, mvs_tool_desc desc) {
   try {
-    tool_ = add_tool_now(sim, desc, shape_);
+    add_tool_now(sim, desc, shape_);
   } catch (const Error &error) {
     if (error.code != MVS_E_STATE && error.code != MVS_E_ARGUMENT) throw;
     return false;
   }
-  const Tool &added = *tool(sim);
-  if (!made(added)) made_.push_back(added);
+  tools_.add_newest(sim);
   builder_.begin_contact();
   return true;
-}
-
-// Ids return after an undo, so that the sizes are compared too; an operation may renumber a held
-// node.
-bool Hand::made(const Tool &tool) const {
-  return std::any_of(made_.begin(), made_.end(), [&](const Tool &own) {
-    return own.is_same_as(tool) && own.stiffness == tool.stiffness &&
-           own.max_force == tool.max_force;
-  });
 }
 
 // Whether the hand would add this tool now: with the button down, in this mode and of these sizes.
@@ -199,16 +182,16 @@ bool Hand::wants(const Tool &tool) const {
 void Hand::remove_returned(mvs_sim &sim) {
   std::vector<Id> gone;
   for (const Tool &t : sim.current().state.tools.get()) {
-    if (t.id != tool_ && made(t)) gone.push_back(t.id);
+    if (t.id != tools_.held() && tools_.made(sim, t)) gone.push_back(t.id);
   }
   for (const Id id : gone) remove_tool_now(sim, id);
 }
 
 void Hand::take_back(mvs_sim &sim) {
   for (const Tool &t : sim.current().state.tools.get()) {
-    if (tool_ != 0) break;
-    if (!made(t) || !wants(t)) continue;
-    tool_ = t.id;
+    if (tools_.held() != 0) break;
+    if (!tools_.made(sim, t) || !wants(t)) continue;
+    tools_.hold(t.id);
     if (t.kind == ToolKind::grasp) events_ |= MVS_EVENT_GRASPED;
     builder_.begin_contact();
   }
@@ -224,8 +207,8 @@ void Hand::follow(mvs_sim &sim) {
   if (changed_) let_go(sim);
   if (changed_) builder_.begin_contact();
   changed_ = false;
-  if (tool_ != 0 && !tool(sim)) {
-    tool_ = 0;
+  if (tools_.held() != 0 && !tool(sim)) {
+    tools_.drop();
     events_ |= MVS_EVENT_LOST_TOOL;
     builder_.begin_contact();
   }
@@ -233,7 +216,7 @@ void Hand::follow(mvs_sim &sim) {
   const Tool *const held = tool(sim);
   const bool pushes =
       mode() == HandMode::ball || mode() == HandMode::rod || mode() == HandMode::convex;
-  if (pushes && tool_ == 0) {
+  if (pushes && tools_.held() == 0) {
     const ToolKind kind = mode() == HandMode::ball  ? ToolKind::ball
                           : mode() == HandMode::rod ? ToolKind::rod
                                                     : ToolKind::convex;
@@ -268,7 +251,7 @@ mvs_device_report Hand::report(const mvs_sim &sim, const TissueModel &tissue, bo
   const ModelState &now = sim.current();
   out.events = events_;
   if (latched) out.events |= MVS_EVENT_LATCHED;
-  out.tool = tool_;
+  out.tool = tools_.held();
   out.chord = chord_;
   constexpr double far = std::numeric_limits<double>::infinity();
   const NearChord near_chord = has_pose_ ? nearest_chord(now, place_) : NearChord{0, far};

@@ -9,6 +9,7 @@
 #include "haptics/servo_types.h"
 #include "haptics/tissue_model_builder.h"
 #include "session/device_view.h"
+#include "session/own_tools.h"
 #include "session/simulator.h"
 
 namespace mvs::core {
@@ -48,14 +49,13 @@ class Hand {
 
  private:
   HandMode mode() const { return static_cast<HandMode>(hand_.mode); }
-  const Tool *tool(const mvs_sim &sim) const;
+  const Tool *tool(const mvs_sim &sim) const { return tools_.held_in(sim); }
   const Chord *chord(const mvs_sim &sim) const;
   void press(mvs_sim &sim);
   void release(mvs_sim &sim);
   void choose_chord(const mvs_sim &sim);
   bool add(mvs_sim &sim, mvs_tool_desc desc);
   void let_go(mvs_sim &sim);
-  bool made(const Tool &tool) const;
   bool wants(const Tool &tool) const;
   void take_back(mvs_sim &sim);
   void remove_returned(mvs_sim &sim);
@@ -72,8 +72,8 @@ class Hand {
   Vec3 place_ = Vec3::Zero();  // of the hand, in the scene
   Eigen::Quaterniond turn_ = Eigen::Quaterniond::Identity();
   StiffnessLimits most_;
-  Id tool_ = 0, chord_ = 0;
-  std::vector<Tool> made_;  // every tool that this hand has added, as it was added
+  OwnTools tools_;
+  Id chord_ = 0;
   bool down_ = false, changed_ = true;
   uint32_t events_ = 0;
   Vec3 drag_to_ = Vec3::Zero();

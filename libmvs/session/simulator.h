@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "base/workers.h"
 #include "formats/file/journal.h"
@@ -29,6 +30,9 @@ struct mvs_sim {
   const mvs::core::ModelState &current() const;
   // Returns the present model, null before a valve is set; for the call at work.
   const mvs::core::Model *model() const { return now_.current.model.get(); }
+  // The valve as it was set, shared by all snapshots of its history, and null before the first
+  // event; for the call at work.
+  std::shared_ptr<const mvs::core::ModelState> history_start() const { return now_.history.start; }
   void replace(mvs::core::SnapshotPtr next);
   mvs::core::Load load() const;
   // Whether this load is the present one, and the history records it as that.
@@ -53,6 +57,8 @@ struct mvs_sim {
   mvs::core::HandTargets hands;                 // posted from any thread
   // null: no settle in slices is under way; a change of the present snapshot ends it
   std::unique_ptr<mvs::core::SettleSlices> slices;
+  // of the histories that files brought
+  std::vector<std::weak_ptr<const mvs::core::ModelState>> file_starts;
   std::atomic<bool> at_work{false};
   // Expires with the simulator: a device that is closed later finds no tools to remove.
   const std::shared_ptr<const int> alive = std::make_shared<const int>(0);
