@@ -21,7 +21,8 @@ struct mvs_device {
   }
   mutable Device device;
   Hand hand;
-  bool latched = false;  // at the last sync
+  bool latched = false;    // at the last sync
+  bool restarted = false;  // since the last sync
   // the simulator of the last sync, and whether it still exists
   mvs_sim *sim = nullptr;
   std::weak_ptr<const int> alive;
@@ -109,14 +110,16 @@ void sync(mvs_device &d, mvs_sim &sim, mvs_device_report *report) {
   ServoLinks &links = d.device.links();
   d.hand.begin(now, {d.device.limits().stiffness, d.device.limits().angular_stiffness});
   leave_other(d, sim);
+  if (std::exchange(d.restarted, false)) d.hand.restart(sim);
   d.sim = &sim;
   d.alive = sim.alive;
   ButtonEvent event;
   while (links.buttons.pop(event)) d.hand.take_button(event, sim);
   if (now.phase == DevicePhase::stopped) {
-    d.hand.leave(sim);
-  } else if (now.has_pose) {
-    d.hand.follow(sim);
+    d.hand.restart(sim);
+  } else {
+    d.hand.settle_buttons(now, sim);
+    if (now.has_pose) d.hand.follow(sim);
   }
   TissueModel tissue;
   if (now.has_pose) {
@@ -198,7 +201,10 @@ mvs_result mvs_device_get_hand(const mvs_device *device, mvs_device_hand *hand) 
 }
 
 mvs_result mvs_device_start(mvs_device *device) {
-  return device_at_boundary(device, [](mvs_device &d) { d.device.start(); });
+  return device_at_boundary(device, [](mvs_device &d) {
+    d.device.start();
+    d.restarted = true;
+  });
 }
 
 mvs_result mvs_device_stop(mvs_device *device) {

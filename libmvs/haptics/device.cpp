@@ -118,10 +118,12 @@ void Device::start() {
       core_->handle, [core](const mvs_driver_api &api) { return api.stop(core->handle); });
   plugin.call("start", core_->handle,
               [core](const mvs_driver_api &api) { return api.start(core->handle); });
+  ButtonEvent old;  // the buttons of the time before are not those of now
+  while (core_->links->buttons.pop(old)) {
+  }
   core_->servo->start();
   core_->stopping = core_->panicked = false;
   *core_->lost = 0;
-  core_->now_ns = 0;
   core_->due = 0;
   try {
     register_device(plugin.api(), core_->handle);

@@ -27,7 +27,7 @@ struct Device::Core : std::enable_shared_from_this<Device::Core> {
   DeviceClock clock = DeviceClock::real;
   std::unique_ptr<ServoLinks> links;
   std::unique_ptr<Servo> servo;
-  uint64_t now_ns = 0;  // virtual clock
+  uint64_t now_ns = 0;  // virtual clock, which goes on after a stop
   double due = 0;       // s of virtual time less than a tick, carried over
 
   std::atomic<bool> stopping{false}, panicked{false};

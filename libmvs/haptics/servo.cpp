@@ -227,7 +227,8 @@ void Servo::publish(const mvs_driver_state &sample) {
   status_.energy = energy_.energy();
   status_.heat = std::max(heat_.heat(), torque_heat_.heat());
   if (buttons_.take(sample.buttons, validator_.dt())) {
-    links_->buttons.push({buttons_.down(), status_.pose.position});
+    ++status_.button_changes;
+    links_->buttons.push({buttons_.down(), status_.button_changes, status_.pose.position});
   }
   status_.buttons = buttons_.down();
   links_->status.post(status_);

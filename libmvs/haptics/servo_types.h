@@ -70,6 +70,7 @@ struct HandPose {
 // A change of the buttons.
 struct ButtonEvent {
   uint32_t buttons = 0;
+  uint64_t number = 0;  // of the change, since the start
   Vec3 position = Vec3::Zero();
 };
 
@@ -78,7 +79,8 @@ struct ServoStatus {
   DevicePhase phase = DevicePhase::stopped;
   Cause cause = Cause::nothing, device_cause = Cause::nothing;
   uint32_t flags = 0, limited = 0, buttons = 0;
-  bool has_pose = false;  // a valid sample was read since the start: `pose` is its
+  uint64_t button_changes = 0;  // since the start, with those whose event found the queue full
+  bool has_pose = false;        // a valid sample was read since the start: `pose` is its
   HandPose pose;
   Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
   double time = 0, rate = 0, worst_period = 0, model_age = 0, energy = 0, heat = 0;

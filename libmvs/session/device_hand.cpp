@@ -56,6 +56,7 @@ void Hand::begin(const ServoStatus &current, const StiffnessLimits &most) {
 }
 
 void Hand::take_button(const ButtonEvent &event, mvs_sim &sim) {
+  button_changes_ = event.number;
   const bool down = (event.buttons >> hand_.button & 1) != 0;
   if (down == down_) return;
   down_ = down;
@@ -65,6 +66,19 @@ void Hand::take_button(const ButtonEvent &event, mvs_sim &sim) {
   place_ = view_.to_scene(event.position);
   down ? press(sim) : release(sim);
   place_ = now;
+}
+
+// The last event may be newer than the status.
+void Hand::settle_buttons(const ServoStatus &current, mvs_sim &sim) {
+  if (button_changes_ > current.button_changes) return;
+  take_button({current.buttons, current.button_changes, current.pose.position}, sim);
+}
+
+void Hand::restart(mvs_sim &sim) {
+  button_changes_ = 0;
+  if (down_) events_ |= MVS_EVENT_RELEASED;
+  down_ = false;
+  leave(sim);
 }
 
 void Hand::press(mvs_sim &sim) {
@@ -96,7 +110,7 @@ void Hand::choose_chord(const mvs_sim &sim) {
 void Hand::release(mvs_sim &sim) {
   const Tool *const held = tool(sim);
   if (!held || held->kind != ToolKind::grasp) return;
-  if (mode() == HandMode::drag) {
+  if (mode() == HandMode::drag && !changed_) {
     drag_to_ = sim.current().state.x[held->node];
     events_ |= MVS_EVENT_DRAGGED;
   }

@@ -39,6 +39,10 @@ class Hand {
   // Starts a sync with the present pose of the device.
   void begin(const ServoStatus &current, const StiffnessLimits &most);
   void take_button(const ButtonEvent &event, mvs_sim &sim);
+  // After the last event: takes the present buttons, whose event may have found the queue full.
+  void settle_buttons(const ServoStatus &current, mvs_sim &sim);
+  // The device was started: lets go, and takes its buttons as up until an event.
+  void restart(mvs_sim &sim);
   // Updates the tool after the hand: adds it, moves it, or removes it after a change of the mode.
   void follow(mvs_sim &sim);
   // Removes the tool of the hand and those that an undo has brought back.
@@ -75,6 +79,7 @@ class Hand {
   OwnTools tools_;
   Id chord_ = 0;
   bool down_ = false, changed_ = true;
+  uint64_t button_changes_ = 0;  // number of the newest one taken
   uint32_t events_ = 0;
   Vec3 drag_to_ = Vec3::Zero();
   Vec3 felt_ = Vec3::Zero();  // force of the felt chord on the hand
