@@ -41,6 +41,18 @@ Wrench generalised_at(const TissueModel &t, const Vec3 &hand, const Eigen::Quate
 
 }  // namespace
 
+TissueModel scaled(const TissueModel &tissue, double share) {
+  TissueModel out = tissue;
+  out.force *= share;
+  out.stiffness *= share;
+  out.most *= share;
+  out.torque *= share;
+  out.coupling *= share;
+  out.turning *= share;
+  out.most_torque *= share;
+  return out;
+}
+
 Vec3 force_at(const TissueModel &t, const Vec3 &hand) {
   const Vec3 away = hand - t.origin;
   switch (t.kind) {

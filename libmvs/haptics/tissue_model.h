@@ -57,6 +57,9 @@ struct TissueModel {
   Vec3 arm = Vec3::Zero();       // of a plane: from the hand to the tool's nearest point, m
 };
 
+// The model of a share of these forces.
+TissueModel scaled(const TissueModel &tissue, double share);
+
 // The force on a hand, for a device without torque: orientation does not act.
 Vec3 force_at(const TissueModel &tissue, const Vec3 &hand);
 

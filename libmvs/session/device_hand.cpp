@@ -50,6 +50,7 @@ const Chord *Hand::chord(const mvs_sim &sim) const {
 void Hand::begin(const ServoStatus &current, const StiffnessLimits &most) {
   events_ = 0;
   most_ = most;
+  onset_.see(view_, current);
   has_pose_ = current.has_pose;
   place_ = view_.to_scene(current.pose.position);
   turn_ = view_.turned(current.pose.orientation);
@@ -75,6 +76,7 @@ void Hand::settle_buttons(const ServoStatus &current, mvs_sim &sim) {
 }
 
 void Hand::restart(mvs_sim &sim) {
+  onset_.restart();
   button_changes_ = 0;
   if (down_) events_ |= MVS_EVENT_RELEASED;
   down_ = false;
@@ -142,6 +144,12 @@ double Hand::stiffest_spring(ToolKind kind) const {
   const double half = 0.5 * (a - b), off2 = 0.25 * hand_.length * hand_.length / (linear * angular);
   const double largest = 0.5 * (a + b) + std::sqrt(half * half + off2);
   return 1 / largest;
+}
+
+// The spring of a tool that is held stays as it was made, for another view or limit: a share of its
+// force is felt instead, and also where no spring may be so soft.
+double Hand::allowed_share(const Tool &tool) const {
+  return std::min(1.0, stiffest_spring(tool.kind) / tool.stiffness);
 }
 
 mvs_tool_desc Hand::describe(ToolKind kind) const {
@@ -253,11 +261,12 @@ TissueModel Hand::tissue(mvs_sim &sim) {
   felt_ = Vec3::Zero();
   if (held) {
     scene = builder_.of_tool(*now.model, now.state, *held, most_.angular > 0 ? &turn_ : nullptr);
+    scene = scaled(scene, allowed_share(*held));
   } else if (felt) {
     scene = builder_.of_chord(*now.model, now.state, *felt, place_, hand_.gain);
     felt_ = scene.force;
   }
-  return view_.to_device(scene, most_);
+  return view_.to_device(onset_.applied(scene), most_);
 }
 
 mvs_device_report Hand::report(const mvs_sim &sim, const TissueModel &tissue, bool latched) const {

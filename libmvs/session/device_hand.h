@@ -11,6 +11,7 @@
 #include "session/device_view.h"
 #include "session/own_tools.h"
 #include "session/simulator.h"
+#include "session/view_onset.h"
 
 namespace mvs::core {
 
@@ -66,9 +67,11 @@ class Hand {
   mvs_tool_desc describe(ToolKind kind) const;
   Vec3 axis() const;
   double stiffest_spring(ToolKind kind) const;
+  double allowed_share(const Tool &tool) const;
   Quaternion turn() const { return {turn_.w(), turn_.x(), turn_.y(), turn_.z()}; }
 
   DeviceView view_;
+  ViewOnset onset_;
   mvs_device_hand hand_ = {};
   ToolShapePtr shape_;  // of a convex tool
   TissueModelBuilder builder_;

@@ -9,6 +9,12 @@
 #include "session/tools.h"
 
 namespace mvs::core {
+namespace {
+
+constexpr double small_move = 0.5e-3;  // m, of the device: 0.2 N at the 400 N/m of a Touch
+constexpr double small_change = 0.1;   // of the force, as a share of it
+
+}  // namespace
 
 DeviceView DeviceView::read(const mvs_device_view &given) {
   must_be_zero(given.reserved, "view.reserved");
@@ -39,6 +45,13 @@ mvs_device_view DeviceView::get() const {
   out.scale = scale_;
   out.force_scale = force_scale_;
   return out;
+}
+
+bool DeviceView::jumps_from(const DeviceView &before, const Vec3 &hand) const {
+  const Vec3 moved = (to_scene(hand) - before.to_scene(hand)) / scale_;
+  const Mat3 turned = force_scale_ * rotation_.toRotationMatrix() -
+                      before.force_scale_ * before.rotation_.toRotationMatrix();
+  return moved.norm() > small_move || turned.norm() > small_change * before.force_scale_;
 }
 
 TissueModel DeviceView::to_device(const TissueModel &scene, const StiffnessLimits &most) const {

@@ -33,6 +33,9 @@ class DeviceView {
   double stiffness_scale() const { return scale_ * force_scale_; }
   // Device torque per scene torque: of the scaled forces at levers of the device's size.
   double torque_scale() const { return force_scale_ / scale_; }
+  // Whether a hand at rest at this place of the device would feel the change from another view as a
+  // jump. A view may follow a camera by small steps.
+  bool jumps_from(const DeviceView &before, const Vec3 &hand) const;
   // Transforms a tissue model of the scene to the device, with at most this stiffness.
   TissueModel to_device(const TissueModel &scene, const StiffnessLimits &most) const;
 
