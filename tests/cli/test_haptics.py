@@ -1,15 +1,13 @@
-"""`mvs haptics` without hardware: drivers, checks and recordings."""
+"""`mvs haptics` without hardware: drivers and checks."""
 import json
 import os
 import pathlib
 import shutil
-import signal
 import subprocess
-import time
 import unittest
 
 from command import MVS, mvs
-from haptic_command import GRASP, REPLAY, Haptics, samples
+from haptic_command import GRASP, Haptics
 
 
 class List(Haptics):
@@ -93,69 +91,6 @@ class Doctor(Haptics):
         self.assertIn("faults", done.stderr)
         self.assertIn("no driver", mvs("haptics", "doctor", "--driver", "nowhere",
                                        cwd=self.dir).stdout)
-
-
-class Record(Haptics):
-    def record(self, *arguments):
-        return self.json("haptics", "record", *arguments)
-
-    def test_replay_plays_the_recording(self):
-        first = self.record(*REPLAY, f"file={GRASP}", "-o", "first.txt", "--seconds", 5)
-        self.record(*REPLAY, "file=first.txt", "-o", "second.txt", "--seconds", 5)
-        one, two = samples(self.dir / "first.txt"), samples(self.dir / "second.txt")
-        self.assertEqual((first["samples"], len(one), len(two)), (5000, 5000, 5000))
-        for a, b in zip(one, two):
-            self.assertEqual(a[0], b[0])
-            for k in range(1, 8):
-                self.assertAlmostEqual(a[k], b[k], delta=2e-9)  # nine decimals, rounded twice
-        buttons = [[row[8] for row in rows] for rows in (one, two)]
-        self.assertIn(1, buttons[0])
-        # changes occur at samples: rounding can delay one by a tick
-        self.assertLessEqual(sum(a != b for a, b in zip(*buttons)), 2)
-        header = (self.dir / "first.txt").read_text().splitlines()[:12]
-        for line in ("device Touch", "force 3.3", "stiffness 400", "buttons 2"):
-            self.assertIn(line, header)
-
-    def test_the_recording_contains_the_original(self):
-        self.record(*REPLAY, f"file={GRASP}", "-o", "dense.txt", "--seconds", 4)
-        dense = samples(self.dir / "dense.txt")
-        for row in samples(GRASP):
-            if row[0] < 4:
-                same = dense[round(1000 * row[0])]
-                for k in range(1, 4):
-                    self.assertAlmostEqual(row[k], same[k], delta=1e-8)
-
-    def test_the_end_of_a_recording_ends_recording(self):
-        made = self.record(*REPLAY, f"file={GRASP}", "--option", "end=stop", "-o", "all.txt",
-                           "--seconds", 100)
-        self.assertAlmostEqual(made["seconds"], samples(GRASP)[-1][0], delta=2e-3)
-
-    def test_ctrl_c_ends_it_and_the_file_is_complete(self):
-        out = self.dir / "stopped.txt"
-        process = subprocess.Popen([MVS, "haptics", "record", "--driver", "template", "-o", out,
-                                    "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   text=True)
-        until = time.monotonic() + 60
-        while time.monotonic() < until and not (out.exists() and len(samples_or_none(out)) > 10):
-            time.sleep(0.02)
-        process.send_signal(signal.SIGINT)
-        printed, complaints = process.communicate(timeout=60)
-        self.assertEqual(process.returncode, 0, complaints)
-        self.assertEqual(json.loads(printed)["samples"], len(samples(out)))
-        self.json("haptics", "list", "--driver", "replay", "--option", f"file={out}")
-
-    def test_nothing_is_written_for_a_missing_device(self):
-        self.assertIn("file", self.fails("record", "--driver", "replay", "-o", "none.txt"))
-        self.assertFalse((self.dir / "none.txt").exists())
-        self.assertIn("--seconds", self.fails("record", *REPLAY, f"file={GRASP}", "-o", "none.txt"))
-        self.assertFalse((self.dir / "none.txt").exists())
-        self.assertIn("cannot be written", self.fails(
-            "record", *REPLAY, f"file={GRASP}", "-o", "nowhere/r.txt", "--seconds", 1))
-
-
-def samples_or_none(path):
-    text = pathlib.Path(path).read_text()
-    return samples(path) if text.startswith("mvs-recording 1\n") else []
 
 
 if __name__ == "__main__":

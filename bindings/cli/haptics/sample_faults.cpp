@@ -1,5 +1,9 @@
 #include "haptics/sample_faults.h"
 
+#include <cstdio>
+
+#include "haptics/device.h"
+
 namespace cli {
 namespace {
 
@@ -44,6 +48,17 @@ std::vector<SampleFault> sample_faults(const mvs_device_state &state) {
     if (state.sample_faults & row.bit) found.push_back(row.fault);
   }
   return found;
+}
+
+bool is_lost(const mvs_device_state &state) {
+  return state.phase == MVS_DEVICE_PHASE_LATCHED && state.cause != MVS_CAUSE_SOFTWARE;
+}
+
+void print_faults(const mvs_device_info &info, const mvs_device_state &state) {
+  for (const SampleFault &fault : sample_faults(state)) {
+    std::fprintf(stderr, "mvs: the driver %s: %s\n", info.driver, fault.sentence);
+  }
+  if (is_lost(state)) std::fprintf(stderr, "mvs: %s\n", cause_of(state.cause).sentence);
 }
 
 Json sample_faults_json(const std::vector<SampleFault> &faults) {

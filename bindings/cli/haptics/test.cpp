@@ -100,22 +100,6 @@ std::string tested_text(const TestOptions &options, const Tested &tested, const 
   return lines;
 }
 
-// An unarmed device latches only on a fault, or at the end of a recording (MVS_CAUSE_SOFTWARE).
-bool is_fault(const mvs_device_state &state) {
-  return state.phase == MVS_DEVICE_PHASE_LATCHED && state.cause != MVS_CAUSE_SOFTWARE;
-}
-
-// Every fault on stderr, and exit code 1.
-void report_faults(const Tested &tested, Console &console) {
-  for (const SampleFault &fault : tested.faults) {
-    std::fprintf(stderr, "mvs: the driver %s: %s\n", tested.info.driver, fault.sentence);
-  }
-  if (is_fault(tested.state)) {
-    std::fprintf(stderr, "mvs: %s\n", cause_of(tested.state.cause).sentence);
-  }
-  if (!tested.faults.empty() || is_fault(tested.state)) console.exit_code = 1;
-}
-
 void run_test(const TestOptions &options, Console &console) {
   Session session(options.device);
   const mvs_device_info info = session.device().info();
@@ -141,7 +125,8 @@ void run_test(const TestOptions &options, Console &console) {
     fail(MVS_E_CANCELLED, "test", "stopped by Ctrl-C; forces are off");
   }
   print(console, tested_json(options, tested, ticks), tested_text(options, tested, ticks));
-  report_faults(tested, console);
+  print_faults(tested.info, tested.state);
+  if (!tested.faults.empty() || is_lost(tested.state)) console.exit_code = 1;
 }
 
 }  // namespace
