@@ -27,9 +27,9 @@ void ViewOnset::see(const DeviceView &view, const ServoStatus &current) {
 TissueModel ViewOnset::applied(const TissueModel &tissue) const {
   if (!jumped_) return tissue;
   if (tissue.kind == TissueModel::held || tissue.kind == TissueModel::pulled) {
-    TissueModel none;
-    none.contact = tissue.contact;
-    return passed_ticks_ < unseen_ticks ? none : tissue;
+    TissueModel free;
+    free.contact = tissue.contact;
+    return passed_ticks_ < unseen_ticks ? free : tissue;
   }
   return scaled(tissue, std::clamp(passed_s_ / onset_s, 0.0, 1.0));
 }

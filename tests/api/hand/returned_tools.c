@@ -47,6 +47,30 @@ static void a_grasp_that_returns_under_the_pressed_button_is_held_again(void) {
   mvs_device_close(device);
 }
 
+/* A session; builds without HDF5 have none. */
+static void a_grasp_that_a_file_brings_back_is_the_hands(void) {
+  mvs_device *device = opened("grasp_a2.txt", MVS_HAND_MODE_GRASP);
+  const mvs_id tool = turn_until(device, MVS_EVENT_GRASPED, 400).tool;
+  const char *const path = "returned_tools.h5";
+  const mvs_snapshot *held = present();
+  const mvs_result saved = mvs_save_file(held, path, MVS_FORMAT_H5);
+  mvs_snapshot_release(held);
+  if (saved == MVS_E_UNSUPPORTED) {
+    mvs_device_close(device);
+    return;
+  }
+  MUST(saved);
+  MUST(mvs_load_file(sim, path, MVS_FORMAT_H5));
+  CHECK(turn(device).tool == tool && tool_count(sim) == 1);
+  CHECK(turn(device).tool == tool);
+  turn_until(device, MVS_EVENT_LET_GO, 500);
+  CHECK(tool_count(sim) == 0);
+  MUST(mvs_load_file(sim, path, MVS_FORMAT_H5));
+  CHECK(turn(device).tool == 0 && tool_count(sim) == 0);
+  mvs_device_close(device);
+  remove(path);
+}
+
 static void a_device_that_closes_leaves_the_tools_of_others_alone(void) {
   mvs_device *device = opened("push_p2.txt", MVS_HAND_MODE_BALL);
   mvs_tool_desc ball = {
@@ -76,6 +100,7 @@ int main(void) {
   close_the_valve();
   an_undo_after_letting_go_brings_no_grasp_back();
   a_grasp_that_returns_under_the_pressed_button_is_held_again();
+  a_grasp_that_a_file_brings_back_is_the_hands();
   a_device_that_closes_leaves_the_tools_of_others_alone();
   a_device_may_outlive_its_simulator();
   return finish_devices("returned_tools");
