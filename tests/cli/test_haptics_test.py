@@ -89,6 +89,11 @@ class Test(Haptics):
                    "--option", "fault_at=0.25", cwd=self.dir)
         self.assertRegex(done.stdout, r"\d+ of \d+ samples are faulty\n  fault: a position")
 
+    def test_a_device_that_is_not_calibrated_is_a_fault(self):
+        printed = self.fails("test", *HAND, "--seconds", 0.5, "--option", "fault=uncalibrated",
+                             "--option", "fault_at=0.25")
+        self.assertIn("not calibrated", printed)
+
     def test_the_end_of_a_recording_is_no_fault(self):
         printed = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--option", "end=stop",
                          "--seconds", 60)

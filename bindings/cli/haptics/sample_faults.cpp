@@ -39,6 +39,10 @@ constexpr SampleFault no_sample = {
     "the device gave no sample: read() has to return one at each call, and run() has to call the "
     "servo for each sample"};
 
+constexpr SampleFault not_calibrated = {
+    "calibration",
+    "the device is not calibrated, so that forces cannot be switched on: see mvs haptics doctor"};
+
 }  // namespace
 
 std::vector<SampleFault> sample_faults(const mvs_device_state &state) {
@@ -47,6 +51,8 @@ std::vector<SampleFault> sample_faults(const mvs_device_state &state) {
   for (const FaultRow &row : fault_rows) {
     if (state.sample_faults & row.bit) found.push_back(row.fault);
   }
+  const bool has_flags = state.ticks > 0 && state.bad_samples == 0 && !is_lost(state);
+  if (has_flags && !(state.flags & MVS_DRIVER_FLAG_CALIBRATED)) found.push_back(not_calibrated);
   return found;
 }
 
@@ -72,9 +78,11 @@ Json sample_faults_json(const std::vector<SampleFault> &faults) {
 std::string sample_faults_text(const std::vector<SampleFault> &faults,
                                const mvs_device_state &state) {
   if (faults.empty()) return "";
-  std::string lines = text("  %llu of %llu samples are faulty\n",
-                           static_cast<unsigned long long>(state.bad_samples),
-                           static_cast<unsigned long long>(state.ticks));
+  std::string lines;
+  if (state.bad_samples > 0)
+    lines = text("  %llu of %llu samples are faulty\n",
+                 static_cast<unsigned long long>(state.bad_samples),
+                 static_cast<unsigned long long>(state.ticks));
   for (const SampleFault &fault : faults) lines += text("  fault: %s\n", fault.sentence);
   return lines;
 }
