@@ -166,7 +166,8 @@ MVS_API mvs_result mvs_device_get_limits(const mvs_device *device, mvs_device_li
  * the scene are multiplied by `force_scale`, torques by force_scale / scale, which is the torque of
  * these forces at the smaller levers of the device. The hand feels scale * force_scale times the
  * stiffness of the tissue; the tool's spring is softened so that this does not exceed the limit,
- * and on a device that renders torque so that translation and rotation together do not. */
+ * and on a device that renders torque so that translation and rotation together do not. Of a tool
+ * that was made through another view, a share of its force is felt instead. */
 typedef struct mvs_device_view {
   uint32_t struct_size;
   uint32_t reserved;  /* 0 */
