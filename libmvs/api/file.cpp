@@ -57,6 +57,9 @@ void check_rest(const mvs_sim &sim, const Model &model, State &state) {
 }
 
 void load_session(mvs_sim &sim, std::string_view bytes) {
+  // no memory for it fails the call before the valve is another one
+  std::erase_if(sim.file_starts, [](const auto &start) { return start.expired(); });
+  sim.file_starts.reserve(sim.file_starts.size() + 1);
   replace_valve(sim, read_session(bytes));
   if (sim.history_start()) sim.file_starts.push_back(sim.history_start());
 }
