@@ -233,7 +233,7 @@ class Fit:
 
 
 def misfit_words(found: Fit) -> str:
-    """What a residual above MISFIT means."""
+    """The meaning of a residual above MISFIT."""
     return (f"the residual is {found.misfit:.1f} times the noise: the model does not explain the data, and the "
             "intervals are too narrow")
 
