@@ -141,6 +141,33 @@ static void the_leak_is_found_in_the_build_or_later_with_the_same_figures(surfac
   mvs_destroy(stopped);
 }
 
+static void options_out_of_range_are_refused(mvs_sim *sim, const mvs_surface_desc *desc) {
+  mvs_findings *findings = NULL;
+  mvs_build_options options = {.struct_size = sizeof options};
+  options.edge = 1;
+  MUST_FAIL(mvs_build_valve(sim, desc, &options, &findings), MVS_E_ARGUMENT, "options.edge");
+  options.edge = 0;
+  options.edge_error = 6e-3;
+  MUST_FAIL(mvs_build_valve(sim, desc, &options, &findings), MVS_E_ARGUMENT, "options.edge_error");
+  options.edge_error = 0;
+  options.edge_lost = -1e-3;
+  MUST_FAIL(mvs_build_valve(sim, desc, &options, &findings), MVS_E_ARGUMENT, "options.edge_lost");
+  options.edge_lost = 0;
+  options.thickness_error = 3e-3;
+  MUST_FAIL(mvs_build_valve(sim, desc, &options, &findings), MVS_E_ARGUMENT,
+            "options.thickness_error");
+  options.thickness_error = 0;
+  options.closed_error = 6e-3;
+  MUST_FAIL(mvs_build_valve(sim, desc, &options, &findings), MVS_E_ARGUMENT, "0.005");
+  options.closed_error = 0.1e-3; /* of a surface that is not given */
+  MUST_FAIL(mvs_build_valve(sim, desc, &options, &findings), MVS_E_ARGUMENT,
+            "surface.closed_points");
+  options.closed_error = 0;
+  options.chords = 3;
+  MUST_FAIL(mvs_build_valve(sim, desc, &options, &findings), MVS_E_ARGUMENT, "options.chords");
+  CHECK(findings == NULL);
+}
+
 static void bad_input_is_refused_and_changes_nothing(surface *s) {
   mvs_sim *sim = NULL;
   mvs_findings *findings = NULL;
@@ -171,27 +198,7 @@ static void bad_input_is_refused_and_changes_nothing(surface *s) {
   desc.closed_tips = (mvs_array){few, 1, 3, MVS_TYPE_F64, 0};
   MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "closed_tips");
   desc = desc_of(s);
-  options.edge = 1;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.edge");
-  options.edge = 0;
-  options.edge_error = 6e-3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.edge_error");
-  options.edge_error = 0;
-  options.edge_lost = -1e-3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.edge_lost");
-  options.edge_lost = 0;
-  options.thickness_error = 3e-3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT,
-            "options.thickness_error");
-  options.thickness_error = 0;
-  options.closed_error = 6e-3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "0.005");
-  options.closed_error = 0.1e-3; /* of a surface that is not given */
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT,
-            "surface.closed_points");
-  options.closed_error = 0;
-  options.chords = 3;
-  MUST_FAIL(mvs_build_valve(sim, &desc, &options, &findings), MVS_E_ARGUMENT, "options.chords");
+  options_out_of_range_are_refused(sim, &desc);
   /* lengths in mm */
   static surface wide;
   wide = *s;
