@@ -39,7 +39,7 @@ class InstrumentBodies {
   // Points are nodes from `first` on. Without tools that push, all functions below have no effect.
   void set_tools(const std::vector<Tool> &tools, uint32_t first);
   const std::vector<InstrumentBody> &all() const { return bodies_; }
-  // The first node that is a point of an instrument; without instruments there is none.
+  // Points of instruments are the nodes from this one on.
   uint32_t first_point() const { return first_; }
   ConvexBodies &convex() { return convex_; }
   const ConvexBodies &convex() const { return convex_; }

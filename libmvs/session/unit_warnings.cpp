@@ -123,9 +123,9 @@ bool judge_falling(const Valve &valve, const Chord &chord, ChordWarning &falling
   if (chord.law != ChordLawId::ogden) return false;
   const double falls =
       first_strain([&](double strain) { return chord_response(valve, chord, strain).slope < 0; });
+  if (falls == 0) return false;
   const double pushes =
       first_strain([&](double strain) { return chord_tension(valve, chord, strain) < 0; });
-  if (falls == 0) return false;
   std::string sentence = format("pulls less again from a strain of %.2f on", falls);
   if (pushes > 0) sentence += format(", and pushes from %.2f on", pushes);
   falling.add(chord, sentence + ": its Ogden constants describe no tissue there");

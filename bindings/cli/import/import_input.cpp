@@ -67,6 +67,19 @@ void forget_given(const ImportOptions &options, KnownValues &known) {
   }
 }
 
+// The lengths that are known, where no option gives them.
+void take_known_lengths(const ImportOptions &options, const KnownValues &known,
+                        mvs_build_options &build) {
+  const auto take = [](double option, const std::vector<double> &value, double &to) {
+    if (option == 0 && !value.empty()) to = value[0];
+  };
+  take(options.thickness, known.thickness, build.thickness);
+  take(options.edge_error, known.edge_error, build.edge_error);
+  take(options.edge_lost, known.edge_lost, build.edge_lost);
+  take(options.thickness_error, known.thickness_error, build.thickness_error);
+  take(options.closed_error, known.closed_error, build.closed_error);
+}
+
 mvs_array array_of(const mvs_view &view) {
   return {view.data, view.count, view.components, view.type, view.stride};
 }
@@ -109,21 +122,7 @@ ImportInput read_input(const ImportOptions &options, ImportOptions &with_known,
     input.thickness = array_values(surface, options.thickness_array, MVS_SURFACE_PLACE_POINT);
     for (double &value : input.thickness) value *= metre;
   }
-  if (options.thickness == 0 && !known.thickness.empty()) {
-    with_known.build.thickness = known.thickness[0];
-  }
-  if (options.edge_error == 0 && !known.edge_error.empty()) {
-    with_known.build.edge_error = known.edge_error[0];
-  }
-  if (options.edge_lost == 0 && !known.edge_lost.empty()) {
-    with_known.build.edge_lost = known.edge_lost[0];
-  }
-  if (options.thickness_error == 0 && !known.thickness_error.empty()) {
-    with_known.build.thickness_error = known.thickness_error[0];
-  }
-  if (options.closed_error == 0 && !known.closed_error.empty()) {
-    with_known.build.closed_error = known.closed_error[0];
-  }
+  take_known_lengths(options, known, with_known.build);
   if (options.leaflet.empty() && !known.tissue.empty()) {
     with_known.build.leaflet_law = law_of_finding(known.tissue[0], options.with);
   }

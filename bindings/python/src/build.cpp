@@ -185,8 +185,9 @@ void bind_build(py::class_<Simulator> &type) {
       "single"_a = py::none(), "thickness"_a = py::none(), "progress"_a = py::none(),
       "Closes the valve from open under 120 mmHg with chordae of other lengths and leaflets of "
       "other thicknesses, and returns findings (tuple of mvs.Finding), to be taken by name: "
-      "\"leak\", \"leak_interval\" and \"leak_limits\", the interval of a Gaussian model, m2; with "
-      "a thickness \"thickness_error\" before them. The valve stays as it is.\n\nlengths: share by "
+      "\"leak\", \"leak_interval\" and \"leak_limits\", m2: the difference between meshes of one "
+      "sealed valve, and the width from which an interval says nothing; with a thickness "
+      "\"thickness_error\" before them. The valve stays as it is.\n\nlengths: share by "
       "which all rest "
       "lengths, and those of a group, may be off together [0.1]\nsingle: share, of a chord "
       "beside its group [0.03]\nthickness: m, of the leaflets [0]\nprogress: as in settle");
