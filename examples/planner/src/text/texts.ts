@@ -614,6 +614,16 @@ export const warningTexts = {
     `The file has this valve under ${number(own)} mmHg. It is closed under 120 mmHg here: the figures are not those of the file’s own load.`,
 };
 
+/** N: forces of a valve at rest are smaller; one that is not at rest with such forces leaves its shape again. */
+const restResidual = 1e-4;
+
+function outOfBalance(residual: number): string {
+  const forces = `forces of up to ${number(1000 * residual, residual < 1e-3 ? 2 : 1)} mN are out of balance`;
+  return residual < restResidual
+    ? `${forces}: it nearly balances, but in no stable shape`
+    : `${forces}; at rest it is less than 0.1 mN`;
+}
+
 /** Of valves whose figures do not count. */
 export const doubtTexts = {
   /** Beside each figure of such a valve. */
@@ -630,7 +640,7 @@ export const doubtTexts = {
     `Leaflets pass through each other (${pairs} ${pairs === 1 ? 'pair' : 'pairs'} of triangles): leak, coaptation and forces of this valve are wrong. Undo the last operation; where the file has crossing leaflets, mend its mesh.`,
   /** `residual`: N, where it is known. */
   restNote: (residual: number | undefined) =>
-    `The valve did not come to rest${residual === undefined ? '' : ` (forces of up to ${number(1000 * residual, residual < 1e-3 ? 2 : 1)} mN are out of balance; at rest it is less than 0.1 mN)`}. Do not judge it by these figures: undo the last operation, or change its size or place a little.`,
+    `The valve did not come to rest${residual === undefined ? '' : ` (${outOfBalance(residual)})`}. Do not judge it by these figures: undo the last operation, or change its size or place a little.`,
 };
 
 export const verdictTexts = {
