@@ -10,7 +10,7 @@ using namespace mvs::core;
 using mvs::core::test::about;
 
 TEST_CASE("a_jump_books_no_energy_and_arming_begins_with_an_empty_account") {
-  Loop loop(
+  ServoLoop loop(
       "device=touch\nfrom=0.002,0,0\ntarget=0.002,0,0\nresolution=0\n"
       "fault=jump\nfault_at=1\nfault_for=0.5");
   loop.arm();
@@ -28,7 +28,7 @@ TEST_CASE("a_jump_books_no_energy_and_arming_begins_with_an_empty_account") {
 }
 
 TEST_CASE("damping_begins_with_the_ramp_of_the_force") {
-  Loop loop("device=touch\nfrom=-0.03,0,0\ntarget=0.03,0,0\nresolution=0");
+  ServoLoop loop("device=touch\nfrom=-0.03,0,0\ntarget=0.03,0,0\nresolution=0");
   loop.run(0.02);
   mvs_device_limits limits = {};
   limits.ramp_s = 10;
@@ -82,7 +82,7 @@ TEST_CASE("a_surplus_takes_away_the_work_of_a_force_on_the_hand_only") {
 // The force of each model is that of the place of the hand 30 ms before, and it holds for 30 ms.
 // The spring of the arm would swing in it with growing motion: 1.9 J of work on the hand in 4 s.
 TEST_CASE("a_late_simulation_does_little_work_on_the_hand") {
-  Loop loop("device=desktop\nfrom=0,0,0\ntarget=0.012,0,0\nresolution=0");
+  ServoLoop loop("device=desktop\nfrom=0,0,0\ntarget=0.012,0,0\nresolution=0");
   loop.arm();
   mvs_device_limits limits = {};
   limits.ramp_s = 0.01;

@@ -8,9 +8,9 @@
 
 namespace mvs::core {
 
-class Loop {
+class ServoLoop {
  public:
-  explicit Loop(const std::string &options)
+  explicit ServoLoop(const std::string &options)
       : options_(options), device_(description(options_), {}) {
     device_.start();
   }

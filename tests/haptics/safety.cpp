@@ -18,7 +18,7 @@ namespace {
 // A Touch held at rest 2 mm from the middle, in a spring that pulls it back.
 constexpr char at_rest[] = "device=touch\nfrom=0.002,0,0\ntarget=0.002,0,0\nresolution=0\n";
 
-bool can_arm(Loop &loop) {
+bool can_arm(ServoLoop &loop) {
   try {
     loop.device().arm();
     return true;
@@ -55,7 +55,7 @@ TEST_CASE("every listed fault latches forces off, and only an arm enables them a
                           {"clock_jump", Cause::watchdog, true}};
   for (const Fault &fault : faults) {
     CAPTURE(fault.name);
-    Loop loop(std::string(at_rest) + "fault=" + fault.name + "\nfault_at=1\nfault_for=0.5");
+    ServoLoop loop(std::string(at_rest) + "fault=" + fault.name + "\nfault_at=1\nfault_for=0.5");
     loop.arm();
     loop.post(spring(200));
     check_felt(loop.run(0.9));
@@ -80,7 +80,7 @@ TEST_CASE("every listed fault latches forces off, and only an arm enables them a
 TEST_CASE("a device cannot be armed during a fault") {
   for (const char *fault : {"nan_position", "silent", "uncalibrated", "hot", "button", "deadman"}) {
     CAPTURE(fault);
-    Loop loop(std::string(at_rest) + "fault=" + fault + "\nfault_at=0.2");
+    ServoLoop loop(std::string(at_rest) + "fault=" + fault + "\nfault_at=0.2");
     loop.run(0.5);
     CHECK_FALSE(can_arm(loop));
     CHECK(loop.run(0.1).force.isZero(0));
@@ -88,7 +88,7 @@ TEST_CASE("a device cannot be armed during a fault") {
 }
 
 TEST_CASE("saturated motors are reported and have no other effect") {
-  Loop loop(std::string(at_rest) + "fault=saturated\nfault_at=0.1");
+  ServoLoop loop(std::string(at_rest) + "fault=saturated\nfault_at=0.1");
   loop.arm();
   loop.post(spring(200));
   const ServoStatus now = loop.run(0.5);
@@ -99,7 +99,7 @@ TEST_CASE("saturated motors are reported and have no other effect") {
 TEST_CASE("a button stuck from the start is no press, and a bouncing one changes nothing") {
   for (const char *buttons : {"buttons=1", "fault=bounce", "fault=stuck_button"}) {
     CAPTURE(buttons);
-    Loop loop(std::string(at_rest) + buttons);
+    ServoLoop loop(std::string(at_rest) + buttons);
     loop.run(1);
     ButtonEvent event;
     CHECK_FALSE(loop.device().links().buttons.pop(event));
@@ -108,7 +108,7 @@ TEST_CASE("a button stuck from the start is no press, and a bouncing one changes
 }
 
 TEST_CASE("a button is reported once when it has settled, and once when it is released") {
-  Loop loop(std::string(at_rest) + "fault=stuck_button\nfault_at=0.5\nfault_for=0.5");
+  ServoLoop loop(std::string(at_rest) + "fault=stuck_button\nfault_at=0.5\nfault_for=0.5");
   ButtonEvent event;
   loop.run(0.505);
   CHECK_FALSE(loop.device().links().buttons.pop(event));
@@ -123,7 +123,7 @@ TEST_CASE("a button is reported once when it has settled, and once when it is re
 }
 
 TEST_CASE("forces wait at the gate, then rise along the ramp") {
-  Loop loop(at_rest);
+  ServoLoop loop(at_rest);
   loop.run(0.01);
   mvs_device_limits limits = {};
   limits.ramp_s = 0.5;
@@ -150,7 +150,7 @@ TEST_CASE("forces wait at the gate, then rise along the ramp") {
 }
 
 TEST_CASE("a new grasp pulls a still hand along a ramp") {
-  Loop loop(at_rest);
+  ServoLoop loop(at_rest);
   loop.arm();
   loop.post(spring(200));  // 0.4 N at 2 mm
   double before = 0;
@@ -164,7 +164,7 @@ TEST_CASE("a new grasp pulls a still hand along a ramp") {
 }
 
 TEST_CASE("a force is limited to the user's maximum and to the slew rate") {
-  Loop loop(at_rest);
+  ServoLoop loop(at_rest);
   loop.arm();
   mvs_device_limits limits = {};
   limits.force = 0.3;
@@ -193,7 +193,7 @@ TEST_CASE("a force is limited to the user's maximum and to the slew rate") {
 }
 
 TEST_CASE("motor forces stay within the thermal limit") {
-  Loop loop(at_rest);
+  ServoLoop loop(at_rest);
   loop.arm();
   mvs_device_limits limits = {};
   limits.thermal_s = 1;
@@ -221,7 +221,7 @@ TEST_CASE("motor forces stay within the thermal limit") {
 }
 
 TEST_CASE("forces fade when the simulation stops, and return with it") {
-  Loop loop(at_rest);
+  ServoLoop loop(at_rest);
   loop.arm();
   mvs_device_limits limits = {};
   limits.ramp_s = 0.01;
@@ -243,7 +243,7 @@ TEST_CASE("forces fade when the simulation stops, and return with it") {
 TEST_CASE("a tissue model with NaN latches, and never reaches the motors") {
   for (int where = 0; where < 4; ++where) {
     CAPTURE(where);
-    Loop loop(at_rest);
+    ServoLoop loop(at_rest);
     loop.arm();
     loop.post(spring(200));
     check_felt(loop.run(0.1));
@@ -262,7 +262,7 @@ TEST_CASE("a tissue model with NaN latches, and never reaches the motors") {
 }
 
 TEST_CASE("the application's cut works in any state, and a stop and start does not undo it") {
-  Loop loop(at_rest);
+  ServoLoop loop(at_rest);
   loop.arm();
   loop.post(spring(200));
   check_felt(loop.run(0.1));
@@ -278,7 +278,7 @@ TEST_CASE("the application's cut works in any state, and a stop and start does n
 }
 
 TEST_CASE("the edge of the workspace pushes back before the device's mechanical stop") {
-  Loop loop("device=touch\nfrom=0.06,0,0\ntarget=0.09,0,0\nresolution=0");
+  ServoLoop loop("device=touch\nfrom=0.06,0,0\ntarget=0.09,0,0\nresolution=0");
   loop.arm();
   CHECK_EQ(loop.run(0.001).limited & MVS_LIMITED_WALL, 0u);
   const ServoStatus now = loop.run(0.5);

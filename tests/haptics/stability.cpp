@@ -31,7 +31,7 @@ double unseen(double stiffness, double resolution) {
 // Along x, from the servo's own trace: the work on the hand of forces that act a sample late.
 class Work {
  public:
-  void follow(Loop &loop, double seconds) {
+  void follow(ServoLoop &loop, double seconds) {
     const auto turns = static_cast<int>(std::ceil(seconds / 0.04));
     for (int k = 0; k < turns; ++k) {
       loop.run(0.04);
@@ -66,7 +66,7 @@ class Work {
 TEST_CASE("a free device comes to rest in the stiffest spring") {
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
-    Loop loop(std::string("device=") + kind.name + held_by_nobody);
+    ServoLoop loop(std::string("device=") + kind.name + held_by_nobody);
     loop.arm();
     const double stiffness = loop.device().info().max_stiffness;
     loop.post(spring(stiffness));
@@ -87,8 +87,8 @@ TEST_CASE("a hand that swings into the stiffest wall gains no work from it") {
     for (const double frequency : {1.0, 4.0}) {
       CAPTURE(kind.name);
       CAPTURE(frequency);
-      Loop loop(std::string("device=") + kind.name +
-                "\namplitude=0.005,0,0\nfrequency=" + std::to_string(frequency));
+      ServoLoop loop(std::string("device=") + kind.name +
+                     "\namplitude=0.005,0,0\nfrequency=" + std::to_string(frequency));
       const double stiffness = loop.device().info().max_stiffness;
       loop.arm();
       TissueModel wall = spring(stiffness);
@@ -108,8 +108,8 @@ TEST_CASE("a hand that drags a spring gains no more work than the spring stored 
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
     // exact positions, so that work is not mixed with encoder steps
-    Loop loop(std::string("device=") + kind.name +
-              "\namplitude=0.005,0,0\nfrequency=2\nresolution=0");
+    ServoLoop loop(std::string("device=") + kind.name +
+                   "\namplitude=0.005,0,0\nfrequency=2\nresolution=0");
     loop.arm();
     const double stiffness = loop.device().info().max_stiffness;
     loop.post(spring(stiffness));
@@ -129,7 +129,7 @@ TEST_CASE("a hand that drags a spring gains no more work than the spring stored 
 TEST_CASE("late models keep a grasp stable") {
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
-    Loop loop(std::string("device=") + kind.name + held_by_nobody);
+    ServoLoop loop(std::string("device=") + kind.name + held_by_nobody);
     loop.arm();
     const double stiffness = loop.device().info().max_stiffness;
     double first = 0, last = 0;

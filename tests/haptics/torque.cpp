@@ -24,7 +24,7 @@ void check_torque(const ServoStatus &now) {
 }  // namespace
 
 TEST_CASE("a torque is limited to the user's maximum, to the device's and to its rate") {
-  Loop loop("device=premium6\nturn_resolution=0\nresolution=0");
+  ServoLoop loop("device=premium6\nturn_resolution=0\nresolution=0");
   loop.arm();
   CHECK_EQ(loop.device().info().peak_torque, 0.188);
   // twice the device's own is not more than the device's own
@@ -61,7 +61,7 @@ TEST_CASE("a torque is limited to the user's maximum, to the device's and to its
 
 // 0.188 N m times the share 1.4 / 8.5 of the force, which the motors bear continuously.
 TEST_CASE("a lasting torque falls to what the motors bear") {
-  Loop loop("device=premium6\nturn_resolution=0\nwrist_stiffness=20");
+  ServoLoop loop("device=premium6\nturn_resolution=0\nwrist_stiffness=20");
   loop.arm();
   mvs_device_limits limits = {};
   limits.thermal_s = 1;
@@ -84,7 +84,7 @@ TEST_CASE("a lasting torque falls to what the motors bear") {
 }
 
 TEST_CASE("a torque waits at the gate as a force does") {
-  Loop loop("device=premium6\nturn_resolution=0");
+  ServoLoop loop("device=premium6\nturn_resolution=0");
   loop.run(0.01);
   mvs_device_limits limits = {};
   limits.stale_s = 10;
@@ -104,7 +104,7 @@ TEST_CASE("a torque waits at the gate as a force does") {
 }
 
 TEST_CASE("a torque fades when the simulation stops, and is zero after a cut") {
-  Loop loop("device=premium6\nturn_resolution=0\nturned=0.05,0,0");
+  ServoLoop loop("device=premium6\nturn_resolution=0\nturned=0.05,0,0");
   loop.arm();
   mvs_device_limits limits = {};
   limits.ramp_s = 0.01;
@@ -129,7 +129,7 @@ TEST_CASE("a torque fades when the simulation stops, and is zero after a cut") {
 TEST_CASE("a torque model with NaN latches, and never reaches the motors") {
   for (int where = 0; where < 6; ++where) {
     CAPTURE(where);
-    Loop loop("device=premium6\nturn_resolution=0\nturned=0.05,0,0");
+    ServoLoop loop("device=premium6\nturn_resolution=0\nturned=0.05,0,0");
     loop.arm();
     TissueModel twist = spring(100);
     twist.turns = 1;

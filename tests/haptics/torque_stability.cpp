@@ -50,7 +50,7 @@ double unseen(const mvs_device_info &info, const Kind &kind) {
 class Work {
  public:
   explicit Work(const mvs_device_info &info) : info_(info) {}
-  void follow(Loop &loop, double seconds) {
+  void follow(ServoLoop &loop, double seconds) {
     const auto turns = static_cast<int>(std::ceil(seconds / 0.04));
     for (int k = 0; k < turns; ++k) {
       loop.run(0.04);
@@ -101,7 +101,7 @@ TEST_CASE("a free device comes to rest in the stiffest spring of six freedoms") 
     for (const double mix : {0.0, 0.9}) {
       CAPTURE(kind.name);
       CAPTURE(mix);
-      Loop loop(std::string("device=") + kind.name + held_by_nobody);
+      ServoLoop loop(std::string("device=") + kind.name + held_by_nobody);
       loop.arm();
       const mvs_device_info info = loop.device().info();
       loop.post(stiffest(info, mix));
@@ -128,8 +128,8 @@ TEST_CASE("a stylus that swings into the stiffest wall gains no work from it") {
     for (const double frequency : {1.0, 4.0}) {
       CAPTURE(kind.name);
       CAPTURE(frequency);
-      Loop loop(std::string("device=") + kind.name +
-                "\nturn_amplitude=0.01,0.1,0\nfrequency=" + std::to_string(frequency));
+      ServoLoop loop(std::string("device=") + kind.name +
+                     "\nturn_amplitude=0.01,0.1,0\nfrequency=" + std::to_string(frequency));
       loop.arm();
       const mvs_device_info info = loop.device().info();
       TissueModel wall = stiffest(info, 0);
@@ -152,9 +152,9 @@ TEST_CASE("a stylus that drags a coupled spring gains no more work than it store
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
     // exact orientations, so that work is not mixed with encoder steps
-    Loop loop(std::string("device=") + kind.name +
-              "\namplitude=0.003,0,0\nturn_amplitude=0.03,0.06,0\nfrequency=2\nresolution=0"
-              "\nturn_resolution=0");
+    ServoLoop loop(std::string("device=") + kind.name +
+                   "\namplitude=0.003,0,0\nturn_amplitude=0.03,0.06,0\nfrequency=2\nresolution=0"
+                   "\nturn_resolution=0");
     loop.arm();
     const mvs_device_info info = loop.device().info();
     Work work(info);
@@ -174,7 +174,7 @@ TEST_CASE("a stylus that drags a coupled spring gains no more work than it store
 TEST_CASE("late models keep a coupled grasp stable") {
   for (const Kind &kind : kinds) {
     CAPTURE(kind.name);
-    Loop loop(std::string("device=") + kind.name + held_by_nobody);
+    ServoLoop loop(std::string("device=") + kind.name + held_by_nobody);
     loop.arm();
     const mvs_device_info info = loop.device().info();
     const TissueModel grasp = stiffest(info, 0.5);
