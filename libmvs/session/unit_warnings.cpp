@@ -1,4 +1,4 @@
-// Unit checks by the response under systolic pressure.
+// Unit checks of tissue by the response under systolic pressure.
 #include "session/unit_warnings.h"
 
 #include <mvs/sim.h>
@@ -9,9 +9,9 @@
 #include <new>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <string>
 
-#include "base/chars.h"
 #include "base/error.h"
 #include "model/chord_law.h"
 
@@ -42,10 +42,11 @@ struct Scale {
 };
 
 // Returns the first constant in Pa below its lower bound, or null.
-const Constant *too_small(const LeafletLaw &law, const Constants &constants, double &value) {
-  for (size_t k = 0; k < law.constants.size(); ++k) {
-    const Constant &c = law.constants[k];
-    value = constants[k];
+const Constant *too_small(std::span<const Constant> law, std::span<const double> values,
+                          double &value) {
+  for (size_t k = 0; k < law.size(); ++k) {
+    const Constant &c = law[k];
+    value = values[k];
     const bool is_none = value == 0 && c.low == 0;
     if (*c.unit && value < little * c.fallback && !is_none) return &c;
   }
@@ -59,7 +60,7 @@ void log_leaflet(const mvs_sim &sim, const Leaflet &leaflet, const Scale &scale)
   };
   const double needed = scale.membrane_tension() / leaflet.thickness;
   double value = 0;
-  if (const Constant *c = too_small(law, leaflet.constants, value)) {
+  if (const Constant *c = too_small(law.constants, leaflet.constants, value)) {
     sim.log(MVS_LOG_WARNING,
             "leaflet %s has %s %g Pa, tissue about %g: looks like kPa or MPa given as Pa",
             leaflet.name.c_str(), c->what, value, c->fallback);
@@ -117,6 +118,19 @@ double first_strain(Condition holds) {
   return 0;
 }
 
+// No chord bears twice its length: a measured curve that ends beyond has its strains in percent.
+bool judge_curve(const Valve &valve, const Chord &chord, ChordWarning &curves) {
+  constexpr double longest_strain = 1;
+  if (chord.law != ChordLawId::table) return false;
+  const ChordCurve &curve = valve.curves[static_cast<size_t>(chord.constants[0])];
+  const double last = curve.points.back()[0];
+  if (last <= longest_strain) return false;
+  curves.add(chord, format("follows curve %s, which ends at a strain of %g: strains are ratios, "
+                           "0.3 for 30 %%",
+                           curve.name.c_str(), last));
+  return true;
+}
+
 // An Ogden chord whose terms have different signs may stiffen at first, pull less beyond a strain,
 // and push beyond another. Returns whether it does.
 bool judge_falling(const Valve &valve, const Chord &chord, ChordWarning &falling) {
@@ -132,11 +146,18 @@ bool judge_falling(const Valve &valve, const Chord &chord, ChordWarning &falling
   return true;
 }
 
+// The modulus of a bilinear chord beyond its kink, if it is too small, or null.
+const Constant *small_modulus(const Chord &chord, double &value) {
+  if (chord.law != ChordLawId::bilinear) return nullptr;
+  return too_small(find_chord_law(chord.law)->constants, chord.constants, value);
+}
+
 // Soft: a chord that yields to its share of the pressure, or bears less than 50 kPa at a strain of
 // 0.5 (the softest natural chordae have a modulus of 10 MPa). Stiff: as stiff as steel wire of 0.4
 // mm.
 void judge_stiffness(const Valve &valve, const Chord &chord, double share, ChordWarning &soft,
                      ChordWarning &stiff) {
+  double value = 0;
   const double stress = chord_response(valve, chord, 0.5).stress;
   const double doubled = chord_tension(valve, chord, 1),
                slightly = chord_tension(valve, chord, 0.01);
@@ -148,6 +169,9 @@ void judge_stiffness(const Valve &valve, const Chord &chord, double share, Chord
     soft.add(chord, format("bears %.3g kPa at half again its length, tissue bears MPa: looks like "
                            "a modulus in kPa or MPa given as Pa",
                            1e-3 * stress));
+  } else if (const Constant *c = small_modulus(chord, value)) {
+    soft.add(chord, format("has %s %g Pa, tissue about %g: looks like kPa or MPa given as Pa",
+                           c->what, value, c->fallback));
   } else if (slightly > 200) {
     stiff.add(chord, format("bears %.3g N at a strain of 1 %%, as steel wire does: young is in Pa, "
                             "area in m2",
@@ -200,24 +224,20 @@ void log_chords(const mvs_sim &sim, const Model &model, const Scale &scale, cons
   // the annulus spans about half the area of the leaflets
   const double share = 0.5 * MVS_SYSTOLE_PA * scale.area / static_cast<double>(ends);
   const KnownChords known(before);
-  ChordWarning soft, stiff, falling, lengths;
+  ChordWarning soft, stiff, falling, curves, lengths;
   for (const Chord &chord : valve.chords) {
     if (chord.kind == ChordKind::suture) continue;  // made by the library
     if (known.has(chord)) continue;
-    if (!judge_falling(valve, chord, falling)) judge_stiffness(valve, chord, share, soft, stiff);
+    if (!judge_falling(valve, chord, falling) && !judge_curve(valve, chord, curves)) {
+      judge_stiffness(valve, chord, share, soft, stiff);
+    }
     judge_length(valve, chord, lengths);
   }
   soft.log(sim);
   stiff.log(sim);
   falling.log(sim);
+  curves.log(sim);
   lengths.log(sim);
-}
-
-// Whether a number has no more than this number of significant digits.
-bool has_few_digits(double value, int most) {
-  double rounded = 0;
-  return double_from_chars(format("%.*g", most, value), rounded) &&
-         std::abs(rounded - value) < 1e-12 * value;
 }
 
 void log_all(const mvs_sim &sim, const Model &model, const Model *before) {
@@ -242,36 +262,6 @@ void log_units(const mvs_sim &sim, const Model &model, const Model *before) {
   try {
     log_all(sim, model, before);
   } catch (const std::bad_alloc &) {  // NOLINT(bugprone-empty-catch): the call itself is done
-  }
-}
-
-// Warns about pressures below 1.5 mmHg, which are systolic ones as numbers in MPa, kPa or mmHg
-// (that of a hypertensive patient: a whole number up to 300), and about those above 100 kPa. A ramp
-// begins with pressures as small, in longer fractions, which pass: a number in mmHg has at most
-// five digits (122.3; the first of 100 steps to 120 mmHg is 159.9864 Pa), one in kPa at most eight
-// (15.99864 is 120 mmHg). In MPa no ramp of less than 500,000 steps has one. Below 1e-3 Pa they are
-// rounding errors of zero.
-void log_pressure(const mvs_sim &sim, double pressure) {
-  constexpr double mmhg = MVS_SYSTOLE_PA / 120, most = 100e3;
-  constexpr double least = 1e-3, most_mpa = 0.03, most_kpa = 30, most_mmhg = 200,
-                   most_whole_mmhg = 300;
-  struct Unit {
-    const char *name;
-    double pa;
-  };
-  constexpr Unit in_mpa{"MPa", 1e6}, in_kpa{"kPa", 1e3}, in_mmhg{"mmHg", mmhg};
-  const double size = std::abs(pressure);
-  const bool is_small = size <= most_mmhg || (size <= most_whole_mmhg && size == std::floor(size));
-  if (size >= least && is_small &&
-      (size <= most_mpa || has_few_digits(size, size <= most_kpa ? 8 : 5))) {
-    const Unit &unit = size <= most_mpa ? in_mpa : size <= most_kpa ? in_kpa : in_mmhg;
-    sim.log(MVS_LOG_WARNING,
-            "a pressure of %.8g Pa is %.2g mmHg: looks like %s given as Pa; %.8g %s are %.8g Pa",
-            pressure, pressure / mmhg, unit.name, pressure, unit.name, pressure * unit.pa);
-  } else if (size > most) {
-    sim.log(MVS_LOG_WARNING,
-            "a pressure of %g Pa is %.4g mmHg: looks like Pa taken for mmHg; pressures are in Pa",
-            pressure, pressure / mmhg);
   }
 }
 

@@ -76,11 +76,18 @@ static void what_tissue_is_like_is_not_warned_of(void) {
   for (int k = 0; k <= 100; ++k) WARNS(load(k * MVS_SYSTOLE_PA / 100), 0, "");
 }
 
+static void bilinear(mvs_chord_desc *chord, double high) {
+  chord->law = MVS_CHORD_LAW_BILINEAR;
+  chord->constants[1] = high;
+}
+
 static void moduli_in_kpa_are_warned_of(void) {
   CHANGED(f.chords[2].young = 40e3, 1, "bears");
   CHANGED(for (int c = 0; c < FUNNEL_CHORDS; ++c) f.chords[c].young = 40e3, 1,
           "looks like a modulus in kPa or MPa given as Pa (10 of them)");
   CHANGED(f.chords[2].area = 0.785e-10, 1, "its share of the systolic force");
+  CHANGED(bilinear(&f.chords[2], 0), 0, "");
+  CHANGED(bilinear(&f.chords[2], 100), 1, "Pa, tissue about 1e+08: looks like kPa or MPa");
   CHANGED(f.chords[2].young = 40e9, 1, "as steel wire does");
   CHANGED(f.leaflets[0].constants[0] = 100, 1, "has low modulus 100 Pa, tissue about 100000");
   CHANGED(f.desc.contact_stiffness = 20, 1, "contact stiffness is 20 Pa");
@@ -88,6 +95,25 @@ static void moduli_in_kpa_are_warned_of(void) {
   WARNS(tissue(MVS_LEAFLET_LAW_PROT, 0.052, 0), 2, "leaflet P has constant c0 0.052 Pa");
   WARNS(tissue(MVS_LEAFLET_LAW_NEO_HOOKEAN, 3000, 0), 2, "over 10 times its length");
   WARNS(tissue(MVS_LEAFLET_LAW_NEO_HOOKEAN, 33e9, 0), 2, "by less than 0.1 %");
+}
+
+/* A chord that follows a curve up to 5 MPa, its strains multiplied by a factor. */
+static void follow_curve(double factor) {
+  static double points[6];
+  static mvs_curve_desc curve;
+  const double given[6] = {0, 0, 0.05 * factor, 0.2e6, 0.15 * factor, 5e6};
+  memcpy(points, given, sizeof points);
+  curve = (mvs_curve_desc){.name = "measured", .points = packed(points, 3, 2, MVS_TYPE_F64)};
+  f.desc.curves = &curve;
+  f.desc.curve_count = 1;
+  f.desc.curve_stride = sizeof curve;
+  f.chords[2].law = MVS_CHORD_LAW_TABLE;
+  f.chords[2].constants[0] = 0;
+}
+
+static void strains_in_percent_are_warned_of(void) {
+  CHANGED(follow_curve(1), 0, "");
+  CHANGED(follow_curve(100), 1, "follows curve measured, which ends at a strain of 15");
 }
 
 static void lengths_in_other_units_are_warned_of(void) {
@@ -179,6 +205,7 @@ int main(void) {
   MUST(mvs_create(&desc, &sim));
   what_tissue_is_like_is_not_warned_of();
   moduli_in_kpa_are_warned_of();
+  strains_in_percent_are_warned_of();
   lengths_in_other_units_are_warned_of();
   pressures_in_mmhg_are_warned_of();
   pressures_in_kpa_are_warned_of();

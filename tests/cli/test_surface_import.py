@@ -166,7 +166,7 @@ class SurfaceImport(OpenSurface):
         for one in rows["closed_error"], known["closed_error"]:
             self.assertEqual((one["source"], one["values"]), ("given", [0.2e-3]))
         self.assertIn("0.72 mm", known["shown_gaps"]["sentence"] + known["closed_error"]["sentence"])
-        self.fails(1, "surface.closed_points", "import", self.dir / "open.stl", "-o", self.dir / "x.h5",
+        self.fails(2, "--closed-error requires --closed", "import", self.dir / "open.stl", "-o", self.dir / "x.h5",
                    "--closed-error", "0.2")
 
     def test_the_loaded_annulus_and_tips_are_inputs(self):

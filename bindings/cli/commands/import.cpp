@@ -157,6 +157,7 @@ void add_range_options(CLI::App &command, ImportOptions &options) {
       .add_option("--closed-error", options.closed_error,
                   "standard deviation of places of --closed, mm: gaps of it widen the interval of "
                   "leaks from 3.6 times as much of width on [0.5, as of labels of networks]")
+      ->needs(command.get_option("--closed"))
       ->check(between(0.001, 5, "mm"));
   command.add_flag("--no-leak", options.no_leak,
                    "leave the leak and its interval out, which take most of the time of an import "
