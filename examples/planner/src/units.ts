@@ -1,4 +1,4 @@
-// Units of length of files.
+// Units of length of files, and numbers that the page and its worker share.
 import type { FileUnit } from './protocol';
 
 /** mm of each unit, in the order in which they are offered and guessed. */
@@ -9,3 +9,6 @@ export const fileUnits = Object.keys(millimetres) as FileUnit[];
  *  great strain. */
 export const flowRange = [10, 1000] as const;
 export const isFlow = (flow: number): boolean => flow >= flowRange[0] && flow <= flowRange[1];
+
+/** N: forces of a valve at rest are smaller; one that is not at rest with such forces leaves its shape again. */
+export const restResidual = 1e-4;

@@ -45,7 +45,9 @@ describe('planner verdict', () => {
     await page.getByRole('button', { name: 'Report' }).click();
     const report = page.locator('dialog [data-testid=report]');
     // of both valves, although only the opening of the repaired one was requested
-    await report.locator('tr', { hasText: /Open area in diastole\s*[\d.]+\scm²\s*\*?\s*[\d.]+\scm²/ }).waitFor();
+    await report
+      .locator('tr', { hasText: /Open area in diastole\s*[\d.]+\scm²\s*\*?\s*[\d.]+\scm²/ })
+      .waitFor();
     const text = flat(await report.getByTestId('report-verdict').innerText());
     const all = flat(await report.innerText());
     await page.keyboard.press('Escape');

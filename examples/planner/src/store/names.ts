@@ -12,8 +12,7 @@ const begins = (name: string, letter: string): boolean => name.toLowerCase().sta
 
 /** Two leaflets, by their names the anterior and the posterior one. */
 export const isMitral = (names: string[]): boolean =>
-  names.length === 2 &&
-  ['a', 'p'].every((letter) => names.some((name) => begins(name, letter)));
+  names.length === 2 && ['a', 'p'].every((letter) => names.some((name) => begins(name, letter)));
 
 /** The leaflets of the valve of the plan where they are not those of a mitral valve; else null. */
 export const otherLeaflets = computed<string[] | null>(() => {

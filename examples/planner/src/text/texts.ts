@@ -1,7 +1,7 @@
 // Every text that the page shows, in a surgeon's words. To translate the page, translate this file.
 import { farBeyond, leakPlaces, suture } from '../notable';
 import type { Figures } from '../protocol';
-import { flowRange } from '../units';
+import { flowRange, restResidual } from '../units';
 
 const number = (value: number, digits = 1): string => (Number.isFinite(value) ? value.toFixed(digits) : '–');
 
@@ -613,9 +613,6 @@ export const warningTexts = {
   otherLoad: (own: number) =>
     `The file has this valve under ${number(own)} mmHg. It is closed under 120 mmHg here: the figures are not those of the file’s own load.`,
 };
-
-/** N: forces of a valve at rest are smaller; one that is not at rest with such forces leaves its shape again. */
-const restResidual = 1e-4;
 
 function outOfBalance(residual: number): string {
   const forces = `forces of up to ${number(1000 * residual, residual < 1e-3 ? 2 : 1)} mN are out of balance`;

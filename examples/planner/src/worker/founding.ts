@@ -7,6 +7,7 @@ import plan3 from '../../../plans/valve3.json?raw';
 import plan4 from '../../../plans/valve4.json?raw';
 import flail from '../../../plans/flail.json?raw';
 import type { FoundingResult } from '../protocol';
+import { restResidual } from '../units';
 import { figuresOf } from './picture';
 import { mm2 } from './units';
 
@@ -42,7 +43,7 @@ export function foundingValve(mvs: Mvs, number: number, vertices: number): Uint8
 
 function result(mvs: Mvs, sim: Simulator): { figures: ReturnType<typeof figuresOf>; openArea: number } {
   return sim.read((snapshot) => {
-    const { cost, opened } = snapshot.cost({ residual: 1e-4 });
+    const { cost, opened } = snapshot.cost({ residual: restResidual });
     opened.dispose();
     return { figures: figuresOf(mvs, snapshot), openArea: cost.open_area * mm2 };
   });
@@ -58,7 +59,7 @@ export class HealthyValve {
     try {
       sim.load(foundingValve(mvs, 0, vertices), 'obj');
       sim.setLoad();
-      sim.settle({ residual: 1e-4 });
+      sim.settle({ residual: restResidual });
       const { figures, openArea } = result(mvs, sim);
       this.figures = { measures: figures.measures, openArea };
       this.snapshot = sim.snapshot();

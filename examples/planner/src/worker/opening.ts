@@ -1,6 +1,7 @@
 // How far a closed valve opens in diastole.
 import type { Snapshot } from 'libmvs';
 import type { Cost } from '../protocol';
+import { restResidual } from '../units';
 import { ml, mm, mm2, mmHg } from './units';
 
 /** ml/s; any flow tells the gradient of all others. */
@@ -8,7 +9,7 @@ const someFlow = 100;
 
 /** The valve opened beside the plan. */
 export function costOf(snapshot: Snapshot): Cost {
-  const { cost, opened } = snapshot.cost({ residual: 1e-4, flow: someFlow / ml });
+  const { cost, opened } = snapshot.cost({ residual: restResidual, flow: someFlow / ml });
   opened.dispose();
   return {
     hash: snapshot.hash,

@@ -22,6 +22,7 @@ import type {
   Spread,
 } from '../protocol';
 import { refusals } from '../text/texts';
+import { restResidual } from '../units';
 import { breathe } from './breathe';
 import { checkpointIn, Checkpoints } from './checkpoints';
 import { libraryFields } from './operations';
@@ -37,7 +38,7 @@ import { otherLoad, Warnings } from './warnings';
 const slice = 0.03;
 /** N, largest out-of-balance force at rest: that of the library's recommendation for closures. The
  * page shows no margins of stability. */
-const settleOptions = { residual: 1e-4, flags: SettleFlags.no_margins };
+const settleOptions = { residual: restResidual, flags: SettleFlags.no_margins };
 
 export class Planner {
   readonly main: Simulator;
