@@ -87,7 +87,8 @@ enum mvs_sensitivity_flags_e {
   MVS_SENSITIVITY_DIRECT = 1 << 1,   /* one solution for each parameter, with few quantities too */
   MVS_SENSITIVITY_NO_TEST = 1 << 2,  /* no test of both sides, and chordae alone are looked at for
                                         switches: faster, for fits */
-  MVS_SENSITIVITY_NO_MARGIN = 1 << 3 /* no eigenvalue: stiffness_margin is NaN */
+  MVS_SENSITIVITY_NO_MARGIN = 1 << 3 /* no eigenvalue: stiffness_margin is NaN, and a fold that is
+                                        about to snap is found only where Ks is not definite */
 };
 typedef uint32_t mvs_sensitivity_flags;
 

@@ -103,8 +103,9 @@ mvs_result mvs_move_tool(mvs_sim *sim, mvs_id tool, const double position[3],
     must_point(position, "position");
     Tool moved = tool_of(sim->present()->state, tool, "move");
     moved.position = read_place(position, "position");
-    if (axis && moved.kind == ToolKind::rod) moved.axis = read_axis(axis, "axis");
-    sim->hands.post(moved, axis != nullptr);
+    const bool turns = axis && moved.kind == ToolKind::rod;
+    if (turns) moved.axis = read_axis(axis, "axis");
+    sim->hands.post(moved, turns);
   });
 }
 

@@ -140,18 +140,23 @@ double Servo::gated_size(const Wrench &field) const {
   return std::max(size, field.torque.norm() * (limits_.force / limits_.torque));
 }
 
-// Returns the gated field, clamped to the peak force and to the heat budget.
-Wrench Servo::rendered(const Wrench &given, uint32_t &bits) const {
+// Clamps a wrench to the largest force and to the heat budget.
+Wrench Servo::bounded(const Wrench &given, uint32_t &bits) const {
   const bool is_warm = (validator_.flags() & MVS_DRIVER_FLAG_WARM) != 0;
   Wrench out;
-  out.force = clamped(share_ * given.force, limits_.force, MVS_LIMITED_FORCE, bits);
+  out.force = clamped(given.force, limits_.force, MVS_LIMITED_FORCE, bits);
   out.force =
       clamped(out.force, heat_.most(force_limits(limits_), is_warm), MVS_LIMITED_CONTINUOUS, bits);
   if (!traits_->renders_torque) return out;
-  out.torque = clamped(share_ * given.torque, limits_.torque, MVS_LIMITED_TORQUE, bits);
+  out.torque = clamped(given.torque, limits_.torque, MVS_LIMITED_TORQUE, bits);
   out.torque = clamped(out.torque, torque_heat_.most(torque_limits(limits_), is_warm),
                        MVS_LIMITED_CONTINUOUS, bits);
   return out;
+}
+
+// Returns the gated field within its bounds.
+Wrench Servo::rendered(const Wrench &given, uint32_t &bits) const {
+  return bounded({share_ * given.force, share_ * given.torque}, bits);
 }
 
 Wrench Servo::limited(const Wrench &given) {
@@ -175,8 +180,7 @@ Wrench Servo::limited(const Wrench &given) {
     damping.force *= share_;
     damping.torque *= share_;
     if (!damping.force.isZero(0) || !damping.torque.isZero(0)) bits_ |= MVS_LIMITED_ENERGY;
-    next.force = clamped(next.force + damping.force, limits_.force, MVS_LIMITED_FORCE, bits_);
-    next.torque = clamped(next.torque + damping.torque, limits_.torque, MVS_LIMITED_TORQUE, bits_);
+    next = bounded({next.force + damping.force, next.torque + damping.torque}, bits_);
   }
   const mvs_device_info &device = traits_->info;
   next.force = slewed(sent_.force, next.force, limits_.slew, device.peak_force);
@@ -186,7 +190,7 @@ Wrench Servo::limited(const Wrench &given) {
 
 // Returns the next force, at most `slew` times the time away from the last one. A gap between two
 // samples allows no more than a late one. A lower force may also fall as fast as the device's
-// default slew allows: a lowered limit, or a release, takes effect at once.
+// default slew allows: a lowered limit, or a release, takes effect within 10 ms.
 Vec3 Servo::slewed(const Vec3 &last, const Vec3 &next, double slew, double peak) {
   const double dt = std::min(validator_.dt(), late_periods / traits_->info.rate);
   const double rate = next.norm() < last.norm() ? std::max(slew, default_slew * peak) : slew;

@@ -42,6 +42,7 @@ class Servo {
   void take_updates();
   void spend_heat(double dt);
   Wrench wanted(double share) const;
+  Wrench bounded(const Wrench &given, uint32_t &bits) const;
   Wrench rendered(const Wrench &given, uint32_t &bits) const;
   Wrench limited(const Wrench &given);
   Vec3 slewed(const Vec3 &last, const Vec3 &next, double slew, double peak);

@@ -74,7 +74,7 @@ Vec3 force_at(const TissueModel &t, const Vec3 &hand) {
   }
 }
 
-// The torque is not longer than g, since v is orthogonal to v x g.
+// The torque is not longer than that of g, as this is orthogonal to v x g and w^2 + |v|^2 = 1.
 Wrench wrench_at(const TissueModel &t, const Placement &hand) {
   if (t.turns == 0) return {force_at(t, hand.position), Vec3::Zero()};
   const Eigen::Quaterniond turn = turn_between(t.orientation, hand.orientation);

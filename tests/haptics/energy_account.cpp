@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tests/about.h"
 #include "tests/haptics/loop.h"
@@ -27,39 +28,74 @@ TEST_CASE("a_jump_books_no_energy_and_arming_begins_with_an_empty_account") {
   CHECK_EQ(loop.run(0).energy, 0);
 }
 
-TEST_CASE("damping_begins_with_the_ramp_of_the_force") {
-  ServoLoop loop("device=touch\nfrom=-0.03,0,0\ntarget=0.03,0,0\nresolution=0");
+namespace {
+
+struct Felt {
+  double most = 0, speed = 0;  // N, m/s
+  double share = 0;            // largest, of a force of what the motors bear at their heat
+  uint32_t limited = 0;
+};
+
+// Models of one contact that generate energy: every second one lacks the force that has done work.
+Felt feel_energy(ServoLoop &loop, double ramp_s, double force, int begin = 0) {
   loop.run(0.02);
   mvs_device_limits limits = {};
-  limits.ramp_s = 10;
+  limits.ramp_s = ramp_s;
+  limits.thermal_s = 0.1;
   limits.stale_s = 10;
   limits.speed = 10;
   loop.device().set_limits(limits);
   loop.post({});
   loop.device().arm();
-  CHECK_EQ(loop.run(0.01).phase, DevicePhase::ramping);
-  // models of one contact, the second without the force that has done work: energy is generated
+  loop.run(0.01);
   TissueModel pull;
   pull.kind = TissueModel::pulled;
   pull.contact = 1;
-  pull.force = Vec3(1, 0, 0);
-  pull.origin = Vec3(-0.2, 0, 0);
+  pull.force = Vec3(force, 0, 0);
+  pull.origin = Vec3(force > 0 ? -0.2 : 0.2, 0, 0);
   pull.most = 100;
   TissueModel gone = pull;
   gone.force = Vec3::Zero();
-  double most = 0, speed = 0;
-  uint32_t limited = 0;
-  for (int k = 0; k < 100; ++k) {
+  const mvs_device_info info = loop.device().info();
+  const auto borne = [&](double heat) {
+    const double low = info.continuous_force * info.continuous_force;
+    return std::sqrt(low + (info.peak_force * info.peak_force - low) * std::max(0.0, 1 - heat));
+  };
+  Felt felt;
+  double heat = 0;
+  for (int k = 0; k < begin + 100; ++k) {
     loop.post(k % 2 == 0 ? pull : gone);
     const ServoStatus now = loop.run(1e-3);
-    most = std::max(most, now.force.norm());
-    speed = std::max(speed, now.pose.velocity.norm());
-    limited |= now.limited;
+    const double most = borne(std::min(heat, now.heat));  // before or after this tick
+    heat = now.heat;
+    if (k < begin) continue;
+    felt.share = std::max(felt.share, now.force.norm() / most);
+    felt.most = std::max(felt.most, now.force.norm());
+    felt.speed = std::max(felt.speed, now.pose.velocity.norm());
+    felt.limited |= now.limited;
   }
+  CHECK((felt.limited & MVS_LIMITED_ENERGY) != 0);
+  CHECK_GT(felt.speed, 0.05);
+  return felt;
+}
+
+constexpr char swinging[] = "device=touch\nfrom=-0.03,0,0\ntarget=0.03,0,0\nresolution=0";
+
+}  // namespace
+
+TEST_CASE("damping_begins_with_the_ramp_of_the_force") {
+  ServoLoop loop(swinging);
   // damping at its limit would be the largest force of the device; the ramp is at 1 %
-  CHECK((limited & MVS_LIMITED_ENERGY) != 0);
-  CHECK_GT(speed, 0.05);
-  CHECK_LT(most, 0.03);
+  CHECK_LT(feel_energy(loop, 10, 1).most, 0.03);
+  CHECK_EQ(loop.run(0).phase, DevicePhase::ramping);
+}
+
+TEST_CASE("damping_stays_within_what_hot_motors_bear") {
+  ServoLoop loop(swinging);
+  // forces against the motion, to which damping adds
+  const Felt felt = feel_energy(loop, 0.01, -10, 50);
+  CHECK_LE(felt.share, 1 + 1e-9);
+  CHECK((felt.limited & MVS_LIMITED_CONTINUOUS) != 0);
 }
 
 TEST_CASE("a_surplus_takes_away_the_work_of_a_force_on_the_hand_only") {

@@ -1,6 +1,7 @@
 // Static closures by the solver.
 #include "patient/fit/closure.h"
 
+#include "base/error.h"
 #include "solve/static/mesh_hierarchy.h"
 
 namespace mvs::core {
@@ -37,6 +38,15 @@ ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &va
   options.max_iterations = most_again;
   closed.stats = solver.settle(*closed.model, closed.state, options, {});
   return closed;
+}
+
+bool without_divergence(const std::function<bool()> &part) {
+  try {
+    return part();
+  } catch (const Error &error) {
+    if (error.code != MVS_E_DIVERGED) throw;
+    return false;
+  }
 }
 
 }  // namespace mvs::core

@@ -1,6 +1,8 @@
 // Closures of a valve at systolic pressure, from the open shape or from a closed one.
 #pragma once
 
+#include <functional>
+
 #include "model/model.h"
 #include "solve/solver.h"
 
@@ -22,5 +24,8 @@ ClosedValve close_open(Solver &solver, ModelPtr model, double pressure,
 // From a closed valve with the same nodes and other rest lengths; it ends after 150
 // iterations, at rest or not.
 ClosedValve close_again(Solver &solver, const ClosedValve &from, const Valve &valve);
+
+// Whether a part of a fit ends without MVS_E_DIVERGED, and with `true`.
+bool without_divergence(const std::function<bool()> &part);
 
 }  // namespace mvs::core

@@ -74,11 +74,14 @@ void finish(const Valve &valve, const SurfaceMatcher &matcher, const FitSettings
     FitTrial improved = taken;
     std::vector<double> deviation;
     fit.rounds += search.improve(groups, improved, deviation);
-    improved = search.from_open(groups, improved.factor);
+    const bool closes = without_divergence([&] {
+      improved = search.from_open(groups, improved.factor);
+      return true;
+    });
     const auto loss = [](const FitTrial &trial) {
       return loss_of(rms_distance(trial.matches), trial.closed.stats.converged);
     };
-    if (loss(improved) < loss(taken)) {
+    if (closes && loss(improved) < loss(taken)) {
       for (size_t g = 0; g < fit.groups.size(); ++g) {
         for (const uint32_t c : fit.groups[g].chords)
           fit.chord_factor[c] *= improved.factor[g] / fit.factor[g];

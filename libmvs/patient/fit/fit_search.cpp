@@ -109,13 +109,15 @@ FitTrial FitSearch::again(const FitParameters &p, std::vector<double> factor,
   return judged(p, std::move(factor), std::move(closed));
 }
 
-// Takes the factors if the valve comes to rest with a smaller misfit.
+// Takes the factors if the valve comes to rest, does not diverge, and has a smaller misfit.
 bool FitSearch::accept(const FitParameters &p, const std::vector<double> &factor,
                        FitTrial &now) const {
-  FitTrial there = again(p, factor, now.closed);
-  if (!there.closed.stats.converged || there.misfit >= now.misfit) return false;
-  now = std::move(there);
-  return true;
+  return without_divergence([&] {
+    FitTrial there = again(p, factor, now.closed);
+    if (!there.closed.stats.converged || there.misfit >= now.misfit) return false;
+    now = std::move(there);
+    return true;
+  });
 }
 
 // Backtracks from a whole step.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/error.h"
 #include "measure/orifice/orifice.h"
@@ -26,8 +27,6 @@ struct FoundLengths {
 
 namespace {
 
-// Step of the differences: 0.15 mm of a chord of 15 mm, far above the error of a settled valve.
-constexpr double difference = 0.01;
 // m, RMS: leaflets move by 3 to 5 mm as they close (median); the sides of thick ones lie 1 mm off.
 constexpr double nearest_open = 1e-3;
 constexpr uint64_t start_seed = 22;    // of the other starts
@@ -190,25 +189,6 @@ void collect(const std::vector<FoundLengths> &found, size_t best, const FitParam
 
 }  // namespace
 
-ClosedJacobian jacobian_by_differences(Solver &solver) {
-  return [&solver](const ClosedValve &closed, const std::vector<ChordGroup> &groups,
-                   const std::vector<SurfaceMatch> &matches) {
-    std::vector<std::vector<double>> jacobian;
-    for (const ChordGroup &group : groups) {
-      Valve changed = closed.model->valve;
-      scale_groups(changed, {group}, {1 + difference});
-      const ClosedValve moved = close_again(solver, closed, changed);
-      std::vector<double> column;
-      column.reserve(matches.size());
-      for (const SurfaceMatch &m : matches) {
-        column.push_back((m.residual(moved.state.x) - m.residual(closed.state.x)) / difference);
-      }
-      jacobian.push_back(std::move(column));
-    }
-    return jacobian;
-  };
-}
-
 struct FitSearches::Work {
   Valve valve;
   FitSettings settings;
@@ -218,8 +198,9 @@ struct FitSearches::Work {
   SurfaceMatcher matcher;
   FitParameters groups;
   FitTrial as_it_is;
-  std::vector<FoundLengths> found;
+  std::vector<FoundLengths> found;  // of the searches that did not diverge
   size_t best = 0;
+  uint32_t begun = 0;  // searches
 
   Work(Valve given_valve, const ClosedSurface &given, const FitSettings &s, ClosedJacobian j)
       : valve(std::move(given_valve)),
@@ -258,12 +239,21 @@ FitSearches::FitSearches(Valve valve, const ClosedSurface &given, const FitSetti
 FitSearches::~FitSearches() = default;
 
 void FitSearches::search(uint32_t count, const TellShare &tell) {
-  const uint32_t first = static_cast<uint32_t>(work_->found.size());
-  std::vector<FoundLengths> found(count);
+  const uint32_t first = work_->begun;
+  work_->begun += count;
+  std::vector<std::optional<FoundLengths>> found(count);
   run_tasks(work_->settings.workers, count, tell, [&](uint32_t k, const TellShare &tell_search) {
-    found[k] = work_->search(first + k, tell_search);
+    without_divergence([&] {
+      found[k] = work_->search(first + k, tell_search);
+      return true;
+    });
   });
-  for (FoundLengths &lengths : found) work_->add(std::move(lengths));
+  for (std::optional<FoundLengths> &lengths : found) {
+    if (lengths) work_->add(std::move(*lengths));
+  }
+  MVS_MUST(!work_->found.empty(), MVS_E_DIVERGED, "chordae",
+           "the valve diverges with every length of its chordae that was tried; check the tissue "
+           "and the closed surface");
 }
 
 const ClosedValve &FitSearches::closed() const {

@@ -48,8 +48,6 @@ inline constexpr double undetermined_share = 0.7;
 using ClosedJacobian = std::function<std::vector<std::vector<double>>(
     const ClosedValve &closed, const std::vector<ChordGroup> &groups,
     const std::vector<SurfaceMatch> &matches)>;
-// Differences of closures that start from the closed valve; for checks.
-ClosedJacobian jacobian_by_differences(Solver &solver);
 
 struct ChordFit {
   std::vector<ChordGroup> groups;

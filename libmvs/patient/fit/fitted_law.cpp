@@ -44,16 +44,6 @@ struct Candidate {
   bool stalled = false;  // no search so far got farther than its first rounds
 };
 
-// Whether a part of a fit ends without MVS_E_DIVERGED, and with `true`.
-bool without_divergence(const std::function<bool()> &part) {
-  try {
-    return part();
-  } catch (const Error &error) {
-    if (error.code != MVS_E_DIVERGED) throw;
-    return false;
-  }
-}
-
 // The best search so far; false: its closed valve crosses itself.
 bool judge(const ClosedSurface &given, uint32_t searches, Candidate &c) {
   const ChordFit fit = c.searches->fit();

@@ -13,4 +13,7 @@ namespace mvs::core {
 // farther from their surfaces (tests/bench/fit/fit_jacobian.cpp).
 ClosedJacobian jacobian_by_linearisation();
 
+// Differences of closures that start from the closed valve; for checks.
+ClosedJacobian jacobian_by_differences(Solver &solver);
+
 }  // namespace mvs::core

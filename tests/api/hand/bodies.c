@@ -26,6 +26,18 @@ static void a_hook_follows_the_pose_of_its_hand(void) {
   for (int k = 0; k < 3; ++k) CHECK(fabs(state.force[k]) < 1e-3 && fabs(state.torque[k]) < 1e-5);
 }
 
+/* Only rods have an axis. */
+static void an_axis_leaves_the_pose_of_a_hook(void) {
+  const mvs_id tool = make_work();
+  const double still[3] = {0, 0, 0.02}, axis[3] = {0, 0, 1};
+  const double quarter[4] = {sqrt(0.5), 0, 0, sqrt(0.5)};
+  MUST(mvs_move_tool_pose(sim, tool, still, quarter));
+  MUST(mvs_move_tool(sim, tool, still, axis));
+  MUST(mvs_step(sim, NULL));
+  const mvs_tool_state state = state_of(sim, tool);
+  for (int k = 0; k < 4; ++k) CHECK(fabs(state.orientation[k] - quarter[k]) < 1e-15);
+}
+
 static void check_body(const mvs_snapshot *snapshot, uint32_t body, uint64_t vertices,
                        uint64_t triangles) {
   mvs_tool_body read = {.struct_size = sizeof read};
@@ -197,6 +209,7 @@ static void a_plan_does_with_a_hook_what_was_done(void) {
 int main(void) {
   MUST(mvs_create(NULL, &sim));
   a_hook_follows_the_pose_of_its_hand();
+  an_axis_leaves_the_pose_of_a_hook();
   bodies_are_read_back();
   a_tool_has_up_to_sixteen_bodies_of_all_kinds();
   a_rod_takes_the_z_axis_of_a_pose();

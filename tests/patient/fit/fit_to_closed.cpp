@@ -121,35 +121,6 @@ TEST_CASE("lengths_that_were_changed_are_found_from_the_closed_surface") {
   CHECK(distance_from(surface, *model, closed_elsewhere(*model)) < 0.3 * mm);
 }
 
-TEST_CASE("a_jacobian_of_another_kind_can_be_given") {
-  const Valve valve = patient_valve(200);
-  Solver solver(Backend::fastest);
-  const ClosedValve closed = close_open(solver, make_model(valve), systolic_pressure);
-  const ClosedSurface surface{closed.state.x, valve.triangles};
-  Valve fitted = valve;
-  Findings findings;
-  size_t calls = 0;
-  FitSettings settings;
-  settings.one_by_one = false;
-  settings.starts = 1;
-  const ChordFit fit = fit_to_closed(fitted, surface, settings, findings,
-                                     [&](const ClosedValve &, const std::vector<ChordGroup> &groups,
-                                         const std::vector<SurfaceMatch> &matches) {
-                                       ++calls;
-                                       return std::vector<std::vector<double>>(
-                                           groups.size(), std::vector<double>(matches.size(), 0));
-                                     });
-  // nothing depends on the lengths, so that they keep their prior
-  CHECK(calls == 1);
-  for (size_t k = 0; k < fit.groups.size(); ++k) {
-    CHECK(fit.factor[k] == 1);
-    CHECK(fit.deviation[k] == about(0.1));
-  }
-  CHECK(fitted.chords == valve.chords);
-  CHECK(findings[1].sentence.find("does not determine") != std::string::npos);
-  CHECK(findings[1].sentence.find("A strut") != std::string::npos);
-}
-
 TEST_CASE("closed_surfaces_of_another_frame_are_refused") {
   Valve valve = patient_valve(200);
   Findings findings;
