@@ -41,7 +41,7 @@ Begin find_coaptation(const Model &model, const std::vector<ProfilePiece> &profi
     const FacingPoints::Row weight = facing.weights_of(points);
     for (size_t k = 0; k <= parts; ++k) {
       if (weight[k] < 0.5) continue;
-      // linear from the point before; the first point has that of the piece before, or a step
+      // linear from the point before; the first point of a piece is taken as it is
       const double back = k == 0 ? 0 : (weight[k] - 0.5) / (weight[k] - weight[k - 1]);
       const double share = along(static_cast<double>(k) - back);
       return {length + share * whole, piece.from + share * (piece.to - piece.from)};

@@ -61,7 +61,8 @@ ChordFit on_fine_chords(const ChordFit &rough, const Model &coarse, const Model 
 void finish(const Valve &valve, const SurfaceMatcher &matcher, const FitSettings &s, Solver &solver,
             ChordFit &fit, const std::function<void()> &before_closure) {
   const ClosedJacobian jacobian = jacobian_by_linearisation();
-  Valve shaped = valve;  // the factor of a chord beside that of its group
+  Valve shaped =
+      valve;  // each chord by its factor over that of its group, which the search changes
   for (size_t g = 0; g < fit.groups.size(); ++g) {
     for (const uint32_t c : fit.groups[g].chords)
       shaped.chords[c].rest_length *= fit.chord_factor[c] / fit.factor[g];

@@ -754,7 +754,10 @@ export const SensitivityFlags = {
   direct: 2,
   /** no test of both sides, and chordae alone are looked at for switches: faster, for fits */
   no_test: 4,
-  /** no eigenvalue: stiffness_margin is NaN */
+  /**
+   * no eigenvalue: stiffness_margin is NaN, and a fold that is about to snap is found only where Ks
+   * is not definite
+   */
   no_margin: 8,
 } as const;
 export type SensitivityFlags = keyof typeof SensitivityFlags;
