@@ -94,6 +94,16 @@ class Test(Haptics):
                              "--option", "fault_at=0.25")
         self.assertIn("not calibrated", printed)
 
+    def test_a_device_on_which_forces_could_not_stay_on_is_a_fault(self):
+        for fault, name, remedy in (("jump", "jump", "latched off"), ("hot", "warm", "let the device cool"),
+                                    ("clock_jump", "clock_ahead", "`now_ns`"), ("stuck_button", None, "")):
+            with self.subTest(fault):
+                done = mvs("haptics", "test", *HAND, "--seconds", 0.5, "--option", f"fault={fault}",
+                           "--option", "fault_at=0.25", "--json", cwd=self.dir)
+                self.assertEqual([row["name"] for row in json.loads(done.stdout)["faults"]], [name] if name else [])
+                self.assertEqual(done.returncode, 1 if name else 0)
+                self.assertIn(remedy, done.stderr)
+
     def test_the_end_of_a_recording_is_no_fault(self):
         printed = self.json("haptics", "test", *REPLAY, f"file={GRASP}", "--option", "end=stop",
                          "--seconds", 60)

@@ -45,7 +45,7 @@ bool record_samples(const RecordOptions &options, Session &session, RecordingFil
 bool record_device(const RecordOptions &options, Session &session, RecordingFile &file) {
   const bool has_samples = record_samples(options, session, file);
   const mvs_device_state state = session.device().state();
-  print_faults(session.device().info(), state);
+  print_faults(session.device().info(), state, sample_faults(state));
   if (!has_samples) {
     std::fprintf(stderr, "mvs: %s gave no good samples to the end of the %g s (mvs haptics test)\n",
                  options.device.driver.c_str(), options.seconds);

@@ -43,6 +43,22 @@ constexpr SampleFault not_calibrated = {
     "calibration",
     "the device is not calibrated, so that forces cannot be switched on: see mvs haptics doctor"};
 
+constexpr SampleFault warm = {
+    "warm", "the motors are too warm, so that forces cannot be switched on: let the device cool"};
+
+// m/s; no hand is as fast
+constexpr double fastest_hand = 10;
+constexpr SampleFault jump = {"jump",
+                              "a position jumps, faster than a hand moves: with forces on they "
+                              "would be latched off; check the "
+                              "units and the connection of the device"};
+
+// s, between the end of a test and its last sample
+constexpr double latest_sample = 0.5;
+constexpr SampleFault clock_ahead = {"clock_ahead",
+                                     "the time of the samples runs ahead of the clock: write "
+                                     "`time_ns` in ns on the clock of `now_ns`"};
+
 }  // namespace
 
 std::vector<SampleFault> sample_faults(const mvs_device_state &state) {
@@ -53,6 +69,14 @@ std::vector<SampleFault> sample_faults(const mvs_device_state &state) {
   }
   const bool has_flags = state.ticks > 0 && state.bad_samples == 0 && !is_lost(state);
   if (has_flags && !(state.flags & MVS_DRIVER_FLAG_CALIBRATED)) found.push_back(not_calibrated);
+  if (has_flags && (state.flags & MVS_DRIVER_FLAG_WARM)) found.push_back(warm);
+  return found;
+}
+
+std::vector<SampleFault> trace_faults(double fastest, double sampled_s, double elapsed_s) {
+  std::vector<SampleFault> found;
+  if (fastest > fastest_hand) found.push_back(jump);
+  if (sampled_s > elapsed_s + latest_sample) found.push_back(clock_ahead);
   return found;
 }
 
@@ -60,8 +84,9 @@ bool is_lost(const mvs_device_state &state) {
   return state.phase == MVS_DEVICE_PHASE_LATCHED && state.cause != MVS_CAUSE_SOFTWARE;
 }
 
-void print_faults(const mvs_device_info &info, const mvs_device_state &state) {
-  for (const SampleFault &fault : sample_faults(state)) {
+void print_faults(const mvs_device_info &info, const mvs_device_state &state,
+                  const std::vector<SampleFault> &faults) {
+  for (const SampleFault &fault : faults) {
     std::fprintf(stderr, "mvs: the driver %s: %s\n", info.driver, fault.sentence);
   }
   if (is_lost(state)) std::fprintf(stderr, "mvs: %s\n", cause_of(state.cause).sentence);

@@ -119,13 +119,17 @@ void run_test(const TestOptions &options, Console &console) {
   tested.info = session.device().info();
   tested.state = session.device().state();
   tested.faults = sample_faults(tested.state);
+  // a jump is a fault of its own only where the samples are well formed
+  if (tested.faults.empty()) {
+    tested.faults = trace_faults(ticks.fastest(), ticks.seconds(), session.elapsed());
+  }
   tested.lost = session.lost();
   session.stop();
   if (session.is_interrupted()) {
     fail(MVS_E_CANCELLED, "test", "stopped by Ctrl-C; forces are off");
   }
   print(console, tested_json(options, tested, ticks), tested_text(options, tested, ticks));
-  print_faults(tested.info, tested.state);
+  print_faults(tested.info, tested.state, tested.faults);
   if (!tested.faults.empty() || is_lost(tested.state)) console.exit_code = 1;
 }
 

@@ -43,8 +43,15 @@ std::string percentiles_text(const char *label, std::vector<double> seconds) {
 void Ticks::take(const std::vector<mvs_device_sample> &samples, bool gap) {
   for (const mvs_device_sample &sample : samples) {
     if (count_ == 0) first_s_ = sample.time;
-    if (count_ > 0 && !gap) period_s_.push_back(sample.time - last_s_);
+    if (count_ > 0 && !gap) {
+      const double period = sample.time - last_s_;
+      const double way = std::hypot(sample.position[0] - place_[0], sample.position[1] - place_[1],
+                                    sample.position[2] - place_[2]);
+      period_s_.push_back(period);
+      if (period > 0) fastest_ = std::max(fastest_, way / period);
+    }
     gap = false;
+    std::copy(sample.position, sample.position + 3, place_.begin());
     if (sample.servo_s > 0) servo_s_.push_back(sample.servo_s);
     last_s_ = sample.time;
     ++count_;

@@ -17,6 +17,8 @@ class Ticks {
   size_t count() const { return count_; }
   // s, from the first to the last tick
   double seconds() const { return last_s_ - first_s_; }
+  // m/s, largest mean speed of the hand between two ticks
+  double fastest() const { return fastest_; }
   // "period_us", "servo_us" (null on a virtual clock) and "histogram".
   Json json() const;
   std::string text() const;
@@ -27,6 +29,8 @@ class Ticks {
   double nominal_s_;
   std::vector<double> period_s_, servo_s_;
   double first_s_ = 0, last_s_ = 0;
+  double fastest_ = 0;
+  std::array<double, 3> place_{};
   size_t count_ = 0;
 };
 
