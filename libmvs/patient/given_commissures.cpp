@@ -2,8 +2,10 @@
 #include "patient/given_commissures.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
+#include "base/math.h"
 #include "patient/surface/mirrored.h"
 
 namespace mvs::core {
@@ -11,6 +13,41 @@ namespace {
 
 // m: given commissures farther from the surface than landmarks by hand are doubted.
 constexpr double near_landmark = 3e-3;
+// Given commissures are doubted if they, and all pairs within near_landmark of them, are less
+// likely than this beside the likeliest pair: as the odds below which an anterior leaflet is
+// doubted.
+constexpr double doubtful_ratio = 0.1;
+
+// The least misfit of pairs within near_landmark of two feet, with either arc as the anterior one.
+double least_misfit_near(const ArcOdds &odds, const std::array<double, 2> &feet, double length,
+                         size_t n) {
+  const size_t near = static_cast<size_t>(near_landmark * static_cast<double>(n) / length + 0.5);
+  const size_t a = sample_at(feet[0], length, n) + n - near,
+               b = sample_at(feet[1], length, n) + n - near;
+  double least = HUGE_VAL;
+  for (size_t i = 0; i <= 2 * near; ++i) {
+    for (size_t j = 0; j <= 2 * near; ++j) {
+      const size_t from = (a + i) % n, to = (b + j) % n;
+      least = std::min({least, odds.misfit(from, to > from ? to : to + n),
+                        odds.misfit(to, from > to ? from : from + n)});
+    }
+  }
+  return least;
+}
+
+double foot_of(size_t k, double length, size_t n) {
+  return (static_cast<double>(k % n) + 0.5) * length / static_cast<double>(n);
+}
+
+// m along the annulus from two feet to two others, each to its own: the farther, in the better
+// order.
+double farthest_of(const std::array<double, 2> &feet, const std::array<double, 2> &others,
+                   double length) {
+  const auto away = [&](size_t k, size_t j) {
+    return std::abs(around(feet[k], others[j], length));
+  };
+  return std::min(std::max(away(0, 0), away(1, 1)), std::max(away(0, 1), away(1, 0)));
+}
 
 }  // namespace
 
@@ -69,6 +106,27 @@ void doubt_high(const AnnulusSamples &annulus, const std::array<double, 2> &feet
       "; but the leaflets are %.1f and %.1f mm high there and %.1f and %.1f mm midway between: "
       "commissures are where leaflets are lowest, are these in the middle of the free edges?",
       there[0] * 1e3, there[1] * 1e3, between[0] * 1e3, between[1] * 1e3);
+}
+
+void doubt_unlikely(const AnnulusSamples &annulus, const std::array<double, 2> &feet, double length,
+                    double least_guessed_share, Finding &finding) {
+  const size_t n = annulus.height.size();
+  const ArcOdds odds(annulus);
+  const ArcGuess best = odds.best(least_guessed_share);
+  const double likeliest = odds.misfit(best.from, best.to);
+  const double deviation = least_misfit_near(odds, feet, length, n) - likeliest;
+  const double ratio = math::exp(-0.5 * deviation);
+  if (!(ratio < doubtful_ratio)) return;
+  const double away =
+      farthest_of(feet, {foot_of(best.from, length, n), foot_of(best.to, length, n)}, length);
+  finding.confidence *= ratio;
+  finding.sentence += format(
+      "; but they lie up to %.0f mm along the annulus from the likeliest places, by heights of the "
+      "leaflets, shape of the annulus%s, which are %s times as likely: are they of this patient "
+      "and "
+      "phase, in this frame (LPS or RAS), and one for each commissure?",
+      away * 1e3, annulus.tips.empty() ? "" : " and papillary tips",
+      deviation < 14 ? format("%.0f", 1 / ratio).c_str() : "over 1000");
 }
 
 }  // namespace mvs::core

@@ -37,4 +37,10 @@ void say_given(const CommissureFeet &found, Finding &finding);
 void doubt_high(const AnnulusSamples &annulus, const std::array<double, 2> &feet, double length,
                 Finding &finding);
 
+// Doubts given commissures that are far less likely, by heights of the leaflets, shape of the
+// annulus and tips, than the likeliest pair with at least this share of the annulus for each
+// leaflet.
+void doubt_unlikely(const AnnulusSamples &annulus, const std::array<double, 2> &feet, double length,
+                    double least_guessed_share, Finding &finding);
+
 }  // namespace mvs::core

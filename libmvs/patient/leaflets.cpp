@@ -245,6 +245,7 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
   if (!landmarks.commissures.empty()) {
     say_given(placed, findings[at]);
     doubt_high(annulus, feet, length, findings[at]);
+    doubt_unlikely(annulus, feet, length, least_guessed_share, findings[at]);
   }
   LeafletArcs arcs = {feet[0], feet[0] + wrapped(feet[1] - feet[0], length)};
   AnteriorOdds shape = anterior_odds(annulus, arcs, length);

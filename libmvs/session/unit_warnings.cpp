@@ -80,7 +80,7 @@ void log_leaflet(const mvs_sim &sim, const Leaflet &leaflet, const Scale &scale)
   if (leaflet.thickness >= thinnest && leaflet.thickness <= thickest) return;
   sim.log(MVS_LOG_WARNING,
           "leaflet %s is %.3g mm thick, which is %s for a valve of this size (%.3g to %.3g mm): "
-          "thickness is in m",
+          "check its unit (m in the library, mm in the command)",
           leaflet.name.c_str(), 1e3 * leaflet.thickness,
           leaflet.thickness > thickest ? "too much" : "little", 1e3 * thinnest, 1e3 * thickest);
 }

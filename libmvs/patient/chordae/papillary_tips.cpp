@@ -26,6 +26,11 @@ constexpr double assumed_depth = 23.5 / 35, assumed_separation = 20.0 / 35;
 constexpr double assumed_posterior = 0.12;  // of the AP diameter
 // Share of the AP diameter from the centre towards the A point, beyond which tips are unusual.
 constexpr double most_forward = 0.2;
+// In widths of the annulus. Normal depths are 0.67 +- 0.11, those of dilated ventricles up to
+// about 1.1; normal tips are 0.57 apart. Beyond these given tips are doubted.
+constexpr double least_depth = 0.3, most_depth = 1.3, least_apart = 0.25;
+// Confidence of given tips that contradict normal anatomy.
+constexpr double doubtful_tips = 0.4;
 // m: a tip is at least this much below the lowest leaflet, as chordae have a length.
 constexpr double below_leaflets = 1e-3;
 
@@ -120,20 +125,54 @@ void report_assumed_tips(const std::vector<Vec3> &two, const AnnulusFrame &frame
   set_points(two, findings.back());
 }
 
-void report_given_tips(const PapillaryTips &tips, const std::vector<Vec3> &given, bool swapped,
-                       Findings &findings) {
-  findings.push_back(
-      {"papillary_tips",
-       FindingSource::given,
-       swapped ? 0.4 : 1,
-       format("the given points: %zu anterolateral, %zu posteromedial%s", tips.anterolateral.size(),
-              tips.posteromedial.size(),
-              swapped ? "; they lie under the anterior leaflet, where normal tips lie under the "
-                        "posterior one: give a point of the anterior leaflet if both are swapped, "
-                        "and check the frame (LPS or RAS) of the tips"
-                      : ""),
-       {},
-       ""});
+Vec3 mean_place(const std::vector<Vec3> &tips, const AnnulusFrame &frame) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3 &tip : tips) sum += frame.local(tip);
+  return sum / static_cast<double>(tips.size());
+}
+
+// What contradicts normal anatomy in given tips, in words; "" if nothing does.
+std::string doubts_of(const PapillaryTips &tips, const AnnulusFrame &frame) {
+  const Vec3 al = mean_place(tips.anterolateral, frame), pm = mean_place(tips.posteromedial, frame);
+  const Vec3 apart = pm - al;
+  const double depth[2] = {-al[2], -pm[2]};
+  std::string words;
+  if (0.5 * (al[1] + pm[1]) > most_forward * frame.diameter) {
+    words +=
+        "; they lie under the anterior leaflet, where normal tips lie under the posterior one: "
+        "give "
+        "a point of the anterior leaflet if both are swapped, and check the frame (LPS or RAS) of "
+        "the tips";
+  }
+  if (std::min(depth[0], depth[1]) < least_depth * frame.width ||
+      std::max(depth[0], depth[1]) > most_depth * frame.width) {
+    words += format(
+        "; they lie %.0f and %.0f mm below the plane of the annulus, which is %.0f mm wide: normal "
+        "tips lie at about two thirds of that width",
+        depth[0] * 1e3, depth[1] * 1e3, frame.width * 1e3);
+  }
+  if (apart.norm() < least_apart * frame.width) {
+    words += format("; both muscles are %.0f mm apart: are both tips of one muscle?",
+                    apart.norm() * 1e3);
+  } else if (std::abs(apart[1]) > apart[0]) {
+    words +=
+        "; they lie one behind the other, under A2 and P2, where normal ones lie below the "
+        "commissures: check commissures, frame and anterior leaflet";
+  }
+  return words;
+}
+
+void report_given_tips(const PapillaryTips &tips, const std::vector<Vec3> &given,
+                       const AnnulusFrame &frame, Findings &findings) {
+  const std::string doubts = doubts_of(tips, frame);
+  findings.push_back({"papillary_tips",
+                      FindingSource::given,
+                      doubts.empty() ? 1 : doubtful_tips,
+                      format("the given points: %zu anterolateral, %zu posteromedial",
+                             tips.anterolateral.size(), tips.posteromedial.size()) +
+                          doubts,
+                      {},
+                      ""});
   set_points(given, findings.back());
 }
 
@@ -146,11 +185,7 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
   MVS_MUST(given.size() <= most_tips, MVS_E_ARGUMENT, "papillary_tips",
            "%zu papillary tips are given, at most %zu are accepted", given.size(), most_tips);
   check_loaded(given, loaded);
-  double forward = 0;  // m, mean place of the tips from the centre towards the A point
-  for (size_t k = 0; k < given.size(); ++k) {
-    check_tip(given[k], k + 1, frame);
-    forward += frame.local(given[k])[1] / static_cast<double>(given.size());
-  }
+  for (size_t k = 0; k < given.size(); ++k) check_tip(given[k], k + 1, frame);
   const std::vector<Vec3> all = given.empty() ? assumed_tips(g, frame) : given;
   PapillaryTips tips;
   for (const Vec3 &tip : all) {
@@ -166,7 +201,7 @@ PapillaryTips find_papillary_tips(const std::vector<Vec3> &given, const PatientG
   if (given.empty()) {
     report_assumed_tips(all, frame, findings);
   } else {
-    report_given_tips(tips, given, forward > most_forward * frame.diameter, findings);
+    report_given_tips(tips, given, frame, findings);
   }
   std::vector<Vec3> moved = loaded;
   if (!loaded.empty()) {

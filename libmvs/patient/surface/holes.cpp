@@ -109,10 +109,11 @@ void report_holes(const FilledHoles &filled, Findings &findings) {
   const double longest = *std::max_element(filled.lengths.begin(), filled.lengths.end());
   findings.push_back(
       {"filled_holes", FindingSource::guessed, filled.confidence,
-       format("%zu holes, the longest %.1f mm around, the nearest %.1f mm from a rim, were filled "
-              "with %zu triangles; %zu of them are long, beside a rim or not inside of one "
-              "leaflet: if one is a notch or a second orifice, cut the strand of tissue "
-              "beside it",
+       format("holes that were filled: %zu, the longest %.1f mm around, the nearest %.1f mm from a "
+              "rim, with %zu triangles. Perforations are not told from gaps of a surface: a leak "
+              "through one is neither in the leak nor in its interval. Long, beside a rim or not "
+              "inside of one leaflet: %zu; if one is a notch or a second orifice, cut the strand "
+              "of tissue beside it",
               filled.lengths.size(), longest * 1e3, filled.nearest * 1e3, filled.triangles,
               filled.doubtful),
        filled.lengths, "m"});
