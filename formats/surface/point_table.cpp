@@ -61,10 +61,11 @@ char separator_of(std::string_view line) {
 }
 
 // The rows without comments, which go to `parts`; `header` is the last comment "columns = ...".
-std::vector<TableRow> table_rows(std::string_view bytes, SurfaceParts &parts, std::string &header) {
+// Without a separator the first row decides.
+std::vector<TableRow> table_rows(std::string_view bytes, SurfaceParts &parts, std::string &header,
+                                 char separator = '\0') {
   std::vector<TableRow> rows;
   Cursor cursor(without_byte_order_mark(bytes));
-  char separator = '\0';
   while (!cursor.at_end()) {
     const int32_t number = cursor.line_number();
     const std::string_view line = cursor.filled_line();
@@ -162,12 +163,13 @@ void add_rows(const std::vector<TableRow> &rows, size_t first, const PointColumn
 
 }  // namespace
 
-// The frame of older files is a number: 0 RAS, 1 LPS, 2 voxel indices.
+// Fields are separated by commas, and descriptions may hold any other separator. The frame of older
+// files is a number: 0 RAS, 1 LPS, 2 voxel indices.
 SurfaceParts read_fcsv(std::string_view bytes) {
   SurfaceParts parts;
   parts.format = "FCSV";
   std::string header = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
-  const std::vector<TableRow> rows = table_rows(bytes, parts, header);
+  const std::vector<TableRow> rows = table_rows(bytes, parts, header, ',');
   const PointColumns columns = named_columns(table_fields(header, ','), parts);
   MVS_MUST(columns.has_points(), MVS_E_FORMAT, "columns",
            "the comment `columns` does not name x, y and z");

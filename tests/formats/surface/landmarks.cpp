@@ -59,6 +59,16 @@ TEST_CASE("fcsv_files_state_their_frame_as_a_word_or_a_number") {
   CHECK_THROWS_AS(frame("2"), Error);
 }
 
+TEST_CASE("descriptions_in_fcsv_files_may_hold_semicolons_and_tabs") {
+  for (const char *text : {"by hand; again", "by hand\tagain", "by hand again"}) {
+    CAPTURE(text);
+    SurfaceSample sample = fcsv_sample();
+    sample.bytes.replace(sample.bytes.find("AL"), 2, std::string("AL,") + text);
+    CHECK(read_sample(sample).point_names == std::vector<std::string>{"AL", "PM"});
+    CHECK(read_sample(sample).points == read_sample(fcsv_sample()).points);
+  }
+}
+
 TEST_CASE("tables_have_columns_by_name_or_three_numbers") {
   const auto read = [](const std::string &text) { return read_sample({"a.csv", text}); };
   const Vec3 first = Vec3(1, 2, 3) / 1000;
