@@ -190,7 +190,7 @@ void Json::write(std::string &out, int indent) const {
       break;
   }
   const bool is_list = is_array();
-  // short lists of numbers stay on one line
+  // a list of at most three values stays on one line
   const bool flat = is_list && items_.size() <= 3;
   const size_t count = is_list ? items_.size() : members_.size();
   out += is_list ? '[' : '{';
