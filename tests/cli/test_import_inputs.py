@@ -90,6 +90,24 @@ class ImportInputs(OpenSurface):
         self.assertNotIn("thickness", done.stderr)
         self.assertEqual(done.stderr.count("is not used"), 1)
 
+    def test_fields_of_findings_with_another_type_are_refused_by_name(self):
+        edited = self.dir / "types.json"
+        for key, value, kind in (("source", None, "a text"), ("confidence", "0.9", "a number"),
+                                 ("doubtful", 1, "true or false"), ("unedited", 5, "a text")):
+            rows = json.loads((self.dir / "first.import.json").read_text())
+            row = next(r for r in rows["findings"] if r["name"] == "papillary_tips")
+            self.assertIn(row["source"], ("guessed", "assumed"))
+            row[key] = value
+            edited.write_text(json.dumps(rows))
+            with self.subTest(key):
+                self.refused(f'types.json: the finding "papillary_tips" has a "{key}" that is not {kind}',
+                             "--with", edited)
+                error = json.loads(self.run_import("refused.h5", "--with", edited, "--json").stdout)["error"]
+                self.assertEqual((error["code"], error["part"]), ("MVS_E_FORMAT", "papillary_tips"))
+        for key in ("format", "version"):
+            edited.write_text(json.dumps({**rows, key: {}}))
+            self.refused("types.json: ", "--with", edited)
+
     def test_ranges_of_options_are_in_mm(self):
         for option, value, range_ in (("--thickness", "30", "0.1 to 5 mm"), ("--chords", "500", "20 to 400"),
                                       ("--coaptation-length", "nan", "1 to 20 mm"), ("--edge-lost", "0", "0.001 to 5 mm")):

@@ -59,6 +59,20 @@ std::vector<double> numbers_of(const std::string &path, const std::string &name,
   return numbers;
 }
 
+// A field of a finding, `absent` without it. One of another type is refused.
+template <typename Value>
+Value field_of(const std::string &path, const std::string &name, const Json &row, const char *key,
+               const Value &absent) {
+  const auto field = row.find(key);
+  if (field == row.end()) return absent;
+  const Json example = absent;
+  const bool is_number = example.is_number();
+  if (is_number ? field->is_number() : field->type() == example.type()) return field->get<Value>();
+  const char *kind = is_number ? "a number" : example.is_string() ? "a text" : "true or false";
+  refuse_findings(path, name,
+                  "the finding \"" + name + "\" has a \"" + key + "\" that is not " + kind);
+}
+
 Json parsed(const std::string &path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) fail(MVS_E_IO, path, path + ": the file of findings cannot be opened");
@@ -165,10 +179,10 @@ bool is_input(const std::string &name) {
 
 KnownValues read_findings(const std::string &path) {
   const Json object = parsed(path);
-  if (!object.is_object() || object.value("format", "") != "libmvs import") {
+  if (!object.is_object() || object.value("format", Json()) != "libmvs import") {
     refuse_findings(path, "format", "is no file of findings that `mvs import` wrote");
   }
-  if (object.value("version", 0) != 1) {
+  if (object.value("version", Json()) != 1) {
     refuse_findings(path, "version", "has a version that this program does not know: update mvs");
   }
   KnownValues known;
@@ -182,7 +196,7 @@ KnownValues read_findings(const std::string &path) {
     }
     const std::string name = row["name"].get<std::string>();
     const Input *input = find_input(name);
-    const std::string source = row.value("source", "");
+    const auto source = field_of<std::string>(path, name, row, "source", "");
     // findings that a build wrote have a digest, so that this row is written by hand
     if (!input && !row.contains("unedited")) {
       refuse_findings(
@@ -202,12 +216,13 @@ KnownValues read_findings(const std::string &path) {
                           " values: points need x, y, z each, the others one");
     }
     const bool is_unsure = source == "guessed" || source == "assumed";
-    if (!is_unsure || row.value("unedited", "") != digest_of(values)) continue;
+    const auto unedited = field_of<std::string>(path, name, row, "unedited", "");
+    if (!is_unsure || unedited != digest_of(values)) continue;
     mvs::Finding found;
     found.name = name;
     found.source = source_of(source);
-    found.confidence = row.value("confidence", 1.0);
-    found.doubtful = row.value("doubtful", false);
+    found.confidence = field_of(path, name, row, "confidence", 1.0);
+    found.doubtful = field_of(path, name, row, "doubtful", false);
     known.unsure[name] = std::move(found);
   }
   return known;
