@@ -1,27 +1,52 @@
+// Atomic replacement of a file, in the order that survives a crash: create a new file beside the
+// target, flush its bytes, rename it over the target, flush the folder.
 #include "text/replace_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-#include "valve/host.h"
+#include <cerrno>
+#include <cstdio>
+#include <string_view>
+
+#include "text/output_file.h"
 
 namespace cli {
+namespace {
+
+// Writes the bytes and flushes them to the disk; returns errno, 0 if all is written.
+int write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+  return ::fsync(file) == 0 ? 0 : errno;
+}
+
+void sync_folder(const std::string &folder) {
+  const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (opened < 0) return;
+  ::fsync(opened);  // some file systems cannot; the file is whole all the same
+  ::close(opened);
+}
+
+}  // namespace
 
 void replace_file(const std::string &path, const std::string &bytes, const std::string &part) {
-  const std::string beside = path + ".new";
-  {
-    std::ofstream file(beside, std::ios::binary | std::ios::trunc);
-    file << bytes << std::flush;
-    if (!file) fail(MVS_E_IO, part, beside + ": cannot be written: " + std::strerror(errno));
-  }
-  std::error_code error;
-  std::filesystem::rename(beside, path, error);
-  if (error) {
-    std::filesystem::remove(beside);
-    fail(MVS_E_IO, part, path + ": cannot be replaced: " + error.message());
-  }
+  const OutputTarget target = output_target(path, part);
+  const std::string beside = target.file + ".new";
+  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) fail_to_write(path, part, "write into folder", target.folder, errno);
+  int error = write_all(file, bytes);
+  if (error == 0 && target.mode && ::fchmod(file, *target.mode) != 0) error = errno;
+  if (::close(file) != 0 && error == 0) error = errno;
+  if (error == 0 && std::rename(beside.c_str(), target.file.c_str()) != 0) error = errno;
+  if (error == 0) return sync_folder(target.folder);
+  ::unlink(beside.c_str());
+  fail_to_write(path, part, "write", target.file, error);
 }
 
 }  // namespace cli

@@ -1,0 +1,25 @@
+// Output files of commands, and the sentences of mvs_save_file about them.
+#pragma once
+
+#include <sys/types.h>
+
+#include <optional>
+#include <string>
+
+namespace cli {
+
+// The file that a path names. Links are followed, also those to a file that does not exist yet.
+struct OutputTarget {
+  std::string file, folder;
+  std::optional<mode_t> mode;  // of the file that would be replaced
+};
+
+// Throws mvs::Error with this part if the path is a folder, a device or a file without the right to
+// write, or has links that lead back to themselves.
+OutputTarget output_target(const std::string &path, const std::string &part = "");
+
+// Throws mvs::Error, "PATH: cannot VERB WHAT: the system's reason; the remedy"; `error` is errno.
+[[noreturn]] void fail_to_write(const std::string &path, const std::string &part,
+                                const std::string &verb, const std::string &what, int error);
+
+}  // namespace cli
