@@ -1,4 +1,4 @@
-"""Files that the command itself writes are replaced whole."""
+"""Outputs that cannot be written are refused before the work, and files are replaced whole."""
 import json
 import os
 import resource
@@ -7,7 +7,59 @@ import stat
 import subprocess
 import unittest
 
-from command import MVS, Shell
+from command import MVS, Shell, mvs
+
+# Commands with -o after long work. Their inputs do not exist: only the output can be refused first.
+COMMANDS = (("close", "nothing.obj"), ("cost", "nothing.obj"),
+            ("op", "nothing.obj", "chord-remove", "--chord", "P2/1"),
+            ("op", "nothing.obj", "chord-remove", "--chord", "P2/1", "--settle"),
+            ("remesh", "nothing.obj", "--refine", 1),
+            ("repair", "nothing.obj", "--plan", "nothing.json"),
+            ("plan", "replay", "nothing.json", "--on", "nothing.obj"),
+            ("import", "nothing.stl", "--findings", "findings.json"), ("generate",))
+
+
+class Outputs(Shell):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.ok("generate", "--shape", "founding", "-o", "v.obj", "--vertices", 200)
+
+    def test_an_output_is_refused_before_the_work_with_the_sentence_of_the_save(self):
+        (self.dir / "folder.obj").mkdir()
+        (self.dir / "file").write_text("no folder")
+        (self.dir / "loop.obj").symlink_to("loop.obj")
+        (self.dir / "away.obj").symlink_to("nowhere/v.obj")
+        os.mkfifo(self.dir / "pipe.obj")
+        outs = ["v.xyz", "v", "v.inp", "nowhere/v.obj", "nowhere/v.vtm", "file/v.obj", "file.vtm",
+                "folder.obj", "loop.obj", "away.obj", "pipe.obj", self.dir / "nowhere" / "v.h5"]
+        if os.geteuid() != 0:
+            (self.dir / "locked").mkdir(mode=0o555)
+            (self.dir / "kept.obj").touch(mode=0o444)
+            outs += ["locked/v.obj", "locked/v.vtm", "kept.obj"]
+        for out in outs:
+            saved = mvs("convert", "v.obj", "-o", out, "--json", cwd=self.dir)
+            self.assertEqual(saved.returncode, 1, saved.stdout)
+            for line in COMMANDS:
+                with self.subTest(out=out, line=line):
+                    done = mvs(*line, "-o", out, "--json", cwd=self.dir)
+                    self.assertEqual((done.returncode, done.stderr, done.stdout),
+                                     (saved.returncode, saved.stderr, saved.stdout))
+
+    def test_endings_that_are_written_are_not_refused(self):
+        for ending in ("obj", "OBJ", "vtkhdf", "h5", "vtp", "vtm", "feb"):
+            out = f"written.{ending}"
+            saved = mvs("convert", "v.obj", "-o", out, cwd=self.dir)
+            done = mvs("op", "v.obj", "chord-remove", "--chord", "P2/1", "-o", out, cwd=self.dir)
+            self.assertEqual((done.returncode, done.stderr), (saved.returncode, saved.stderr))
+
+    def test_other_outputs_are_refused_before_the_work_too(self):
+        for line in (("repair", "nothing.obj", "--plan", "nothing.json", "--save-plan"),
+                     ("import", "nothing.stl", "-o", "v.h5", "--findings")):
+            done = mvs(*line, "nowhere/p.json", cwd=self.dir)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("nowhere/p.json: cannot write into folder nowhere: No such file or directory; create",
+                          done.stderr)
 
 
 class Replaced(Shell):

@@ -4,6 +4,7 @@
 
 #include "commands/commands.h"
 #include "text/command_units.h"
+#include "text/output_file.h"
 #include "text/readouts.h"
 #include "valve/at_rest.h"
 #include "valve/ensemble.h"
@@ -124,6 +125,7 @@ std::string closed_text(const CloseOptions &options, const Closed &closed,
 // A valve that is not at rest is written, marked, warned of, and ends with exit code 1. One whose
 // leaflets cross is warned of.
 void run_close(const CloseOptions &options, Console &console) {
+  demand_writable_valve(options.out);
   std::optional<mvs::Snapshot> reference;  // read first: a missing file fails before the closure
   if (!options.reference.empty()) reference = load(options.reference);
   Closed closed = close_valve(options, console);

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "commands/commands.h"
+#include "text/output_file.h"
 #include "text/readouts.h"
 #include "valve/cost.h"
 
@@ -19,6 +20,7 @@ std::string words_of_load(double pressure) {
 }
 
 void run_cost(const CommandOptions &options, Console &console) {
+  demand_writable_valve(options.out);
   const mvs::Snapshot closed = load(options.file);
   const CostMeter meter(options.cost);
   Progress progress(console);

@@ -3,6 +3,7 @@
 
 #include "commands/commands.h"
 #include "text/command_units.h"
+#include "text/output_file.h"
 #include "valve/tissue.h"
 
 namespace cli {
@@ -84,6 +85,7 @@ mvs::Snapshot make_valve(const GenerateOptions &options) {
 }
 
 void run_generate(const GenerateOptions &options, const Console &console) {
+  demand_writable_valve(options.out);
   const mvs::Snapshot valve = make_valve(options);
   valve.save(options.out);
   const Size size = size_of(valve);

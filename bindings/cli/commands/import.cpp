@@ -9,6 +9,7 @@
 #include "commands/commands.h"
 #include "import/findings_file.h"
 #include "import/import_input.h"
+#include "text/output_file.h"
 #include "valve/tissue.h"
 
 namespace cli {
@@ -82,6 +83,8 @@ void run_import(const ImportOptions &given, Console &console) {
   options.build.leaflet_law = law_of(options.leaflet);
   options.build.without_leak = options.no_leak ? 1 : 0;
   const std::string path = findings_path(options);
+  demand_writable_valve(options.out);
+  demand_writable(path);
   keep_inputs(options, path);
   KnownValues known;
   const ImportInput input = read_input(given, options, known);

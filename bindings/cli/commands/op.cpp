@@ -7,6 +7,7 @@
 #include "commands/commands.h"
 #include "text/command_units.h"
 #include "text/op_text.h"
+#include "text/output_file.h"
 #include "text/readouts.h"
 #include "valve/at_rest.h"
 #include "valve/pressure.h"
@@ -96,6 +97,7 @@ std::string operated_text(const OpRequest &request, const Operated &done) {
 
 void run_op(const OpRequest &request, Console &console) {
   if (request.out.empty() && !request.settle) throw CLI::RequiredError("--output or --settle");
+  demand_writable_valve(request.out);
   const Operated done = operate(request, console);
   if (!request.out.empty()) done.valve.save(request.out);
   print(console, operated_json(request, done), operated_text(request, done));

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "commands/commands.h"
+#include "text/output_file.h"
 #include "text/plan_file.h"
 #include "text/readouts.h"
 
@@ -81,6 +82,7 @@ void check_plan(const PlanOptions &options, const Console &console) {
 }
 
 void replay_plan(const PlanOptions &options, const Console &console) {
+  demand_writable_valve(options.out);
   Progress progress(console);
   mvs::Simulator sim = load_sim(options.on, progress);
   const mvs_replay done = sim.replay_plan(plan_text(options.plan));

@@ -1,6 +1,7 @@
 // `mvs remesh`: writes a finer or coarser mesh level of a valve.
 #include "commands/commands.h"
 #include "text/command_units.h"
+#include "text/output_file.h"
 
 namespace cli {
 namespace {
@@ -27,6 +28,7 @@ std::string coarsening_text(const mvs_coarsening &made) {
 }
 
 void run_remesh(const RemeshOptions &options, const Console &console) {
+  demand_writable_valve(options.out);
   mvs::Simulator sim = make_sim();
   sim.load_file(options.in);
   const Size before = size_of(sim.snapshot());

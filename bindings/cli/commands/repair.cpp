@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "commands/commands.h"
+#include "text/output_file.h"
 #include "text/plan_file.h"
 #include "text/readouts.h"
 #include "valve/at_rest.h"
@@ -17,6 +18,8 @@ struct RepairOptions {
 };
 
 void run_repair(const RepairOptions &options, Console &console) {
+  demand_writable_valve(options.out);
+  demand_writable(options.plan_out);
   const std::string plan = plan_text(options.plan);
   Progress progress(console);
   mvs::Simulator unrepaired = load_sim(options.file, progress, with_workers(console));

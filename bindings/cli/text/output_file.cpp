@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <initializer_list>
 #include <memory>
 #include <system_error>
 
@@ -60,6 +61,23 @@ std::string follow_links(const std::string &path, const std::string &part) {
   fail_to_write(path, part, "write", file, ELOOP);
 }
 
+// "/." also refuses a file that stands in the place of a folder.
+bool is_writable_folder(const std::string &folder) {
+  return ::access((folder + "/.").c_str(), W_OK | X_OK) == 0;
+}
+
+// A VTM file has its blocks in a folder of the same name, which is made first.
+void demand_block_folder(const std::string &path) {
+  const std::string folder = path.substr(0, path.size() - 4);
+  Status found;
+  if (::stat(folder.c_str(), &found) != 0) {
+    if (is_writable_folder(folder_of(folder))) return;
+    fail_to_write(path, "", "create folder", folder, errno);
+  }
+  if (!S_ISDIR(found.st_mode)) fail_to_write(path, "", "create folder", folder, EEXIST);
+  if (!is_writable_folder(folder)) fail_to_write(path, "", "write into folder", folder, errno);
+}
+
 }  // namespace
 
 void fail_to_write(const std::string &path, const std::string &part, const std::string &verb,
@@ -85,6 +103,33 @@ OutputTarget output_target(const std::string &path, const std::string &part) {
   }
   target.mode = old.st_mode & 07777;
   return target;
+}
+
+void demand_writable(const std::string &path) {
+  if (path.empty()) return;
+  const OutputTarget target = output_target(path);
+  if (is_writable_folder(target.folder)) return;
+  fail_to_write(path, "", "write into folder", target.folder, errno);
+}
+
+void demand_writable_valve(const std::string &path) {
+  if (path.empty()) return;
+  std::string small = path;
+  std::transform(small.begin(), small.end(), small.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  const auto ends_with_one_of = [&](std::initializer_list<const char *> endings) {
+    return std::any_of(endings.begin(), endings.end(),
+                       [&](const char *ending) { return small.ends_with(ending); });
+  };
+  if (ends_with_one_of({".inp"})) {
+    fail(MVS_E_UNSUPPORTED, "format",
+         path + ": Abaqus input is read, not written: save as .obj, .h5 or .feb");
+  }
+  if (!ends_with_one_of({".obj", ".h5", ".vtkhdf", ".vtp", ".vtm", ".feb"})) {
+    make_sim().load_file(path);  // fails with the list of endings before it opens the file
+  }
+  if (ends_with_one_of({".vtm"})) demand_block_folder(path);
+  demand_writable(path);
 }
 
 }  // namespace cli

@@ -1,4 +1,5 @@
-// Output files of commands, and the sentences of mvs_save_file about them.
+// Output files of commands: refused before long work if they could not be written after it, with
+// the sentences of mvs_save_file.
 #pragma once
 
 #include <sys/types.h>
@@ -17,6 +18,13 @@ struct OutputTarget {
 // Throws mvs::Error with this part if the path is a folder, a device or a file without the right to
 // write, or has links that lead back to themselves.
 OutputTarget output_target(const std::string &path, const std::string &part = "");
+
+// Throws mvs::Error if no file can be written to this path: also if its folder does not exist or
+// cannot be written to. Not of a full disk. An empty path is no output.
+void demand_writable(const std::string &path);
+
+// The same for the file of a valve, whose ending has to name a format that is written.
+void demand_writable_valve(const std::string &path);
 
 // Throws mvs::Error, "PATH: cannot VERB WHAT: the system's reason; the remedy"; `error` is errno.
 [[noreturn]] void fail_to_write(const std::string &path, const std::string &part,
