@@ -61,6 +61,13 @@ class Outputs(Shell):
             self.assertIn("nowhere/p.json: cannot write into folder nowhere: No such file or directory; create",
                           done.stderr)
 
+    def test_an_import_does_not_write_two_outputs_to_one_file(self):
+        (self.dir / "link.h5").symlink_to("one.h5")
+        for findings in ("one.h5", "./one.h5", self.dir / "one.h5", "link.h5"):
+            done = mvs("import", "nothing.stl", "-o", "one.h5", "--findings", findings, cwd=self.dir)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn("is the output for the valve as well", done.stderr)
+
 
 class Replaced(Shell):
     """Tables of sweeps, as files that the command itself replaces."""

@@ -46,8 +46,15 @@ void warn_of_contradictions(const std::vector<mvs::Finding> &findings) {
   }
 }
 
-// Refuses an output that is one of the inputs, under whatever name.
+// Refuses an output that is one of the inputs or the other output, under whatever name.
 void keep_inputs(const ImportOptions &options, const std::string &findings) {
+  const auto file_of = [](const std::string &path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(output_target(path).file));
+  };
+  if (file_of(options.out) == file_of(findings)) {
+    fail(MVS_E_ARGUMENT, "output",
+         findings + ": is the output for the valve as well: give another file for the findings");
+  }
   for (const std::string &out : {options.out, findings}) {
     for (const std::string *in :
          {&options.surface, &options.annulus, &options.commissures, &options.anterior,
