@@ -141,6 +141,17 @@ class Sweep(Shell):
             self.assertIn("the name of", done.stderr)
         self.assertEqual(self.bytes("notes"), b"no table, and no line")
 
+    def test_a_row_may_be_longer_than_a_pipe_takes_at_once(self):
+        (self.dir / "long.txt").write_text("".join(
+            "%g,%g,0\n" % (12 * math.cos(k / 10), 16 * math.sin(k / 10)) for k in range(60)))
+        path = "./" * 2030 + "long.txt"
+        line = ("sweep", "v.obj", "--op", "annulus-scale factor=1.0,1.1,1.2", "--op", f"ring curve={path}",
+                "--jobs", 3)
+        printed = self.json(*line, "--csv", "long.csv")
+        self.assertEqual((printed["combinations"], printed["failed"]), (3, 0))
+        self.assertEqual([row["ring_curve_mm"] for row in self.rows("long.csv")], 3 * [path])
+        self.assertGreater(len(self.bytes("long.csv").splitlines()[1]), 4096)
+
     def test_wrong_grids_are_usage_errors(self):
         for words, op in (("choose from: chord_length", "fly"),
                           ("choose from: chord, length", "chord-length colour=2"),

@@ -1,5 +1,6 @@
 #include "valve/processes.h"
 
+#include <poll.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -8,12 +9,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
-#include <climits>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <memory>
 #include <new>
+#include <string_view>
 #include <vector>
 
 #include "text/console.h"
@@ -41,12 +42,14 @@ class SharedCounter {
   std::atomic<size_t> *next_;
 };
 
-// One write of at most PIPE_BUF bytes: lines of several processes do not mix.
-bool send_line(int pipe, const std::string &line) {
-  ssize_t written = 0;
-  while ((written = ::write(pipe, line.data(), line.size())) < 0 && errno == EINTR) {
+bool send_line(int pipe, std::string_view line) {
+  while (!line.empty()) {
+    const ssize_t written = ::write(pipe, line.data(), line.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    line.remove_prefix(static_cast<size_t>(written));
   }
-  return written == static_cast<ssize_t>(line.size());
+  return true;
 }
 
 // The body of a process; returns its exit code.
@@ -56,8 +59,7 @@ int work_off(size_t jobs, SharedCounter &next, int pipe,
     for (size_t k = next.take(); k < jobs && !InterruptFlag::is_set(); k = next.take()) {
       const std::string result = work(k);
       if (InterruptFlag::is_set()) break;
-      const std::string line = text("%zu %s\n", k, result.c_str());
-      if (line.size() > PIPE_BUF || !send_line(pipe, line)) return 1;
+      if (!send_line(pipe, text("%zu %s\n", k, result.c_str()))) return 1;
     }
     return 0;
   } catch (const std::exception &error) {
@@ -66,28 +68,66 @@ int work_off(size_t jobs, SharedCounter &next, int pipe,
   }
 }
 
+// A process and the read end of its own pipe, so that lines of several processes do not mix.
+struct Child {
+  pid_t process;
+  int pipe;           // -1 after its end
+  std::string begun;  // a line whose end has not come yet; without it, no result
+};
+using Take = std::function<void(size_t, const std::string &)>;
+
+void close_pipes(std::vector<Child> &children) {
+  for (Child &child : children) {
+    if (child.pipe >= 0) ::close(child.pipe);
+    child.pipe = -1;
+  }
+}
+
 // Waits for the processes; returns whether all ended well.
-bool join_all(const std::vector<pid_t> &children) {
+bool join_all(const std::vector<Child> &children) {
   bool good = true;
-  for (const pid_t child : children) {
+  for (const Child &child : children) {
     int status = 0;
-    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    while (waitpid(child.process, &status, 0) < 0 && errno == EINTR) {
     }
     good = good && WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
   return good;
 }
 
-void take_lines(int pipe, const std::function<void(size_t, const std::string &)> &take) {
-  const std::unique_ptr<FILE, int (*)(FILE *)> lines(fdopen(pipe, "r"), &std::fclose);
-  if (!lines) throw std::bad_alloc();
-  std::vector<char> line(PIPE_BUF + 1);
-  while (std::fgets(line.data(), static_cast<int>(line.size()), lines.get())) {
-    char *end = nullptr;
-    const size_t k = std::strtoull(line.data(), &end, 10);
-    std::string result = *end == ' ' ? end + 1 : "";
-    if (!result.empty() && result.back() == '\n') result.pop_back();
-    take(k, result);
+// Reads the bytes that a process has sent, and takes the complete lines.
+void take_lines(Child &child, const Take &take) {
+  char bytes[4096];
+  const ssize_t got = ::read(child.pipe, bytes, sizeof bytes);
+  if (got < 0 && errno == EINTR) return;
+  if (got <= 0) {
+    ::close(child.pipe);
+    child.pipe = -1;
+    return;
+  }
+  child.begun.append(bytes, static_cast<size_t>(got));
+  for (size_t end = 0; (end = child.begun.find('\n')) != std::string::npos;) {
+    const std::string line = child.begun.substr(0, end);
+    child.begun.erase(0, end + 1);
+    take(std::strtoull(line.c_str(), nullptr, 10), line.substr(line.find(' ') + 1));
+  }
+}
+
+// Takes the lines of all processes until each has closed its pipe.
+void take_all(std::vector<Child> &children, const Take &take) {
+  std::vector<pollfd> pipes;
+  for (const Child &child : children) pipes.push_back({child.pipe, POLLIN, 0});
+  for (size_t open = pipes.size(); open > 0;) {
+    if (::poll(pipes.data(), pipes.size(), -1) < 0) {
+      if (errno != EINTR) throw std::bad_alloc();
+      continue;
+    }
+    for (size_t p = 0; p < pipes.size(); ++p) {
+      if (pipes[p].fd < 0 || pipes[p].revents == 0) continue;
+      take_lines(children[p], take);
+      pipes[p].fd = children[p].pipe;  // poll() leaves out -1
+      if (pipes[p].fd < 0) --open;
+    }
   }
 }
 
@@ -101,32 +141,37 @@ unsigned core_count() {
 }
 
 void run_in_processes(size_t jobs, unsigned processes,
-                      const std::function<std::string(size_t)> &work,
-                      const std::function<void(size_t, const std::string &)> &take) {
+                      const std::function<std::string(size_t)> &work, const Take &take) {
   SharedCounter next;
-  int ends[2];
-  if (::pipe(ends) != 0) fail(MVS_E_IO, "jobs", std::string("no pipe: ") + std::strerror(errno));
   std::fflush(nullptr);  // or each process would write the text that is still in the buffers
-  std::vector<pid_t> children;
+  std::vector<Child> children;
   const size_t count = std::min<size_t>(jobs, std::max(1u, processes));
-  for (size_t p = 0; p < count; ++p) {
-    const pid_t child = ::fork();
-    if (child == 0) {
+  children.reserve(count);
+  int ends[2];
+  for (size_t p = 0; p < count && ::pipe(ends) == 0; ++p) {
+    const pid_t process = ::fork();
+    if (process == 0) {
       ::close(ends[0]);
+      close_pipes(children);  // of the others, whose writes fail once this program has ended
       const int code = work_off(jobs, next, ends[1], work);
       std::fflush(stderr);
       ::_exit(code);
     }
-    if (child > 0) children.push_back(child);
+    ::close(ends[1]);
+    if (process < 0) ::close(ends[0]);
+    if (process > 0) children.push_back({process, ends[0], ""});
   }
-  ::close(ends[1]);
+  if (children.empty() && jobs > 0) {
+    fail(MVS_E_IO, "jobs", std::string("no process can be started: ") + std::strerror(errno));
+  }
   std::exception_ptr failure;  // of `take`; the next write then ends each process (SIGPIPE)
   try {
-    take_lines(ends[0], take);
+    take_all(children, take);
   } catch (...) {
     failure = std::current_exception();
   }
-  const bool good = join_all(children) && !children.empty();
+  close_pipes(children);
+  const bool good = join_all(children);
   if (failure) std::rethrow_exception(failure);
   if (good || InterruptFlag::is_set()) return;
   fail(MVS_E_INTERNAL, "jobs",
