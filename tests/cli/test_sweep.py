@@ -152,6 +152,13 @@ class Sweep(Shell):
         self.assertEqual([row["ring_curve_mm"] for row in self.rows("long.csv")], 3 * [path])
         self.assertGreater(len(self.bytes("long.csv").splitlines()[1]), 4096)
 
+    def test_a_measure_that_needs_cost_is_refused_before_a_table_is_written(self):
+        line = ("sweep", "nothing.obj", *GRID, "--csv", "early.csv", "--sort", "open_area_mm2")
+        done = mvs(*line, cwd=self.dir)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("open_area_mm2 is measured with --cost only", done.stderr)
+        self.assertFalse((self.dir / "early.csv").exists())
+
     def test_wrong_grids_are_usage_errors(self):
         for words, op in (("choose from: chord_length", "fly"),
                           ("choose from: chord, length", "chord-length colour=2"),

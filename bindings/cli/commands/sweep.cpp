@@ -168,7 +168,16 @@ void demand_a_row_at_rest(const SweepTable &table, Console &console) {
   console.exit_code = 1;
 }
 
+void demand_measured_sort(const SweepOptions &options) {
+  const std::vector<std::string> keys = measure_keys(options.cost);
+  if (options.sort.empty() || std::find(keys.begin(), keys.end(), options.sort) != keys.end()) {
+    return;
+  }
+  throw CLI::ValidationError("--sort", options.sort + " is measured with --cost only");
+}
+
 void run_sweep(const SweepOptions &options, Console &console) {
+  demand_measured_sort(options);
   SweepGrid grid = grid_of(options);
   Progress progress(console);
   mvs::Simulator sim = load_sim(options.file, progress);
@@ -178,10 +187,6 @@ void run_sweep(const SweepOptions &options, Console &console) {
     sweep.conditions.cost = sweep.cost.emplace(options.cost_options).words();
   }
   SweepTable table(sweep.grid, options.csv, sweep.conditions);
-  const std::vector<std::string> keys = measure_keys(options.cost);
-  if (!options.sort.empty() && std::find(keys.begin(), keys.end(), options.sort) == keys.end()) {
-    throw CLI::ValidationError("--sort", options.sort + " is measured with --cost only");
-  }
   const std::vector<size_t> missing = table.missing();
   if (!missing.empty()) {
     sweep.closed = settle(sim, pressure_mmhg, options.file).valve;
