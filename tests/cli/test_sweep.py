@@ -3,8 +3,12 @@ import csv
 import itertools
 import json
 import math
+import pathlib
+import resource
+import subprocess
+import time
 
-from command import Shell, mvs
+from command import MVS, Shell, mvs
 
 ORIFICE = "regurgitant_orifice_area_mm2"
 # Six combinations of a small valve: one chord and the annulus.
@@ -158,6 +162,26 @@ class Sweep(Shell):
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("open_area_mm2 is measured with --cost only", done.stderr)
         self.assertFalse((self.dir / "early.csv").exists())
+
+    def test_a_combination_without_memory_has_no_row_and_is_closed_by_the_next_run(self):
+        self.ok("generate", "--shape", "founding", "-o", "large.obj", "--vertices", 800)
+        line = ["sweep", "large.obj", "--op", "annulus-scale factor=1.3:1.0:-0.05", "--csv", "memory.csv"]
+        with subprocess.Popen([MVS, *line, "--jobs", "1"], cwd=self.dir, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True) as running:
+            children = pathlib.Path(f"/proc/{running.pid}/task/{running.pid}/children")
+            while running.poll() is None:
+                if process := children.read_text().split():
+                    resource.prlimit(int(process[0]), resource.RLIMIT_AS, (2**20, 2**20))
+                    break
+                time.sleep(0.002)
+            stderr = running.communicate()[1]
+        self.assertEqual(running.returncode, 1, stderr)
+        self.assertIn("run the same command again to continue", stderr)
+        done = self.rows("memory.csv")
+        self.assertLess(len(done), 7)
+        self.assertEqual({row["error"] for row in done} | {""}, {""})
+        again = self.json(*line)
+        self.assertEqual((again["closed_now"], again["failed"]), (7 - len(done), 0))
 
     def test_wrong_grids_are_usage_errors(self):
         for words, op in (("choose from: chord_length", "fly"),

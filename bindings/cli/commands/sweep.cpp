@@ -53,6 +53,11 @@ AtRest close_combination(const Sweep &sweep, size_t combination) {
                 "combination " + CLI::detail::join(sweep.grid.values(combination), " "));
 }
 
+// A failure of the run, not of the combination: without a row, the next run closes it again.
+bool is_of_run(const mvs::Error &failure) {
+  return failure.code() == MVS_E_MEMORY || failure.code() == MVS_E_INTERNAL;
+}
+
 // A combination that cannot be applied is a row with the reason instead of measures.
 CsvRow row_of(const Sweep &sweep, size_t combination) {
   CsvRow row = sweep.grid.values(combination);
@@ -67,6 +72,7 @@ CsvRow row_of(const Sweep &sweep, size_t combination) {
     const Json figures = figures_json(at_rest.measures, cost ? &*cost : nullptr);
     for (const auto &[key, value] : figures.items()) row.push_back(cell_of(value));
   } catch (const mvs::Error &failure) {
+    if (is_of_run(failure)) throw;
     error = failure.what();
     row.resize(sweep.grid.columns().size() + 1 + measure_keys(sweep.cost.has_value()).size());
   }
