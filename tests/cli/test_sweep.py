@@ -183,6 +183,15 @@ class Sweep(Shell):
         again = self.json(*line)
         self.assertEqual((again["closed_now"], again["failed"]), (7 - len(done), 0))
 
+    def test_names_that_look_like_numbers_stay_text(self):
+        valve = (self.dir / "v.obj").read_text()
+        for name in ("007", "12"):
+            (self.dir / "named.obj").write_text(valve.replace("name=P2/1 ", f"name={name} "))
+            best = self.json("sweep", "named.obj", "--op", f"chord-length chord={name} factor=1.2", "--csv",
+                             f"{name}.csv", "--sort", ORIFICE)["best"][0]
+            self.assertEqual((best["chord_length_chord"], best["chord_length_factor"]), (name, 1.2))
+            self.assertEqual((best["pressure_mmHg"], best["converged"], best["error"]), (120, True, None))
+
     def test_wrong_grids_are_usage_errors(self):
         for words, op in (("choose from: chord_length", "fly"),
                           ("choose from: chord, length", "chord-length colour=2"),

@@ -88,7 +88,8 @@ Json best_json(const SweepTable &table, const CsvRow &row) {
   Json object = Json::object();
   for (size_t k = 0; k < row.size(); ++k) {
     double number = 0;
-    const bool is_value = read_number(row[k], number) || row[k] == "true" || row[k] == "false";
+    const bool is_value =
+        !table.is_text(k) && (read_number(row[k], number) || row[k] == "true" || row[k] == "false");
     object[table.columns()[k]] = row[k].empty() ? Json()
                                  : is_value     ? Json::parse(row[k], nullptr, false)
                                                 : Json(row[k]);

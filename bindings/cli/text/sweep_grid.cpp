@@ -153,6 +153,14 @@ std::vector<std::string> SweepGrid::columns() const {
   return columns;
 }
 
+std::vector<bool> SweepGrid::has_numbers() const {
+  std::vector<bool> numbers;
+  for (const SweepOp &op : ops_) {
+    for (const SweepAxis &axis : op.axes) numbers.push_back(is_number(axis.field));
+  }
+  return numbers;
+}
+
 std::vector<std::string> SweepGrid::values(size_t combination) const {
   std::vector<std::string> values;
   for (auto op = ops_.rbegin(); op != ops_.rend(); ++op) {

@@ -34,6 +34,8 @@ class SweepGrid {
   size_t combinations() const { return count_; }
   // "ring_size_mm", one for each axis; "chord_length_2_factor" in the second operation of a kind.
   std::vector<std::string> columns() const;
+  // Whether the values of each column are numbers, in the order of columns().
+  std::vector<bool> has_numbers() const;
   // The values of a combination in the order of columns(); the last axis changes fastest.
   std::vector<std::string> values(size_t combination) const;
   // Whether a field has files of points.

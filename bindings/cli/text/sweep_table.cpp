@@ -38,6 +38,7 @@ SweepTable::SweepTable(const SweepGrid &grid, const std::string &path,
                        const SweepConditions &conditions)
     : columns_(sweep_columns(grid, !conditions.cost.empty())),
       parameters_(grid.columns().size()),
+      has_numbers_(grid.has_numbers()),
       file_(path, columns_) {
   for (size_t k = 0; k < grid.combinations(); ++k) order_[grid.values(k)] = k;
   for (const CsvRow &row : file_.rows()) {
@@ -57,6 +58,12 @@ bool SweepTable::has_conditions(const CsvRow &row, const SweepGrid &grid,
   const auto combination = order_.find(key(row));
   return !grid.has_files() || combination == order_.end() ||
          cell(row, "files") == grid.files(combination->second);
+}
+
+bool SweepTable::is_text(size_t column) const {
+  if (column < parameters_) return !has_numbers_[column];
+  const std::string &name = columns_[column];
+  return name == "valve" || name == "files" || name == "cost" || name == "error";
 }
 
 const std::string &SweepTable::cell(const CsvRow &row, const std::string &column) const {

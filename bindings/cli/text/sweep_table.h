@@ -34,6 +34,8 @@ class SweepTable {
   SweepTable(const SweepGrid &grid, const std::string &path, const SweepConditions &conditions);
 
   const CsvRow &columns() const { return columns_; }
+  // Whether the cells of a column are text, also those that look like numbers.
+  bool is_text(size_t column) const;
   const std::string &cell(const CsvRow &row, const std::string &column) const;
   // The combinations of the grid without a row.
   std::vector<size_t> missing() const;
@@ -55,7 +57,8 @@ class SweepTable {
   size_t place(const CsvRow &row) const;
 
   CsvRow columns_;
-  size_t parameters_;  // the first columns
+  size_t parameters_;              // the first columns
+  std::vector<bool> has_numbers_;  // of the parameters
   CsvFile file_;
   std::map<CsvRow, size_t> order_;  // of the combinations, by their values
 };
