@@ -192,6 +192,12 @@ class Sweep(Shell):
             self.assertEqual((best["chord_length_chord"], best["chord_length_factor"]), (name, 1.2))
             self.assertEqual((best["pressure_mmHg"], best["converged"], best["error"]), (120, True, None))
 
+    def test_rows_that_cannot_be_applied_are_counted_and_not_warned_of(self):
+        done = mvs("sweep", "v.obj", "--op", "chord-remove chord=P2/1,P9/1", "--csv", "counted.csv", cwd=self.dir)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("1 cannot be applied: see the column error", done.stdout)
+        self.assertNotIn("warning", mvs("sweep", "--help", cwd=self.dir).stdout)
+
     def test_wrong_grids_are_usage_errors(self):
         for words, op in (("choose from: chord_length", "fly"),
                           ("choose from: chord, length", "chord-length colour=2"),

@@ -263,8 +263,10 @@ void add_sweep(CLI::App &app, Console &console) {
       "The valve is closed first, and every combination starts from that closed valve; `mvs op "
       "--settle` and Python's\nmvs.sweep operate on the valve as given: give them a closed one "
       "(mvs close -o) for the same figures.\n"
-      "Exit code 0: a combination at least is at rest; single ones that are not, or cannot be "
-      "applied, are rows of the\ntable and warnings. 1: none is at rest.");
+      "Exit code 0: a combination at least is at rest; single ones that are not (column "
+      "converged), "
+      "or cannot be applied\n(column error), are rows of the table and counted in the output. 1: "
+      "none is at rest.");
 }
 
 }  // namespace cli
