@@ -108,6 +108,19 @@ class ImportInputs(OpenSurface):
             edited.write_text(json.dumps({**rows, key: {}}))
             self.refused("types.json: ", "--with", edited)
 
+    def test_names_that_contradict_the_sides_of_the_valve_are_warned_of(self):
+        tips, commissures = self.points_of("papillary_tips"), self.points_of("commissures")
+        marks = self.dir / "named.mrk.json"
+        for option, points in (("--tips", tips), ("--commissures", commissures)):
+            for names, others in ((("AL", "PM"), None), (("F-1", "F-2"), None), (("almost", "PMX"), None),
+                                  (("PM tip", "anterolateral"), '"PM tip", "anterolateral"'), (("AL1", "AL2"), '"AL2"')):
+                with self.subTest(option, names=names):
+                    write_markups(marks, points, "LPS", names)
+                    done = self.run_import("named.h5", "--frame", "LPS", option, marks)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    self.assertEqual("than their names say" in done.stderr, others is not None, done.stderr)
+                    self.assertIn(f"PM: posteromedial): {others}. Are" if others else "", done.stderr)
+
     def test_ranges_of_options_are_in_mm(self):
         for option, value, range_ in (("--thickness", "30", "0.1 to 5 mm"), ("--chords", "500", "20 to 400"),
                                       ("--coaptation-length", "nan", "1 to 20 mm"), ("--edge-lost", "0", "0.001 to 5 mm")):

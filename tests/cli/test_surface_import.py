@@ -48,9 +48,9 @@ def write_ply(path, points, triangles, frame):
     path.write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
-def write_markups(path, points, frame):
+def write_markups(path, points, frame, names=None):
     """Points of 3D Slicer in mm."""
-    controls = [{"id": str(k), "label": f"F-{k}", "position": [1e3 * x for x in p],
+    controls = [{"id": str(k), "label": names[k] if names else f"F-{k}", "position": [1e3 * x for x in p],
                  "positionStatus": "defined"} for k, p in enumerate(points)]
     path.write_text(json.dumps({"markups": [
         {"type": "Fiducial", "coordinateSystem": frame, "coordinateUnits": "mm",

@@ -280,5 +280,5 @@ TEST_CASE("holes_filled_before_and_after_a_cut_are_one_finding") {
   REQUIRE(findings.size() == 1);
   CHECK(findings[0].name == "filled_holes");
   CHECK(findings[0].value.size() == 2);
-  CHECK(findings[0].sentence.starts_with("2 holes, "));
+  CHECK(findings[0].sentence.starts_with("holes that were filled: 2, "));
 }

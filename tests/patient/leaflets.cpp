@@ -121,6 +121,29 @@ TEST_CASE("commissures_given_in_the_middle_of_the_leaflets_are_doubted") {
   }
 }
 
+TEST_CASE("commissures_beside_the_likeliest_places_are_doubted") {
+  const ParametricSheet p = parametric_sheet(430);
+  const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
+  Findings guessed;
+  const LeafletArcs arcs = find_leaflets(p.sheet, p.rims, c, {}, guessed);
+  const Loop annulus(p.rims.annulus, p.sheet.x);
+  // landmarks by hand are up to 3 mm off; both turned the same way, and one alone
+  for (const double off : {0.0, 3e-3, 12e-3}) {
+    for (const double other : {off, 0.0}) {
+      CAPTURE(off);
+      CAPTURE(other);
+      const std::vector<Vec3> points = {annulus.at(std::fmod(arcs.from + off, c.annulus_length)),
+                                        annulus.at(std::fmod(arcs.to + other, c.annulus_length))};
+      Findings found;
+      find_leaflets(p.sheet, p.rims, c, {points, {}, {}}, found);
+      const Finding &said = *find_finding(found, "commissures");
+      CHECK((said.confidence < 0.1) == (off > 3e-3));
+      CHECK((said.confidence == 1) == (off <= 3e-3));
+      CHECK((said.sentence.find("from the likeliest places") != std::string::npos) == (off > 3e-3));
+    }
+  }
+}
+
 TEST_CASE("commissures_in_the_other_frame_are_named_so") {
   // near the origin, where mirrored points are near the surface too, and far from it
   for (const double away : {2e-3, 0.2}) {

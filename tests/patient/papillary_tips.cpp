@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "base/error.h"
+#include "patient/doubtful.h"
 #include "patient/findings.h"
 #include "tests/patient/patient_valve.h"
 
@@ -87,6 +88,27 @@ TEST_CASE("tips_under_the_anterior_leaflet_lower_the_confidence") {
   find_papillary_tips({Vec3(-10, 8, -23) * mm, Vec3(10, 8, -23) * mm}, g, findings);
   CHECK(findings.back().confidence < 0.5);
   CHECK(findings.back().sentence.find("swapped") != std::string::npos);
+}
+
+// The annulus is 35 mm wide.
+TEST_CASE("tips_in_places_without_muscles_are_doubted") {
+  const PatientGeometry g = parametric_geometry(430);
+  const auto said = [&](const Vec3 &lateral, const Vec3 &medial) {
+    Findings findings;
+    find_papillary_tips({lateral * mm, medial * mm}, g, findings);
+    CHECK(is_doubtful(findings.back()) == (findings.back().confidence < 1));
+    return findings.back().confidence < 1 ? findings.back().sentence : "";
+  };
+  // normal, dilated, of a child with short chordae, and moved apically and sideways by an infarct
+  CHECK(said({-10, -3, -23}, {10, -3, -23}).empty());
+  CHECK(said({-17, -6, -40}, {17, -6, -40}).empty());
+  CHECK(said({-6, -3, -12}, {6, -3, -12}).empty());
+  CHECK(said({-10, -3, -23}, {16, -9, -33}).empty());
+  CHECK(said({-10, -3, -60}, {10, -3, -60}).find("60 and 60 mm below the plane") !=
+        std::string::npos);
+  CHECK(said({-10, -3, -8}, {10, -3, -23}).find("8 and 23 mm below") != std::string::npos);
+  CHECK(said({-3, -3, -23}, {3, -3, -23}).find("6 mm apart") != std::string::npos);
+  CHECK(said({-2, -13, -23}, {2, 7, -23}).find("one behind the other") != std::string::npos);
 }
 
 TEST_CASE("tips_of_another_frame_or_of_one_muscle_are_refused") {

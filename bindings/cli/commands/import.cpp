@@ -9,6 +9,7 @@
 #include "commands/commands.h"
 #include "import/findings_file.h"
 #include "import/import_input.h"
+#include "import/landmark_names.h"
 #include "text/output_file.h"
 #include "valve/tissue.h"
 
@@ -110,6 +111,7 @@ void run_import(const ImportOptions &given, Console &console) {
   keep_doubts(known, findings);
   warn_of_ignored(known, options.with);
   warn_of_contradictions(findings);
+  warn_of_names(input.files, {options.commissures, options.tips}, findings);
   const mvs::Snapshot valve = sim.snapshot();
   valve.save(options.out);
   write_findings(path, options.surface, findings);
