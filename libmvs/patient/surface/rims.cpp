@@ -52,7 +52,9 @@ void check_rims(const std::vector<RimLoop> &rims) {
       rims.size() == 2, MVS_E_OP, "triangles",
       "the surface has %zu boundaries: %s; leaflets have two, annulus and free edge, and only "
       "holes below a fifth of the longest boundary, or of less than %.0f mm2 within one leaflet, "
-      "are filled: close the others",
+      "are filled: close the others. Cut a bridge of tissue between the leaflets, as a clip "
+      "leaves; "
+      "an operation on the valve makes it again",
       rims.size(), list_of_lengths(rims).c_str(), long_hole_area * 1e6);
 }
 
