@@ -155,6 +155,23 @@ TEST_CASE("leaflets_that_do_not_touch_have_no_coaptation") {
   for (const double distance : coaptation.distance) CHECK(std::isinf(distance));
 }
 
+TEST_CASE("a_leaflet_that_is_folded_on_itself_has_no_height_of_coaptation") {
+  ClosedShape closed;
+  closed.posterior_wall = 9e-3;
+  // the posterior wall goes down 5 mm and up again, 0.5 mm beside itself and 3.5 mm from the other
+  closed.wall = [](double along, double down, double side) -> Vec3 {
+    if (side > 0) return {2e-3, along, -down};
+    const double fold = down - 5e-3;
+    if (fold < 0) return {-2e-3, along, -down};
+    if (fold < 0.5e-3) return {-2e-3 + fold, along, -5e-3};
+    return {-1.5e-3, along, -5.5e-3 + fold};
+  };
+  const Coaptation coaptation = coaptation_of(closed);
+  CHECK(coaptation.area > 20e-6);  // of the tissue that faces itself
+  CHECK(coaptation.height == 0);
+  CHECK(coaptation.depth == 0);
+}
+
 TEST_CASE("outer_sides_within_reach_do_not_coapt") {
   Valve valve = valve_of(sheet_of({}));
   for (Tri &triangle : valve.triangles) std::swap(triangle[1], triangle[2]);

@@ -55,7 +55,7 @@ void measure_central_section(const Model &model, const std::vector<Vec3> &local,
                              const std::vector<Vec3> &x, FacingWeight &facing,
                              Coaptation &coaptation) {
   const double thickness = model.valve.contact_thickness;
-  facing.leave_out_gathered_tissue(find_seams(model));
+  facing.leave_out_folds();
   Extent extent;
   for (uint32_t t = 0; t < model.valve.triangles.size(); ++t) {
     const Tri &c = model.valve.triangles[t];

@@ -96,13 +96,8 @@ void FacingWeight::list_candidates() {
   }
 }
 
-void FacingWeight::leave_out_gathered_tissue(const Seams &seams) {
-  const size_t leaflets = model_.valve.leaflets.size();
-  if (seams.nodes.empty() || leaflets < 2) return;
-  faces_others_only_.assign(leaflets, 0);
-  for (const std::vector<uint32_t> &seam : seams.nodes) {
-    faces_others_only_[leaflet_of_seam(model_, seam)] = 1;
-  }
+void FacingWeight::leave_out_folds() {
+  between_leaflets_ = model_.valve.leaflets.size() > 1;
 }
 
 bool FacingWeight::begin(uint32_t triangle) {

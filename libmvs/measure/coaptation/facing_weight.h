@@ -9,7 +9,6 @@
 #include "measure/coaptation/facing_tree.h"
 #include "measure/tissue/surface.h"
 #include "model/model.h"
-#include "model/seams.h"
 
 namespace mvs::core {
 
@@ -42,9 +41,9 @@ class FacingWeight {
   FacingWeight(const Model &model, const std::vector<Vec3> &x, const Surface &surface,
                const FacingTree &tree);
 
-  // From now on points of leaflets with a seam face other leaflets only: tissue gathered beside a
-  // seam lies in folds that touch themselves. A valve with a single leaflet stays as it is.
-  void leave_out_gathered_tissue(const Seams &seams);
+  // From now on points face other leaflets only: a flail scallop and tissue gathered beside a seam
+  // lie in folds that touch themselves. A valve with a single leaflet stays as it is.
+  void leave_out_folds();
   // Starts with a triangle; returns whether there are triangles that points of it may face.
   bool begin(uint32_t triangle);
   // Weighs points of that triangle. The result is valid until the next call.
@@ -69,9 +68,8 @@ class FacingWeight {
   void list_candidates();
   // Whether points of the present triangle are not to face that one.
   bool leaves_out(uint32_t triangle) const {
-    if (faces_others_only_.empty()) return false;
-    const uint32_t leaflet = model_.valve.triangle_leaflet[triangle];
-    return faces_others_only_[leaflet] && leaflet == model_.valve.triangle_leaflet[triangle_];
+    const auto &leaflet = model_.valve.triangle_leaflet;
+    return between_leaflets_ && leaflet[triangle] == leaflet[triangle_];
   }
   // The weight with which a point faces a triangle, from that without its borders.
   double within_borders(uint32_t triangle, const Vec3 &p, double weight) const;
@@ -87,8 +85,8 @@ class FacingWeight {
   const Surface &surface_;
   const FacingTree &tree_;
   double reach_;
-  std::vector<uint8_t> faces_others_only_;  // per leaflet; empty: none
-  std::vector<uint32_t> first_border_;      // per triangle: border_[first_border_[t] .. [t + 1])
+  bool between_leaflets_ = false;
+  std::vector<uint32_t> first_border_;  // per triangle: border_[first_border_[t] .. [t + 1])
   std::vector<FacingBorder> border_;
   std::vector<uint32_t> first_candidate_;  // per triangle, in the same way
   std::vector<Candidate> candidate_;       // sorted by triangle

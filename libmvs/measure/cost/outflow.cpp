@@ -89,7 +89,7 @@ std::vector<Section> sections_of(const Model &model, const std::vector<Vec3> &x,
   const Surface surface = surface_of(model.valve.triangles, x);
   const FacingTree tree(model, x, surface);
   FacingWeight facing(model, x, surface, tree);
-  facing.leave_out_gathered_tissue(seams);
+  facing.leave_out_folds();
   std::vector<Section> sections;
   for (const auto &[offset, weight] : section_planes(model, x, seams, SeamsOf::both)) {
     sections.push_back({find_coaptation(model, central_profile(model, x, true, offset), facing),
