@@ -55,8 +55,9 @@ std::string follow_links(const std::string &path, const std::string &part) {
     char target[4096];
     const ssize_t length = ::readlink(file.c_str(), target, sizeof target);
     if (length < 0) return file;
-    const std::string next(target, static_cast<size_t>(length));
-    file = next.starts_with('/') ? next : folder_of(file) + "/" + next;
+    std::string next(target, static_cast<size_t>(length));
+    if (!next.starts_with('/')) next.insert(0, folder_of(file).append("/"));
+    file = std::move(next);
   }
   fail_to_write(path, part, "write", file, ELOOP);
 }

@@ -116,6 +116,7 @@ void take_lines(Child &child, const Take &take) {
 // Takes the lines of all processes until each has closed its pipe.
 void take_all(std::vector<Child> &children, const Take &take) {
   std::vector<pollfd> pipes;
+  pipes.reserve(children.size());
   for (const Child &child : children) pipes.push_back({child.pipe, POLLIN, 0});
   for (size_t open = pipes.size(); open > 0;) {
     if (::poll(pipes.data(), pipes.size(), -1) < 0) {
