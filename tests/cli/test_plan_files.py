@@ -67,6 +67,21 @@ class Plans(Command):
         self.assertIn("annulus_scale", self.ok("plan", "show", "own.json").stdout)
         self.assertEqual(self.json("plan", "check", "own.json", "--on", "v.obj")["operations"], 1)
 
+    def test_deep_nesting_and_numbers_beyond_double_precision_are_refused(self):
+        head = '{"format": "mvs-plan", "version": 1, "steps": [], "notes": '
+        for text, words in (("[" * 80000 + "]" * 80000, "nested deeper than 64 levels"),
+                            (head + "[" * 64 + "]" * 64 + "}", "nested deeper than 64 levels"),
+                            (head + "1e400}", "a number is too large")):
+            (self.dir / "deep.json").write_text(text)
+            for line in (["plan", "show", "deep.json"], ["plan", "check", "deep.json", "--on", "v.obj"],
+                         ["plan", "replay", "deep.json", "--on", "v.obj"],
+                         ["repair", "sick.obj", "--plan", "deep.json"],
+                         ["import", "v.obj", "-o", "x.h5", "--with", "deep.json"]):
+                with self.subTest(line, words=words):
+                    printed = self.fails(*line).stderr
+                    self.assertRegex(printed, rf"^mvs: deep.json: [^\n]*{words}[^\n]*\n$")
+                    self.assertNotIn("json.exception", printed)
+
     def test_a_file_that_is_not_a_plan_is_refused(self):
         (self.dir / "empty.json").write_text("")
         (self.dir / "number.json").write_text(json.dumps(

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <sstream>
 
 #include "text/content_hash.h"
+#include "text/json_text.h"
 #include "text/replace_file.h"
 
 namespace cli {
@@ -76,11 +78,12 @@ Value field_of(const std::string &path, const std::string &name, const Json &row
 Json parsed(const std::string &path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) fail(MVS_E_IO, path, path + ": the file of findings cannot be opened");
-  try {
-    return Json::parse(in);
-  } catch (const Json::exception &error) {
-    refuse_findings(path, "json", std::string("is no JSON text: ") + error.what());
-  }
+  std::stringstream content;
+  content << in.rdbuf();
+  std::string fault;
+  Json object = parse_json(content.str(), fault);
+  if (!fault.empty()) refuse_findings(path, "json", "is no JSON text: " + fault);
+  return object;
 }
 
 // The findings that are an input of a build, where their values go, and how many numbers one value

@@ -1,12 +1,12 @@
 #include "text/plan_file.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
 #include "text/console.h"
+#include "text/json_text.h"
 #include "valve/host.h"
 
 namespace cli {
@@ -49,14 +49,9 @@ std::string fault_of(const Json &plan) {
 
 // The same for the text of a file.
 std::string fault_of_text(const std::string &content) {
-  try {
-    return fault_of(Json::parse(content));
-  } catch (const Json::parse_error &error) {
-    const size_t end = std::min(error.byte, content.size());
-    const auto lines =
-        std::count(content.begin(), content.begin() + static_cast<ptrdiff_t>(end), '\n');
-    return text("is no plan: line %td is not JSON", lines + 1) + origin;
-  }
+  std::string fault;
+  const Json plan = parse_json(content, fault);
+  return fault.empty() ? fault_of(plan) : "is no plan: " + fault + origin;
 }
 
 std::string read_file(const std::string &path) {
