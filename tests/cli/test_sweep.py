@@ -5,6 +5,7 @@ import json
 import math
 import pathlib
 import resource
+import signal
 import subprocess
 import time
 
@@ -14,6 +15,7 @@ ORIFICE = "regurgitant_orifice_area_mm2"
 # Six combinations of a small valve: one chord and the annulus.
 GRID = ["--op", "annulus-scale factor=1.3:0.9:-0.2",
         "--op", "chord-length chord=P2/1 factor=0.80,1.20"]
+LONG = ["sweep", "large.obj", "--op", "annulus-scale factor=1.3:1.0:-0.05", "--csv"]
 
 
 class Sweep(Shell):
@@ -182,6 +184,43 @@ class Sweep(Shell):
         self.assertEqual({row["error"] for row in done} | {""}, {""})
         again = self.json(*line)
         self.assertEqual((again["closed_now"], again["failed"]), (7 - len(done), 0))
+
+    def started(self, csv):
+        """A long sweep that has begun its first combinations, and the ids of its processes."""
+        self.ok("generate", "--shape", "founding", "-o", "large.obj", "--vertices", 800)
+        running = subprocess.Popen([MVS, *LONG, csv, "--jobs", "2"], cwd=self.dir, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        children = pathlib.Path(f"/proc/{running.pid}/task/{running.pid}/children")
+        while running.poll() is None:
+            if len(processes := children.read_text().split()) == 2:
+                return running, [pathlib.Path("/proc") / process for process in processes]
+            time.sleep(0.002)
+        self.fail(running.communicate()[1])
+
+    def test_a_second_sweep_into_a_table_is_refused_until_the_first_ends(self):
+        running, _ = self.started("shared.csv")
+        running.send_signal(signal.SIGSTOP)
+        try:
+            (self.dir / "link.csv").symlink_to("shared.csv")
+            for name in ("shared.csv", "link.csv"):
+                done = mvs(*LONG, name, cwd=self.dir)
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertIn(f"{name}: another sweep writes to it", done.stderr)
+        finally:
+            running.kill()
+            running.communicate()
+        self.ok(*LONG, "shared.csv")
+        self.assertEqual(len(self.rows("shared.csv")), 7)
+
+    def test_an_interrupt_of_its_own_process_stops_all(self):
+        running, children = self.started("stopped.csv")
+        with running:
+            running.send_signal(signal.SIGINT)
+            stderr = running.communicate(timeout=60)[1]
+        self.assertEqual(running.returncode, 1, stderr)
+        self.assertIn("stopped by Ctrl-C: run the same command again to continue", stderr)
+        self.assertLess(len(self.rows("stopped.csv")), 7)
+        self.assertFalse(any(child.exists() for child in children))
 
     def test_names_that_look_like_numbers_stay_text(self):
         valve = (self.dir / "v.obj").read_text()

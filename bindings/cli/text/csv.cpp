@@ -22,14 +22,18 @@ std::string csv_cell(std::string cell) {
   return quoted + "\"";
 }
 
-// The bytes of a file; none if it does not exist.
-std::string bytes_of(const std::string &path) {
+// The path of a file that can be read or does not exist.
+const std::string &readable(const std::string &path) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) return "";
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path, error)) {
+  if (!std::filesystem::exists(path, error)) return path;
+  if (!std::filesystem::is_regular_file(path, error) || !std::ifstream(path)) {
     fail(MVS_E_IO, "csv", path + ": cannot be read: give the name of a file");
   }
+  return path;
+}
+
+std::string bytes_of(const std::string &path) {
+  std::ifstream file(path, std::ios::binary);
   std::stringstream content;
   content << file.rdbuf();
   return content.str();
@@ -79,7 +83,8 @@ CsvRow read_csv_line(const std::string &line) {
   return row;
 }
 
-CsvFile::CsvFile(const std::string &path, const CsvRow &columns) : path_(path), columns_(columns) {
+CsvFile::CsvFile(const std::string &path, const CsvRow &columns)
+    : path_(path), lock_(readable(path)), columns_(columns) {
   const std::string bytes = bytes_of(path);
   const std::vector<std::string> lines = complete_lines(bytes);
   // a program that was stopped while it wrote the first line leaves the beginning of it
@@ -111,7 +116,8 @@ void CsvFile::append(const CsvRow &row) {
 void CsvFile::rewrite(std::vector<CsvRow> rows) {
   std::string content = csv_line(columns_) + "\n";
   for (const CsvRow &row : rows) content += csv_line(row) + "\n";
-  replace_file(path_, content, "csv");
+  replace_file(path_, content, "csv", [this](int file) { lock_.take_over(file); });
+  lock_.keep();
   rows_ = std::move(rows);
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "text/table_lock.h"
+
 namespace cli {
 
 using CsvRow = std::vector<std::string>;
@@ -14,11 +16,11 @@ std::string csv_line(const CsvRow &row);
 CsvRow read_csv_line(const std::string &line);
 
 // A table whose first row names its columns. A last line without its end, which a stopped program
-// leaves, is no row.
+// leaves, is no row. The file is locked: no other process appends to it.
 class CsvFile {
  public:
-  // Reads the rows of an existing file. Throws mvs::Error if the file cannot be read or has other
-  // columns.
+  // Reads the rows of an existing file. Throws mvs::Error if the file cannot be read, has other
+  // columns, or is locked by another process.
   CsvFile(const std::string &path, const CsvRow &columns);
 
   const std::vector<CsvRow> &rows() const { return rows_; }
@@ -29,6 +31,7 @@ class CsvFile {
 
  private:
   std::string path_;
+  TableLock lock_;
   CsvRow columns_;
   std::vector<CsvRow> rows_;
 };

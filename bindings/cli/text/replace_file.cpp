@@ -35,13 +35,25 @@ void sync_folder(const std::string &folder) {
 
 }  // namespace
 
-void replace_file(const std::string &path, const std::string &bytes, const std::string &part) {
+int open_new(const std::string &folder, std::string &name) {
+  constexpr int tries = 1000;
+  for (int k = 0; k < tries; ++k) {
+    name = folder + "/.mvs-" + std::to_string(::getpid()) + "-" + std::to_string(k) + ".tmp";
+    const int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0 || errno != EEXIST) return file;
+  }
+  return -1;
+}
+
+void replace_file(const std::string &path, const std::string &bytes, const std::string &part,
+                  const std::function<void(int)> &before_rename) {
   const OutputTarget target = output_target(path, part);
-  const std::string beside = target.file + ".new";
-  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  std::string beside;
+  const int file = open_new(target.folder, beside);
   if (file < 0) fail_to_write(path, part, "write into folder", target.folder, errno);
   int error = write_all(file, bytes);
   if (error == 0 && target.mode && ::fchmod(file, *target.mode) != 0) error = errno;
+  if (error == 0 && before_rename) before_rename(file);
   if (::close(file) != 0 && error == 0) error = errno;
   if (error == 0 && std::rename(beside.c_str(), target.file.c_str()) != 0) error = errno;
   if (error == 0) return sync_folder(target.folder);

@@ -3,12 +3,14 @@
 #include <poll.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -83,6 +85,12 @@ void close_pipes(std::vector<Child> &children) {
   }
 }
 
+// Ends this process with its parent, whose lock on the table it shares.
+void end_with(pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);
+}
+
 // Waits for the processes; returns whether all ended well.
 bool join_all(const std::vector<Child> &children) {
   bool good = true;
@@ -113,13 +121,26 @@ void take_lines(Child &child, const Take &take) {
   }
 }
 
+// A terminal sends Ctrl-C to all processes, `kill -INT` only to this one.
+void interrupt(const std::vector<Child> &children) {
+  for (const Child &child : children) {
+    if (child.pipe >= 0) ::kill(child.process, SIGINT);
+  }
+}
+
 // Takes the lines of all processes until each has closed its pipe.
 void take_all(std::vector<Child> &children, const Take &take) {
+  constexpr int pause_ms = 100;  // a signal just before poll() does not end it
+  bool is_interrupted = false;
   std::vector<pollfd> pipes;
   pipes.reserve(children.size());
   for (const Child &child : children) pipes.push_back({child.pipe, POLLIN, 0});
   for (size_t open = pipes.size(); open > 0;) {
-    if (::poll(pipes.data(), pipes.size(), -1) < 0) {
+    if (InterruptFlag::is_set() && !is_interrupted) {
+      interrupt(children);
+      is_interrupted = true;
+    }
+    if (::poll(pipes.data(), pipes.size(), pause_ms) < 0) {
       if (errno != EINTR) throw std::bad_alloc();
       continue;
     }
@@ -147,11 +168,13 @@ void run_in_processes(size_t jobs, unsigned processes,
   std::fflush(nullptr);  // or each process would write the text that is still in the buffers
   std::vector<Child> children;
   const size_t count = std::min<size_t>(jobs, std::max(1u, processes));
+  const pid_t parent = ::getpid();
   children.reserve(count);
   int ends[2];
   for (size_t p = 0; p < count && ::pipe(ends) == 0; ++p) {
     const pid_t process = ::fork();
     if (process == 0) {
+      end_with(parent);
       ::close(ends[0]);
       close_pipes(children);  // of the others, whose writes fail once this program has ended
       const int code = work_off(jobs, next, ends[1], work);
