@@ -68,6 +68,19 @@ class Outputs(Shell):
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn("is the output for the valve as well", done.stderr)
 
+    def test_a_repair_does_not_write_over_its_files(self):
+        (self.dir / "plan.json").write_text(json.dumps({"format": "mvs-plan", "version": 1, "steps": []}))
+        (self.dir / "same.obj").symlink_to("v.obj")
+        line, before = ("repair", "v.obj", "--plan", "plan.json"), (self.dir / "v.obj").read_bytes()
+        for outs, words in ((("-o", "a.h5", "--save-plan", "./a.h5"), "is the output for the valve as well"),
+                            (("--save-plan", "same.obj"), "is the input v.obj as well"),
+                            (("--save-plan", "plan.json"), "is the input plan.json as well")):
+            done = mvs(*line, *outs, cwd=self.dir)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn(words, done.stderr)
+        self.assertEqual((self.dir / "v.obj").read_bytes(), before)
+        self.assertFalse((self.dir / "a.h5").exists())
+
 
 class Replaced(Shell):
     """Tables of sweeps, as files that the command itself replaces."""
@@ -95,6 +108,12 @@ class Replaced(Shell):
         self.assertEqual((self.dir / "far" / "new.csv").read_bytes(), (self.dir / "t.csv").read_bytes())
         for name, mode in (("t.csv", 0o640), ("far/t.csv", 0o606)):
             self.assertEqual(stat.S_IMODE((self.dir / name).stat().st_mode), mode)
+
+    def test_a_file_whose_name_ends_in_new_stays(self):
+        (self.dir / "n.csv.new").write_text("mine")
+        self.ok(*self.SWEEP, "n.csv")
+        self.assertEqual((self.dir / "n.csv.new").read_text(), "mine")
+        self.assertEqual(list(self.dir.glob(".mvs-*")), [])
 
     def test_a_file_that_cannot_be_written_whole_leaves_the_old_one_and_no_other(self):
         def no_space():  # a write beyond 100 bytes fails, as on a full disk

@@ -47,27 +47,6 @@ void warn_of_contradictions(const std::vector<mvs::Finding> &findings) {
   }
 }
 
-// Refuses an output that is one of the inputs or the other output, under whatever name.
-void keep_inputs(const ImportOptions &options, const std::string &findings) {
-  const auto file_of = [](const std::string &path) {
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(output_target(path).file));
-  };
-  if (file_of(options.out) == file_of(findings)) {
-    fail(MVS_E_ARGUMENT, "output",
-         findings + ": is the output for the valve as well: give another file for the findings");
-  }
-  for (const std::string &out : {options.out, findings}) {
-    for (const std::string *in :
-         {&options.surface, &options.annulus, &options.commissures, &options.anterior,
-          &options.tips, &options.closed, &options.closed_annulus, &options.closed_tips}) {
-      std::error_code unknown;  // of a file that is not there
-      if (in->empty() || !std::filesystem::equivalent(out, *in, unknown)) continue;
-      fail(MVS_E_ARGUMENT, "output",
-           out + ": is the input " + *in + " as well, which would be lost: give another output");
-    }
-  }
-}
-
 // Names edited values of an earlier import that are not used, as the build measures them again.
 void warn_of_ignored(const KnownValues &known, const std::string &path) {
   for (const std::string &name : known.ignored) {
@@ -93,7 +72,9 @@ void run_import(const ImportOptions &given, Console &console) {
   const std::string path = findings_path(options);
   demand_writable_valve(options.out);
   demand_writable(path);
-  keep_inputs(options, path);
+  demand_apart({{options.out, "the valve"}, {path, "the findings"}},
+               {options.surface, options.annulus, options.commissures, options.anterior,
+                options.tips, options.closed, options.closed_annulus, options.closed_tips});
   KnownValues known;
   const ImportInput input = read_input(given, options, known);
   warn_of_whole_valve(options.surface);

@@ -20,6 +20,9 @@ struct RepairOptions {
 void run_repair(const RepairOptions &options, Console &console) {
   demand_writable_valve(options.out);
   demand_writable(options.plan_out);
+  // the repaired valve may take the place of the valve, as that of other commands
+  demand_apart({{options.out, "the valve"}, {options.plan_out, "the plan"}}, {options.plan});
+  demand_apart({{options.plan_out, "the plan"}}, {options.file});
   const std::string plan = plan_text(options.plan);
   Progress progress(console);
   mvs::Simulator unrepaired = load_sim(options.file, progress, with_workers(console));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <initializer_list>
 #include <memory>
 #include <system_error>
@@ -131,6 +132,28 @@ void demand_writable_valve(const std::string &path) {
   }
   if (ends_with_one_of({".vtm"})) demand_block_folder(path);
   demand_writable(path);
+}
+
+void demand_apart(const std::vector<Output> &outputs, const std::vector<std::string> &inputs) {
+  const auto file_of = [](const std::string &path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(output_target(path).file));
+  };
+  for (auto later = outputs.begin(); later != outputs.end(); ++later) {
+    if (later->path.empty()) continue;
+    for (auto former = outputs.begin(); former != later; ++former) {
+      if (former->path.empty() || file_of(former->path) != file_of(later->path)) continue;
+      fail(MVS_E_ARGUMENT, "output",
+           later->path + ": is the output for " + former->what +
+               " as well: give another file for " + later->what);
+    }
+    for (const std::string &in : inputs) {
+      std::error_code unknown;  // of a file that is not there
+      if (in.empty() || !std::filesystem::equivalent(later->path, in, unknown)) continue;
+      fail(MVS_E_ARGUMENT, "output",
+           later->path + ": is the input " + in +
+               " as well, which would be lost: give another output");
+    }
+  }
 }
 
 }  // namespace cli
