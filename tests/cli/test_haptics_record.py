@@ -1,6 +1,8 @@
 """`mvs haptics record`: recordings are those of the hand, and of a bad device none."""
 import json
+import os
 import pathlib
+import resource
 import signal
 import subprocess
 import time
@@ -92,7 +94,26 @@ class Faults(Haptics):
                 done = self.record(*HAND, "-o", "kept.txt", "--option", f"fault={fault}")
                 self.assertEqual(done.returncode, 1)
                 self.assertEqual((self.dir / "kept.txt").read_text(), before)
-                self.assertEqual(list(self.dir.glob("*.new")), [])
+                self.assertEqual(list(self.dir.glob(".mvs-*")), [])
+
+    def test_a_full_disk_leaves_the_former_recording(self):
+        def no_space():  # a write beyond 20,000 bytes fails, as on a full disk
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+
+        self.json("haptics", "record", *HAND, "-o", "full.txt", "--seconds", 0.1)
+        os.chmod(self.dir / "full.txt", 0o640)
+        before = (self.dir / "full.txt").read_text()
+        line = [MVS, "haptics", "record", *HAND, "-o", "full.txt", "--seconds", "1"]
+        done = subprocess.run(line, cwd=self.dir, capture_output=True, text=True, timeout=60,
+                              preexec_fn=no_space, restore_signals=False)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertIn("full.txt cannot be written", done.stderr)
+        self.assertEqual((self.dir / "full.txt").read_text(), before)
+        self.assertEqual(list(self.dir.glob(".mvs-*")), [])
+        self.ok(*line[1:])
+        self.assertEqual(len(samples(self.dir / "full.txt")), 1000)
+        self.assertEqual((self.dir / "full.txt").stat().st_mode & 0o777, 0o640)
 
     def test_a_lost_device_is_a_fault(self):
         done = self.record(*HAND, "-o", "lost.txt", "--option", "fault=unplug",

@@ -70,6 +70,7 @@ void run_record(const RecordOptions &options, Console &console) {
          text("%s reported fewer than two positions: nothing to replay",
               options.device.driver.c_str()));
   }
+  file.finish();
   print(console,
         {{"file", options.out},
          {"device", info_json(info)},

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <filesystem>
 
+#include "text/output_file.h"
+#include "text/replace_file.h"
 #include "valve/host.h"
 
 namespace cli {
@@ -22,15 +24,21 @@ RecordingFile::RecordingFile(const std::string &path)
     : path_(path), target_(path), file_(nullptr, &std::fclose) {
   std::error_code none;
   const auto old = std::filesystem::status(path, none);
-  if (std::filesystem::exists(old)) target_ = std::filesystem::canonical(path, none).string();
   const bool is_file = std::filesystem::is_regular_file(old);
-  if (is_file && ::access(target_.c_str(), W_OK) != 0) fail_to_write();
-  if (is_file || !std::filesystem::exists(old)) beside_ = target_ + ".new";
-  file_.reset(std::fopen((beside_.empty() ? path_ : beside_).c_str(), "w"));
+  if (is_file && ::access(path.c_str(), W_OK) != 0) fail_to_write();
+  if (is_file || !std::filesystem::exists(old)) {
+    const OutputTarget target = output_target(path_);
+    target_ = target.file;  // also of a link to a new file
+    const int file = open_new(target.folder, beside_);
+    if (file >= 0) file_.reset(::fdopen(file, "w"));
+  } else {
+    file_.reset(std::fopen(path_.c_str(), "w"));
+  }
   if (!file_) {
     beside_.clear();
     fail_to_write();
   }
+  replaces_ = is_file;
   if (is_file) std::filesystem::permissions(beside_, old.permissions(), none);
 }
 
@@ -56,8 +64,15 @@ bool RecordingFile::can_be_played() const {
 }
 
 void RecordingFile::flush() {
-  if (std::fflush(file_.get()) != 0) fail_to_write();
-  if (can_be_played() && !beside_.empty()) take_name();
+  if (std::fflush(file_.get()) != 0 || std::ferror(file_.get())) fail_to_write();
+  if (can_be_played() && !beside_.empty() && !replaces_) take_name();
+}
+
+void RecordingFile::finish() {
+  flush();
+  if (beside_.empty()) return;
+  if (::fsync(::fileno(file_.get())) != 0) fail_to_write();
+  take_name();
 }
 
 void RecordingFile::begin(const mvs_device_info &info) {
