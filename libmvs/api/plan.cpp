@@ -65,6 +65,11 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
            [&](const Snapshot &after) { return steps_record(before->value, after); });
     if (replay) write_struct(replay, how, "replay");
     log_units(s, *s.present()->model, before->model.get());
+    for (const PlanStep &step : plan.steps) {
+      if (step.event && step.event->kind == RecordedEvent::load) {
+        log_pressure(s, step.event->pressure);
+      }
+    }
   });
 }
 

@@ -82,6 +82,13 @@ class Plans(Command):
                     self.assertRegex(printed, rf"^mvs: deep.json: [^\n]*{words}[^\n]*\n$")
                     self.assertNotIn("json.exception", printed)
 
+    def test_a_load_of_a_plan_in_another_unit_is_warned_of(self):
+        for pressure, words in ((120, "looks like mmHg given as Pa"), (15998.64, "")):
+            self.plan("load.json", {"do": "load", "pressure_Pa": pressure, "boundary_fraction": 1})
+            said = self.ok("plan", "replay", "load.json", "--on", "v.obj").stderr
+            self.assertIn(words, said)
+            self.assertEqual(words != "", said != "")
+
     def test_a_file_that_is_not_a_plan_is_refused(self):
         (self.dir / "empty.json").write_text("")
         (self.dir / "number.json").write_text(json.dumps(
