@@ -159,8 +159,18 @@ uint32_t OpReader::choice(const OpField &f, const Json &json) const {
   return *value;
 }
 
+bool is_site_key(std::string_view key) {
+  static constexpr std::string_view known[] = {"scallop", "along",    "height",
+                                               "node",    "triangle", "weights"};
+  return std::find(std::begin(known), std::end(known), key) != std::end(known);
+}
+
 mvs_site OpReader::site(const OpField &f, const Json &json) const {
   if (!json.is_object()) refuse(f, "an object with scallop, along and height");
+  for (const Json::Member &member : json.members()) {
+    MVS_MUST(is_site_key(member.first), MVS_E_FORMAT, format("%s.%s", kind_.name, f.name),
+             "%s has no field \"%.60s\"", key_of(f).c_str(), member.first.c_str());
+  }
   mvs_site site = {};
   if (exact_ && json.has("node")) {
     site.how = MVS_SITE_NODE;

@@ -3,17 +3,20 @@
 
 #include <mvs/base.h>
 
+#include <algorithm>
 #include <ctime>
 
 #include "base/error.h"
 #include "formats/plan/tool.h"
 #include "formats/text/checksum.h"
 #include "history/event_limits.h"
+#include "model/text.h"
 
 namespace mvs::core {
 namespace {
 
 constexpr const char *format_name = "mvs-plan";
+constexpr size_t most_group_name = 63;            // bytes, of the interface
 constexpr size_t most_bytes = size_t{512} << 20;  // hours of a hand at 1 kHz
 
 const char *solver_word(SolverKind solver) {
@@ -118,6 +121,10 @@ std::string version_text() {
   return format("%d.%d.%d", MVS_VERSION_MAJOR, MVS_VERSION_MINOR, MVS_VERSION_PATCH);
 }
 
+bool is_group_name(const std::string &name) {
+  return name.size() <= most_group_name && is_plain_text(name);
+}
+
 PlanStep read_step(const Json &json) {
   MVS_MUST(json.is_object() && json.has("do") && json["do"].is_text(), MVS_E_FORMAT, "plan",
            "a step has to be an object with a \"do\"");
@@ -129,7 +136,9 @@ PlanStep read_step(const Json &json) {
   }
   step.op = json;
   if (!json.has("group")) return step;
-  MVS_MUST(json["group"].is_text(), MVS_E_FORMAT, "plan", "group has to be a name");
+  MVS_MUST(json["group"].is_text() && is_group_name(json["group"].text()), MVS_E_FORMAT, "plan",
+           "group has to be a name of at most %zu bytes without control characters",
+           most_group_name);
   step.group = json["group"].text();
   step.group_id = whole_at(json, "group_id", 0, UINT64_MAX);
   return step;
@@ -138,12 +147,21 @@ PlanStep read_step(const Json &json) {
 Json parse(std::string_view text) {
   MVS_MUST(text.size() <= most_bytes, MVS_E_FORMAT, "plan", "the plan has %zu bytes, at most %zu",
            text.size(), most_bytes);
-  return Json::parse(text);
+  return Json::parse(text, true);
 }
 
 void check_format(const Json &json) {
   MVS_MUST(json.is_object() && json.has("format") && json["format"].text() == format_name,
            MVS_E_FORMAT, "plan", "this is not a plan: it lacks \"format\": \"%s\"", format_name);
+}
+
+void check_plan_keys(const Json &json) {
+  static constexpr std::string_view known[] = {"format", "version", "libmvs", "units", "valve",
+                                               "author", "notes",   "steps",  "result"};
+  for (const auto &[key, value] : json.members()) {
+    MVS_MUST(std::find(std::begin(known), std::end(known), key) != std::end(known), MVS_E_FORMAT,
+             "plan", "a plan has no field \"%.60s\"", key.c_str());
+  }
 }
 
 std::string hash_at(const Json &json, const char *part) {
@@ -259,6 +277,7 @@ Plan read_plan(std::string_view text) {
   const Json json = parse(text);
   check_format(json);
   check_plan_version(json, "plan");
+  check_plan_keys(json);
   MVS_MUST(json.has("steps"), MVS_E_FORMAT, "plan", "the plan has no \"steps\"");
   return {hash_at(json, "valve"), hash_at(json, "result"), read_steps(json["steps"])};
 }

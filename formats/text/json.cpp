@@ -14,6 +14,7 @@ using Library = nlohmann::json;
 // Builds a value from the events of the parser.
 class JsonBuilder : public nlohmann::json_sax<Library> {
  public:
+  explicit JsonBuilder(bool unique) : unique_(unique) {}
   bool null() override { return put(Json()); }
   bool boolean(bool value) override { return put(Json(value)); }
   bool number_integer(number_integer_t value) override {
@@ -41,8 +42,10 @@ class JsonBuilder : public nlohmann::json_sax<Library> {
   Json result;
   size_t at = 0;
   bool too_deep = false;
+  std::optional<std::string> repeated;  // a key, where they have to be unique
 
  private:
+  bool unique_;
   // Open values, each with the key of its next member.
   std::vector<std::pair<Json, std::string>> open_;
 
@@ -55,7 +58,11 @@ class JsonBuilder : public nlohmann::json_sax<Library> {
   bool close() {
     Json done = std::move(open_.back().first);
     open_.pop_back();
-    done.drop_repeated();
+    std::optional<std::string> found = done.drop_repeated();
+    if (unique_ && found) {
+      repeated = std::move(found);
+      return false;
+    }
     return put(std::move(done));
   }
   bool put(Json value) {
@@ -96,11 +103,13 @@ Json Json::numbers(std::initializer_list<double> values) {
   return json;
 }
 
-Json Json::parse(std::string_view text) {
-  JsonBuilder builder;
+Json Json::parse(std::string_view text, bool unique) {
+  JsonBuilder builder(unique);
   const bool good = Library::sax_parse(text.begin(), text.end(), &builder);
   MVS_MUST(!builder.too_deep, MVS_E_FORMAT, "json", "the JSON is nested deeper than %zu levels",
            JsonBuilder::deepest);
+  MVS_MUST(!builder.repeated, MVS_E_FORMAT, "json", "an object of the JSON has \"%.60s\" twice",
+           builder.repeated->c_str());
   MVS_MUST(good, MVS_E_FORMAT, "json",
            "the text is not JSON: error at byte %zu; it may be cut short", builder.at);
   return std::move(builder.result);
@@ -131,8 +140,8 @@ const Json &Json::operator[](std::string_view key) const {
   return found ? *found : nothing;
 }
 
-void Json::drop_repeated() {
-  if (members_.size() < 2) return;
+std::optional<std::string> Json::drop_repeated() {
+  if (members_.size() < 2) return {};
   std::vector<size_t> order(members_.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::sort(order.begin(), order.end(), [&](size_t a, size_t b) {
@@ -140,10 +149,12 @@ void Json::drop_repeated() {
     return order_of_keys != 0 ? order_of_keys < 0 : a < b;
   });
   std::vector<uint8_t> repeated(members_.size(), 0);
+  std::optional<std::string> found;
   for (size_t k = order.size(); k-- > 1;) {
     if (members_[order[k - 1]].first != members_[order[k]].first) continue;
     members_[order[k - 1]].second = std::move(members_[order[k]].second);
     repeated[order[k]] = 1;
+    found = members_[order[k - 1]].first;
   }
   size_t kept = 0;
   for (size_t k = 0; k < members_.size(); ++k) {
@@ -152,6 +163,7 @@ void Json::drop_repeated() {
     ++kept;
   }
   members_.resize(kept);
+  return found;
 }
 
 void Json::set(std::string_view key, Json value) {

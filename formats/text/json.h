@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,8 +31,9 @@ class Json {
   static Json object(std::initializer_list<Member> members = {});
   static Json numbers(std::initializer_list<double> values);
 
-  // Throws MVS_E_FORMAT with the byte offset of the error.
-  static Json parse(std::string_view text);
+  // Throws MVS_E_FORMAT with the byte offset of the error. Of a key that is repeated in an object,
+  // the first place and the last value count; with `unique`, it is refused.
+  static Json parse(std::string_view text, bool unique = false);
   // Prints on one line, or indented by two blanks per level. Doubles have the shortest digits that
   // read back exactly; bytes that are not UTF-8 are replaced.
   std::string line() const;
@@ -69,8 +71,8 @@ class Json {
   void append(std::string key, Json value) {
     members_.emplace_back(std::move(key), std::move(value));
   }
-  // Keeps the first place and the last value of each key.
-  void drop_repeated();
+  // Keeps the first place and the last value of each key; returns one that was repeated.
+  std::optional<std::string> drop_repeated();
   void write(std::string &out, int indent) const;
 
   Type type_ = Type::null;

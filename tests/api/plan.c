@@ -218,6 +218,15 @@ static void plans_that_cannot_be_done_are_told(void) {
           PLAN("{\"do\":\"chord_add\",\"head\":\"PM1\",\"site\":{\"scallop\":\"P9\",\"along\":0,"
                "\"height\":1}}"),
           MVS_E_ID, "no scallop named \"P9\"; there are A");
+  refused(sim,
+          PLAN("{\"do\":\"chord_add\",\"head\":\"PM1\",\"site\":{\"scallop\":\"P2\",\"along\":0,"
+               "\"height\":1,\"depth\":1}}"),
+          MVS_E_FORMAT, "site has no field \"depth\"");
+  refused(sim, PLAN("],\"step\":["), MVS_E_FORMAT, "a plan has no field \"step\"");
+  refused(sim, PLAN("],\"steps\":["), MVS_E_FORMAT, "has \"steps\" twice");
+  refused(sim,
+          PLAN("{\"do\":\"chord_remove\",\"chord\":\"P2/3\",\"group\":\"a\\nb\",\"group_id\":1}"),
+          MVS_E_FORMAT, "group has to be a name");
   mvs_destroy(sim);
 }
 

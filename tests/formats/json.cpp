@@ -62,6 +62,9 @@ TEST_CASE("text_that_is_not_utf8_is_written_as_utf8") {
 TEST_CASE("of_a_repeated_key_the_first_place_and_the_last_value_count") {
   const Json json = Json::parse(R"({"a": 1, "b": 2, "a": 3, "c": {"d": 4, "d": 5}, "a": 6})");
   CHECK(json.line() == Json::parse(R"({"a": 6, "b": 2, "c": {"d": 5}})").line());
+  CHECK_THROWS_WITH_AS(Json::parse(R"({"a": 1, "c": {"d": 4, "e": 0, "d": 5}})", true),
+                       "an object of the JSON has \"d\" twice", Error);
+  CHECK_NOTHROW(Json::parse(R"({"a": {"b": 1}, "b": {"a": 1}})", true));
   // in n log n: by a search for each of 300,000 keys this took minutes
   std::string text = "{";
   for (int k = 0; k < 300000; ++k) text += format("\"%d\": %d, ", k % 200000, k);
