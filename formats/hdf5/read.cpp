@@ -72,7 +72,15 @@ class H5Reader {
     array(opened.id(), path);
   }
 
+  static void check_attributes(hid_t id, const std::string &path) {
+    H5O_info_t info;
+    read(H5Oget_info(id, &info), path);
+    MVS_MUST(info.num_attrs == 0, MVS_E_FORMAT, path,
+             "%s of the file has an attribute: libmvs never writes one there", path.c_str());
+  }
+
   void members(hid_t id, const std::string &path, size_t depth) {
+    check_attributes(id, path);
     Names found;
     hsize_t at = 0;
     read(H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, &at, add_name, &found), path);
@@ -85,6 +93,7 @@ class H5Reader {
   }
 
   void array(hid_t id, const std::string &path) {
+    check_attributes(id, path);
     H5Array made;
     const size_t rows = check_shape(id, path, made.columns);
     const Type type(read(H5Dget_type(id), path));

@@ -30,6 +30,7 @@ class SessionReader {
   Snapshot read() {
     Snapshot snapshot;
     pass(*this, snapshot);
+    check_history(snapshot.history);
     must_be_used_up();
     return snapshot;
   }
@@ -196,8 +197,7 @@ void SessionReader::model(ModelPtr &model) {
   model = part(made<ModelPtr>(), [&](ModelPtr &it) {
     Valve valve = last_model_ ? last_model_->valve : Valve{};
     pass(*this, valve);
-    it = make_model(std::move(valve), last_model_.get());
-    last_model_ = it;
+    last_model_ = it = make_model(std::move(valve), last_model_.get());
   });
 }
 
@@ -243,9 +243,8 @@ void SessionReader::optional(std::shared_ptr<const ModelState> &current) {
 void SessionReader::optional(std::shared_ptr<const std::vector<Checkpoint>> &checkpoints) {
   std::vector<Checkpoint> read(count());
   for (Checkpoint &checkpoint : read) pass(*this, checkpoint);
-  if (!read.empty()) {
-    checkpoints = std::make_shared<const std::vector<Checkpoint>>(std::move(read));
-  }
+  if (read.empty()) return;
+  checkpoints = std::make_shared<const std::vector<Checkpoint>>(std::move(read));
 }
 
 Operation SessionReader::operation() {
@@ -294,6 +293,7 @@ void SessionReader::optional_text(const char *&given) {
 
 Snapshot read_session(std::string_view bytes) {
   const H5Tree tree = read_h5(bytes, "mvs", session_version);
+  check_arrays(tree);
   return SessionReader(tree).read();
 }
 

@@ -52,7 +52,9 @@ std::string fault_of_place(const Vec3 &place) {
                 place.y(), place.z(), limits::coordinate);
 }
 
-std::string fault_of_tool(const Tool &tool) {
+}  // namespace
+
+std::string fault_of(const Tool &tool) {
   constexpr double least = 1e-12;  // of a device's own tool
   std::string fault = fault_of_place(tool.position);
   if (fault.empty())
@@ -67,8 +69,6 @@ std::string fault_of_tool(const Tool &tool) {
   return fault;
 }
 
-}  // namespace
-
 std::string fault_of(const RecordedEvent &event) {
   switch (event.kind) {
     case RecordedEvent::load:
@@ -78,7 +78,7 @@ std::string fault_of(const RecordedEvent &event) {
     case RecordedEvent::tool_trajectory:
       return fault_of_solver(event);
     case RecordedEvent::tool_add:
-      return event.tools.empty() ? "" : fault_of_tool(event.tools.get()[0]);
+      return event.tools.empty() ? "" : fault_of(event.tools.get()[0]);
     case RecordedEvent::tool_move:
       return event.tools.empty() ? "" : fault_of_place(event.tools.get()[0].position);
     case RecordedEvent::tool_remove:

@@ -36,8 +36,11 @@ inline void must_be_in(double value, const limits::Range &range, const char *wha
   must_be_in(value, range.least, range.most, what);
 }
 
-// The fault of the numbers of an event, as a sentence; "" without one.
-// The stiffness and force of a device's own tool may lie below the ranges, as its limits do.
+// The fault of the numbers of a tool, as a sentence; "" without one. The stiffness and force of a
+// device's own tool may lie below the ranges, as its limits do.
+std::string fault_of(const Tool &tool);
+
+// The same for an event.
 std::string fault_of(const RecordedEvent &event);
 
 }  // namespace mvs::core

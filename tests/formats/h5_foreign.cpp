@@ -119,6 +119,22 @@ TEST_CASE("arrays_that_are_not_plain_are_refused") {
   CHECK(refused(of([](hid_t g) { add_array(g, "x", H5T_C_S1, {4}); }), MVS_E_FORMAT, "type"));
 }
 
+TEST_CASE("attributes_are_refused") {
+  const auto attribute = [](hid_t object) {
+    const hid_t space = H5Screate(H5S_SCALAR);
+    H5Aclose(H5Acreate2(object, "x", H5T_STD_I32LE, space, H5P_DEFAULT, H5P_DEFAULT));
+    H5Sclose(space);
+  };
+  CHECK(refused(outcome(sealed(attribute)), MVS_E_FORMAT, "mvs of the file has an attribute"));
+  CHECK(refused(outcome(sealed([&](hid_t g) {
+                  add_doubles(g, {4});
+                  const hid_t array = H5Dopen2(g, "x", H5P_DEFAULT);
+                  attribute(array);
+                  H5Dclose(array);
+                })),
+                MVS_E_FORMAT, "mvs/x of the file has an attribute"));
+}
+
 TEST_CASE("external_soft_and_repeated_links_are_refused") {
   const auto of = [](const std::function<void(hid_t)> &fill) { return outcome(sealed(fill)); };
   CHECK(refused(of([](hid_t g) { H5Lcreate_soft("/mvs", g, "x", H5P_DEFAULT, H5P_DEFAULT); }),

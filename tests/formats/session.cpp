@@ -85,7 +85,7 @@ Snapshot a_session() {
   now = with_op(stepped(now, 1), added, MVS_OP_CHORD_ADD);
   now = with_ring(now);
   now = with_op(now, mvs_op_chord_remove{{}, chord}, MVS_OP_CHORD_REMOVE);
-  now = with_checkpoint(now, "");
+  now = with_checkpoint(now, "before the undo");
   return undone(undone(undone(stepped(now, 4))));
 }
 
@@ -160,7 +160,7 @@ TEST_CASE("a_loaded_session_continues_as_the_saved_one") {
     again = redone(again);
     CHECK(hash_of(again.current) == hash_of(now.current));
   }
-  for (const char *name : {"short chord", ""}) {
+  for (const char *name : {"short chord", "before the undo"}) {
     CHECK(hash_of(at_checkpoint(again, name).current) == hash_of(at_checkpoint(now, name).current));
   }
   while (!now.history.past.empty()) {
