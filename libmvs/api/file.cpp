@@ -1,13 +1,16 @@
 // Loads and saves files and memory in all formats; the ending or the caller selects the format.
 #include <mvs/file.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 
 #include "api/sim_call.h"
 #include "formats/formats.h"
 #include "formats/surface/cursor.h"
+#include "formats/text/xml.h"
 #include "session/simulator.h"
 #include "solve/rest_claim.h"
 
@@ -15,8 +18,10 @@ using namespace mvs::core;
 
 namespace {
 
-const char *const ending_hint =
+const char *const read_endings =
     "known endings are .obj, .h5, .vtkhdf, .vtp, .vtm, .inp and .feb, or name the format";
+const char *const written_endings =
+    "known endings are .obj, .h5, .vtkhdf, .vtp, .vtm and .feb, or name the format";
 
 uint32_t checked_format(uint32_t format_given) {
   MVS_MUST(format_given <= MVS_FORMAT_VTM, MVS_E_ARGUMENT, "format",
@@ -24,7 +29,7 @@ uint32_t checked_format(uint32_t format_given) {
   return format_given;
 }
 
-uint32_t format_of(const char *path, uint32_t format_given) {
+uint32_t format_of(const char *path, uint32_t format_given, const char *endings) {
   must_point(path, "path");
   MVS_MUST(*path, MVS_E_ARGUMENT, "path", "the path is empty");
   if (checked_format(format_given) != MVS_FORMAT_AUTO) return format_given;
@@ -35,7 +40,7 @@ uint32_t format_of(const char *path, uint32_t format_given) {
   if (small.ends_with(".h5") || small.ends_with(".vtkhdf")) return MVS_FORMAT_H5;
   if (small.ends_with(".inp")) return MVS_FORMAT_INP;
   if (small.ends_with(".feb")) return MVS_FORMAT_FEB;
-  fail(MVS_E_ARGUMENT, "path", "the ending names no known format: %s", ending_hint);
+  fail(MVS_E_ARGUMENT, "path", "the ending names no known format: %s", endings);
 }
 
 void load_inp(mvs_sim &sim, std::string_view bytes) {
@@ -161,6 +166,26 @@ VtkBlock coaptation_block(const mvs_snapshot &s) {
   return block;
 }
 
+// The blocks that the index of a former valve names and a new one does not have; none without it.
+std::vector<std::string> blocks_of_old(const std::string &index_path, const std::string &name,
+                                       const std::vector<VtkBlock> &blocks) {
+  constexpr size_t most_bytes = 1 << 20;
+  std::vector<std::string> old;
+  std::string index;
+  try {
+    index = read_whole_file(index_path, most_bytes);
+  } catch (const Error &) {
+    return old;
+  }
+  for (const char *block : {"orifice", "coaptation_line"}) {
+    const std::string file = " file=\"" + xml_escaped(name + "/" + block + ".vtp") + "\"";
+    const bool stays = std::any_of(blocks.begin(), blocks.end(),
+                                   [&](const VtkBlock &one) { return one.name == block; });
+    if (!stays && index.find(file) != std::string::npos) old.emplace_back(block);
+  }
+  return old;
+}
+
 // Writes the index last: it refers to files that are complete.
 void save_vtm(const mvs_snapshot &s, const std::string &path) {
   const bool is_named = in_small_letters(path).ends_with(".vtm");
@@ -174,6 +199,7 @@ void save_vtm(const mvs_snapshot &s, const std::string &path) {
   if (!s.orifice().triangles.empty()) blocks.push_back(orifice_block(s));
   if (!s.coaptation().line.empty()) blocks.push_back(coaptation_block(s));
   const std::vector<NamedFile> files = write_vtm(name, *s.model, s.state, result_arrays(s), blocks);
+  const std::vector<std::string> old = blocks_of_old(path, name, blocks);
   const bool is_new = make_folder(stem);
   try {
     write_whole_files(files, folder);
@@ -181,6 +207,7 @@ void save_vtm(const mvs_snapshot &s, const std::string &path) {
     if (is_new) remove_empty_folder(stem);
     throw;
   }
+  for (const std::string &block : old) std::remove((stem + "/" + block + ".vtp").c_str());
 }
 
 std::string written(const mvs_snapshot &s, uint32_t format_given) {
@@ -201,7 +228,7 @@ extern "C" {
 mvs_result mvs_load_file(mvs_sim *sim, const char *path, uint32_t format_given) {
   return file_at_boundary(path ? path : "", [&] {
     const AtWork at_work(sim);
-    const uint32_t how = format_of(path, format_given);
+    const uint32_t how = format_of(path, format_given, read_endings);
     load_bytes(*sim, read_whole_file(path), how);
   });
 }
@@ -215,7 +242,7 @@ mvs_result mvs_load_memory(mvs_sim *sim, const void *data, uint64_t size, uint32
 mvs_result mvs_save_file(const mvs_snapshot *snapshot, const char *path, uint32_t format_given) {
   return file_at_boundary(path ? path : "", [&] {
     must_point(snapshot, "snapshot");
-    const uint32_t how = format_of(path, format_given);
+    const uint32_t how = format_of(path, format_given, written_endings);
     if (how == MVS_FORMAT_VTM) return save_vtm(*snapshot, path);
     write_whole_file(path, written(*snapshot, how));
   });

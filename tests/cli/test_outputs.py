@@ -1,6 +1,7 @@
 """Outputs that cannot be written are refused before the work, and files are replaced whole."""
 import json
 import os
+import re
 import resource
 import signal
 import stat
@@ -52,6 +53,33 @@ class Outputs(Shell):
             saved = mvs("convert", "v.obj", "-o", out, cwd=self.dir)
             done = mvs("op", "v.obj", "chord-remove", "--chord", "P2/1", "-o", out, cwd=self.dir)
             self.assertEqual((done.returncode, done.stderr), (saved.returncode, saved.stderr))
+
+    def test_only_endings_that_are_written_are_named_for_an_output(self):
+        for line in (("convert", "v.obj"), ("close", "v.obj")):
+            said = mvs(*line, "-o", "v.xyz", cwd=self.dir).stderr
+            self.assertIn("known endings are .obj, .h5, .vtkhdf, .vtp, .vtm and .feb", said)
+        self.assertIn(".inp", mvs("info", "v.xyz", cwd=self.dir).stderr)
+
+    def test_blocks_that_a_new_index_does_not_name_are_removed(self):
+        self.ok("close", "v.obj", "-o", "closed.obj", "--allow-unsettled")
+        self.ok("convert", "v.obj", "-o", "x.vtm")
+        self.assertTrue((self.dir / "x" / "orifice.vtp").exists())
+        (self.dir / "x" / "mine.vtp").write_text("not of the index")
+        self.ok("convert", "closed.obj", "-o", "x.vtm")
+        named = re.findall(r'file="x/(.*?)"', (self.dir / "x.vtm").read_text())
+        self.assertNotIn("orifice.vtp", named)
+        self.assertEqual({path.name for path in (self.dir / "x").iterdir()}, {*named, "mine.vtp"})
+
+    def test_ctrl_c_is_named_as_the_reason(self):
+        self.ok("generate", "-o", "large.obj", "--vertices", 1600)
+        with subprocess.Popen([MVS, "close", "large.obj", "--progress"], cwd=self.dir, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE) as running:
+            running.stderr.readline()  # of the progress
+            running.send_signal(signal.SIGINT)
+            said = running.communicate(timeout=60)[1]
+        self.assertEqual(running.returncode, 1, said)
+        self.assertIn("settling was stopped by Ctrl-C", said)
+        self.assertNotIn("callback", said)
 
     def test_other_outputs_are_refused_before_the_work_too(self):
         for line in (("repair", "nothing.obj", "--plan", "nothing.json", "--save-plan"),

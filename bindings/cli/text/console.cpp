@@ -7,6 +7,7 @@
 #include <csignal>
 #include <cstdarg>
 #include <cstdio>
+#include <string_view>
 
 namespace cli {
 namespace {
@@ -34,6 +35,17 @@ void write_out(const std::string &line) {
   if (std::fflush(stdout) != 0) throw std::runtime_error("could not write to standard output");
 }
 
+// The progress callback of the command cancels the work on Ctrl-C alone.
+std::string sentence_of(const mvs::Error &failure) {
+  constexpr std::string_view of_library = "cancelled by the progress callback";
+  std::string sentence = failure.what();
+  const size_t at = sentence.find(of_library);
+  if (failure.code() == MVS_E_CANCELLED && at != std::string::npos) {
+    sentence.replace(at, of_library.size(), "stopped by Ctrl-C");
+  }
+  return sentence;
+}
+
 }  // namespace
 
 std::string text(const char *pattern, ...) {
@@ -56,11 +68,12 @@ void print(const Console &console, const Json &object, const std::string &human)
 }
 
 void print_failure(const Console &console, const mvs::Error &failure) {
-  std::fprintf(stderr, "mvs: %s\n", failure.what());
+  const std::string sentence = sentence_of(failure);
+  std::fprintf(stderr, "mvs: %s\n", sentence.c_str());
   if (!console.json) return;
   write_out(dump({{"error",
                    {{"code", mvs_result_name(failure.code())},
-                    {"message", failure.what()},
+                    {"message", sentence},
                     {"part", failure.part()},
                     {"line", failure.line()}}}}));
 }

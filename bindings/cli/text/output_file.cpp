@@ -128,7 +128,10 @@ void demand_writable_valve(const std::string &path) {
          path + ": Abaqus input is read, not written: save as .obj, .h5 or .feb");
   }
   if (!ends_with_one_of({".obj", ".h5", ".vtkhdf", ".vtp", ".vtm", ".feb"})) {
-    make_sim().load_file(path);  // fails with the list of endings before it opens the file
+    fail(MVS_E_ARGUMENT, "path",
+         path +
+             ": the ending names no known format: known endings are .obj, .h5, .vtkhdf, .vtp, .vtm "
+             "and .feb, or name the format");
   }
   if (ends_with_one_of({".vtm"})) demand_block_folder(path);
   demand_writable(path);

@@ -134,7 +134,7 @@ static void refused_files_name_themselves_and_change_nothing(void) {
   MUST_FAIL(mvs_load_memory(sim, "", 0, 0), MVS_E_FORMAT, "");
   MUST_FAIL(mvs_save_file(snapshot, "no/such/folder/a.obj", 0), MVS_E_IO, "no/such/folder/a.obj");
   MUST_FAIL(mvs_save_file(snapshot, "a.stl", 0), MVS_E_ARGUMENT,
-            ".obj, .h5, .vtkhdf, .vtp, .vtm, .inp and .feb");
+            ".obj, .h5, .vtkhdf, .vtp, .vtm and .feb");
   MUST_FAIL(mvs_save_memory(snapshot, 9, NULL, 0, &size), MVS_E_ARGUMENT, "format is 9");
   /* a long path is abbreviated in its middle, so that the reason remains */
   memset(path, 'd', sizeof path);
