@@ -63,6 +63,11 @@ class Close(Command):
             said = self.misused("close", "v.obj", "--dt", given)
             self.assertEqual(said.splitlines()[0], f"--dt: a number above 0 is needed, not {given}")
 
+    def test_a_time_step_of_newton_is_refused(self):
+        said = self.misused("close", "v.obj", "--dt", 1e-3)
+        self.assertEqual(said.splitlines()[0],
+                         "--dt: newton has no time steps: give --solver implicit or explicit")
+
     def test_a_pressure_in_kpa_is_warned_of_in_mmhg(self):
         said = self.ok("close", "v.obj", "--pressure", 0.12).stderr
         self.assertIn("mvs: a pressure of 0.12 mmHg is unusual: pressures are in mmHg", said)

@@ -34,6 +34,10 @@ class Generate(Command):
         same = self.json("generate", "--shape", "founding", "-o", "same.obj", "--chord-factor", name + "=1")
         self.assertEqual(same["hash"], self.json("info", "v.obj")["hash"])
 
+    def test_straight_and_branching_chordae_exclude_each_other(self):
+        self.assertIn("--branching excludes --straight",
+                      self.misused("generate", "-o", "x.obj", "--straight", "--branching"))
+
     def test_a_longer_chord_is_the_only_difference(self):
         def lines(file):
             return (self.dir / file).read_text().splitlines()

@@ -25,6 +25,11 @@ class Sensitivity(Shell):
         for row in other["parameters"]:
             self.assertEqual(row[key], by[row["parameter"]])
 
+    def test_no_parameters_are_asked_for_by_mistake(self):
+        done = mvs("sensitivity", "closed.obj", "--top", 0, cwd=self.dir)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--top: a number above 0 is needed", done.stderr)
+
     def test_heads_scallops_and_load(self):
         for to, name in (("heads", "PM1 x"), ("scallops", "P2"), ("pressure", "pressure"),
                          ("annulus_scale", "annulus_scale")):

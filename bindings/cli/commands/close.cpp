@@ -125,6 +125,10 @@ std::string closed_text(const CloseOptions &options, const Closed &closed,
 // A valve that is not at rest is written, marked, warned of, and ends with exit code 1. One whose
 // leaflets cross is warned of.
 void run_close(const CloseOptions &options, Console &console) {
+  if (options.settle.dt > 0 && options.solver == "newton") {
+    throw CLI::ValidationError("--dt",
+                               "newton has no time steps: give --solver implicit or explicit");
+  }
   demand_writable_valve(options.out);
   std::optional<mvs::Snapshot> reference;  // read first: a missing file fails before the closure
   if (!options.reference.empty()) reference = load(options.reference);

@@ -110,12 +110,14 @@ void add_generate(CLI::App &app, Console &console) {
       ->check(positive());
   command->add_option("--chords", options->valve.chords, "chord segments, about [100; founding 80]")
       ->check(positive());
-  command->add_flag_callback(
+  CLI::Option *branching = command->add_flag_callback(
       "--branching", [valve = &options->valve] { valve->branching = MVS_BRANCHING_TREES; },
       "chordae branch on their way to the leaflet: the default, but for the founding shape");
-  command->add_flag_callback(
-      "--straight", [valve = &options->valve] { valve->branching = MVS_BRANCHING_STRAIGHT; },
-      "each chord is one segment");
+  command
+      ->add_flag_callback(
+          "--straight", [valve = &options->valve] { valve->branching = MVS_BRANCHING_STRAIGHT; },
+          "each chord is one segment")
+      ->excludes(branching);
   command
       ->add_option(
           "--shape", options->shape,

@@ -170,7 +170,8 @@ void add_sensitivity(CLI::App &app, Console &console) {
       "--chord", options->chord,
       "only this chord, with --to chords or sites, as a neochord by its name [all]");
   command->add_option("--sort", options->sort, "measure to sort by [the first]");
-  command->add_option("--top", options->top, "print this number of parameters [all]");
+  command->add_option("--top", options->top, "print this number of parameters [all]")
+      ->check(positive());
 }
 
 }  // namespace cli
