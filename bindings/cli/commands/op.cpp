@@ -178,7 +178,8 @@ void add_op(CLI::App &app, Console &console) {
   command->footer(
       "Lengths are in mm, areas in mm2, moduli in MPa. A site on a leaflet is P2:0.5:0.9 (share "
       "along the scallop,\nshare from annulus to free edge), node:17, or "
-      "triangle:12:0.3:0.3:0.4. Points are a text file with one x,y,z per line.\n--settle "
+      "triangle:12:0.3:0.3:0.4;\nnodes and triangles count from 0, vertices of an OBJ file from 1. "
+      "Points are a text file with one x,y,z per line.\n--settle "
       "operates on the valve as given, `mvs sweep` on the closed one: give a closed valve (mvs "
       "close -o) for the\nsame figures.");
   for (const mvs::OpKind &kind : mvs::op_kinds()) add_kind(*command, console, kind, file);
