@@ -196,7 +196,7 @@ void move_tool(State &state, Id id, const Vec3 &position, const Vec3 &axis) {
   for (Tool &tool : state.tools) {
     if (!is(tool, id)) continue;
     tool.position = position;
-    tool.axis = axis;
+    if (tool.kind != ToolKind::rod || !axis.isZero(0)) tool.axis = axis;
   }
 }
 

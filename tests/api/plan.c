@@ -255,6 +255,24 @@ static void tools_far_away_or_of_no_valve_are_told(void) {
   mvs_destroy(sim);
 }
 
+/* As with mvs_move_tool. */
+static void a_rod_that_is_moved_without_an_axis_keeps_its_own(void) {
+  static const char plan[] = PLAN(
+      "{\"do\":\"tool_add\",\"tool\":281474976710656,\"kind\":\"rod\",\"position_m\":[0,0,0.02],"
+      "\"axis\":[0,1,0],\"radius_m\":0.002,\"length_m\":0.01,\"stiffness_N/m\":200,"
+      "\"max_force_N\":5}," MOVE("0.001"));
+  mvs_sim *sim = new_valve(0);
+  mvs_tool_state state = {.struct_size = sizeof state};
+  MUST(mvs_replay_plan(sim, plan, strlen(plan), NULL));
+  const mvs_snapshot *snapshot = NULL;
+  MUST(mvs_get_snapshot(sim, &snapshot));
+  MUST(mvs_snapshot_get_tool(snapshot, 0, &state));
+  CHECK(state.position[0] == 0.001);
+  CHECK(state.axis[0] == 0 && state.axis[1] == 1 && state.axis[2] == 0);
+  mvs_snapshot_release(snapshot);
+  mvs_destroy(sim);
+}
+
 int main(void) {
   a_plan_replays_to_the_same_bits();
   a_replayed_plan_is_written_as_it_was_read();
@@ -263,5 +281,6 @@ int main(void) {
   a_cancelled_replay_changes_nothing();
   plans_that_cannot_be_done_are_told();
   tools_far_away_or_of_no_valve_are_told();
+  a_rod_that_is_moved_without_an_axis_keeps_its_own();
   return finish("plan");
 }
