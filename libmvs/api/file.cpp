@@ -207,7 +207,8 @@ void save_vtm(const mvs_snapshot &s, const std::string &path) {
     if (is_new) remove_empty_folder(stem);
     throw;
   }
-  for (const std::string &block : old) std::remove((stem + "/" + block + ".vtp").c_str());
+  for (const std::string &block : old)
+    std::remove(format("%s/%s.vtp", stem.c_str(), block.c_str()).c_str());
 }
 
 std::string written(const mvs_snapshot &s, uint32_t format_given) {
