@@ -21,7 +21,8 @@ constexpr double doubtful_ratio = 0.1;
 // The least misfit of pairs within near_landmark of two feet, with either arc as the anterior one.
 double least_misfit_near(const ArcOdds &odds, const std::array<double, 2> &feet, double length,
                          size_t n) {
-  const size_t near = static_cast<size_t>(near_landmark * static_cast<double>(n) / length + 0.5);
+  const size_t near =
+      static_cast<size_t>(std::lround(near_landmark * static_cast<double>(n) / length));
   const size_t a = sample_at(feet[0], length, n) + n - near,
                b = sample_at(feet[1], length, n) + n - near;
   double least = HUGE_VAL;
