@@ -10,7 +10,7 @@ namespace {
 
 enum class Side { unknown, anterolateral, posteromedial };
 
-// "AL", "AL1", "pm tip", "anterolateral": what a name says.
+// The side in a name, such as "AL", "AL1", "pm tip" or "anterolateral".
 Side side_of(std::string name) {
   for (char &c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const auto says = [&](const char *letters, const char *word) {

@@ -131,7 +131,7 @@ Vec3 mean_place(const std::vector<Vec3> &tips, const AnnulusFrame &frame) {
   return sum / static_cast<double>(tips.size());
 }
 
-// What contradicts normal anatomy in given tips, in words; "" if nothing does.
+// The contradictions of given tips to normal anatomy, in words; "" without one.
 std::string doubts_of(const PapillaryTips &tips, const AnnulusFrame &frame) {
   const Vec3 al = mean_place(tips.anterolateral, frame), pm = mean_place(tips.posteromedial, frame);
   const Vec3 apart = pm - al;
