@@ -39,8 +39,7 @@ void name_once(InpCard &card, const char *key, std::string &name) {
 }
 
 bool is_name(std::string_view text) {
-  constexpr size_t longest = 63;  // of a valve's name
-  return !text.empty() && text.size() <= longest && is_plain_text(text) && is_utf8(text);
+  return !text.empty() && text.size() <= name_limit && is_plain_text(text) && is_utf8(text);
 }
 
 void read_structure(InpCard &card, InpMesh &mesh) {

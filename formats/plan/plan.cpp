@@ -16,7 +16,6 @@ namespace mvs::core {
 namespace {
 
 constexpr const char *format_name = "mvs-plan";
-constexpr size_t most_group_name = 63;            // bytes, of the interface
 constexpr size_t most_bytes = size_t{512} << 20;  // hours of a hand at 1 kHz
 
 const char *solver_word(SolverKind solver) {
@@ -122,7 +121,7 @@ std::string version_text() {
 }
 
 bool is_group_name(const std::string &name) {
-  return name.size() <= most_group_name && is_plain_text(name);
+  return name.size() <= name_limit && is_plain_text(name);
 }
 
 PlanStep read_step(const Json &json) {
@@ -137,8 +136,7 @@ PlanStep read_step(const Json &json) {
   step.op = json;
   if (!json.has("group")) return step;
   MVS_MUST(json["group"].is_text() && is_group_name(json["group"].text()), MVS_E_FORMAT, "plan",
-           "group has to be a name of at most %zu bytes without control characters",
-           most_group_name);
+           "group has to be a name of at most %zu bytes without control characters", name_limit);
   step.group = json["group"].text();
   step.group_id = whole_at(json, "group_id", 0, UINT64_MAX);
   return step;

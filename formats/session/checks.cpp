@@ -19,10 +19,9 @@ namespace {
 
 constexpr uint64_t most_steps = uint64_t{1} << 53;  // 30,000 years at 10 kHz
 constexpr uint64_t most_made = 1'000'000'000'000;   // tools; as in OBJ files
-constexpr size_t most_name = 63;                    // bytes, of the interface
 
 bool is_name(const std::string &name) {
-  return !name.empty() && name.size() <= most_name;
+  return !name.empty() && name.size() <= name_limit;
 }
 
 // The next tool gets the id after those of all tools that were ever added.
@@ -58,7 +57,7 @@ void check_groups(const HistoryEntries &entries, uint64_t next_group) {
              "the history of the file has group %llu with a name of %zu bytes: groups have numbers "
              "below the next one, %llu, and names of 1 to %zu bytes",
              static_cast<unsigned long long>(entry.group), entry.group_name.size(),
-             static_cast<unsigned long long>(next_group), most_name);
+             static_cast<unsigned long long>(next_group), name_limit);
   }
 }
 
@@ -121,7 +120,7 @@ void check_history(const History &history) {
   for (const Checkpoint &checkpoint : *history.checkpoints) {
     MVS_MUST(is_name(checkpoint.name), MVS_E_FORMAT, "history",
              "the file has a checkpoint whose name has %zu bytes, it has to have 1 to %zu",
-             checkpoint.name.size(), most_name);
+             checkpoint.name.size(), name_limit);
     MVS_MUST(names.insert(checkpoint.name).second, MVS_E_FORMAT, "history",
              "the file has two checkpoints named \"%s\"", checkpoint.name.c_str());
     check_groups(checkpoint.past, history.next_group);

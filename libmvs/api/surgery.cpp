@@ -14,8 +14,9 @@ namespace {
 std::string checked_name(const char *name, const char *what) {
   must_point(name, what);
   std::string text = name;
-  MVS_MUST(!text.empty() && text.size() <= 63 && is_plain_text(text), MVS_E_ARGUMENT, what,
-           "the name of a %s has to have 1 to 63 bytes and no control characters", what);
+  MVS_MUST(!text.empty() && text.size() <= name_limit && is_plain_text(text), MVS_E_ARGUMENT, what,
+           "the name of a %s has to have 1 to %zu bytes and no control characters", what,
+           name_limit);
   MVS_MUST(is_utf8(text), MVS_E_ARGUMENT, what,
            "the name of the %s is not UTF-8: names are UTF-8, convert it", what);
   return text;

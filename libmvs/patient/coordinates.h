@@ -34,6 +34,10 @@ std::vector<double> height_profile(const SheetRims &rims, const SheetCoordinates
 
 // The one of `count` samples, evenly along the annulus, to which a foot belongs.
 size_t sample_at(double foot, double length, size_t count);
+// The foot of a sample, m.
+inline double foot_of(size_t sample, double length, size_t count) {
+  return (static_cast<double>(sample) + 0.5) * length / static_cast<double>(count);
+}
 
 // The representative of an arc length in [0, length).
 inline double wrapped(double s, double length) {

@@ -36,10 +36,6 @@ double least_misfit_near(const ArcOdds &odds, const std::array<double, 2> &feet,
   return least;
 }
 
-double foot_of(size_t k, double length, size_t n) {
-  return (static_cast<double>(k % n) + 0.5) * length / static_cast<double>(n);
-}
-
 // m along the annulus from two feet to two others, each to its own: the farther, in the better
 // order.
 double farthest_of(const std::array<double, 2> &feet, const std::array<double, 2> &others,
@@ -119,7 +115,7 @@ void doubt_unlikely(const AnnulusSamples &annulus, const std::array<double, 2> &
   const double ratio = math::exp(-0.5 * deviation);
   if (!(ratio < doubtful_ratio)) return;
   const double away =
-      farthest_of(feet, {foot_of(best.from, length, n), foot_of(best.to, length, n)}, length);
+      farthest_of(feet, {foot_of(best.from, length, n), foot_of(best.to % n, length, n)}, length);
   finding.confidence *= ratio;
   finding.sentence += format(
       "; but they lie up to %.0f mm along the annulus from the likeliest places, by heights of the "

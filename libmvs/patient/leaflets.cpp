@@ -135,16 +135,11 @@ void add_anterior(FindingSource source, const char *sentence, const AnteriorOdds
              sentence, 100 * (1 - odds), shape.cues.c_str()));
 }
 
-// m along an annulus of this length: the place of a sample.
-double foot_of(size_t k, double length) {
-  return (static_cast<double>(k) + 0.5) * length / samples;
-}
-
 // The greatest height of the leaflet along an arc, m.
 double greatest_height(const std::vector<double> &height, double from, double to, double length) {
   double most = 0;
   for (size_t k = 0; k < samples; ++k) {
-    const double foot = foot_of(k, length);
+    const double foot = foot_of(k, length, samples);
     if (contains(from, to, foot, length)) most = std::max(most, height[k]);
   }
   return most;
@@ -193,7 +188,7 @@ bool decide_anterior(const LeafletSheet &sheet, const SheetCoordinates &c,
   }
   double labelled = 0;
   for (size_t k = 0; k < samples; ++k) {
-    const double foot = foot_of(k, length);
+    const double foot = foot_of(k, length, samples);
     labelled += contains(from, to, foot, length) ? area.balance[k] : -area.balance[k];
   }
   if (labelled != 0) {

@@ -27,13 +27,13 @@ void demand_writable(const std::string &path);
 // The same for the file of a valve, whose ending has to name a format that is written.
 void demand_writable_valve(const std::string &path);
 
-// An output of a command, and what is written to it, in words: "the valve".
+// An output of a command: its path, and the words for its content, as "the valve".
 struct Output {
   std::string path, what;
 };
 
 // Throws mvs::Error if two outputs are one file, or an output is an input, under whatever names.
-// Empty paths are none.
+// An empty path is no output and no input.
 void demand_apart(const std::vector<Output> &outputs, const std::vector<std::string> &inputs);
 
 // Throws mvs::Error, "PATH: cannot VERB WHAT: the system's reason; the remedy"; `error` is errno.

@@ -8,23 +8,11 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <string_view>
 
 #include "text/output_file.h"
 
 namespace cli {
 namespace {
-
-// Writes the bytes and flushes them to the disk; returns errno, 0 if all is written.
-int write_all(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(file, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    bytes.remove_prefix(static_cast<size_t>(written));
-  }
-  return ::fsync(file) == 0 ? 0 : errno;
-}
 
 void sync_folder(const std::string &folder) {
   const int opened = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -34,6 +22,16 @@ void sync_folder(const std::string &folder) {
 }
 
 }  // namespace
+
+int write_bytes(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<size_t>(written));
+  }
+  return 0;
+}
 
 int open_new(const std::string &folder, std::string &name) {
   constexpr int tries = 1000;
@@ -51,7 +49,8 @@ void replace_file(const std::string &path, const std::string &bytes, const std::
   std::string beside;
   const int file = open_new(target.folder, beside);
   if (file < 0) fail_to_write(path, part, "write into folder", target.folder, errno);
-  int error = write_all(file, bytes);
+  int error = write_bytes(file, bytes);
+  if (error == 0 && ::fsync(file) != 0) error = errno;
   if (error == 0 && target.mode && ::fchmod(file, *target.mode) != 0) error = errno;
   if (error == 0 && before_rename) before_rename(file);
   if (::close(file) != 0 && error == 0) error = errno;

@@ -3,8 +3,12 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 
 namespace cli {
+
+// Writes all bytes to a file or pipe. Returns errno, 0 if all is written.
+int write_bytes(int file, std::string_view bytes);
 
 // Creates a file with a name that no file has, `.mvs-PID-NUMBER.tmp` in this folder. Returns its
 // descriptor; -1, with errno, if that fails.

@@ -16,10 +16,10 @@
 #include <cstring>
 #include <exception>
 #include <new>
-#include <string_view>
 #include <vector>
 
 #include "text/console.h"
+#include "text/replace_file.h"
 
 namespace cli {
 namespace {
@@ -44,16 +44,6 @@ class SharedCounter {
   std::atomic<size_t> *next_;
 };
 
-bool send_line(int pipe, std::string_view line) {
-  while (!line.empty()) {
-    const ssize_t written = ::write(pipe, line.data(), line.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    line.remove_prefix(static_cast<size_t>(written));
-  }
-  return true;
-}
-
 // The body of a process; returns its exit code.
 int work_off(size_t jobs, SharedCounter &next, int pipe,
              const std::function<std::string(size_t)> &work) {
@@ -61,7 +51,7 @@ int work_off(size_t jobs, SharedCounter &next, int pipe,
     for (size_t k = next.take(); k < jobs && !InterruptFlag::is_set(); k = next.take()) {
       const std::string result = work(k);
       if (InterruptFlag::is_set()) break;
-      if (!send_line(pipe, text("%zu %s\n", k, result.c_str()))) return 1;
+      if (write_bytes(pipe, text("%zu %s\n", k, result.c_str())) != 0) return 1;
     }
     return 0;
   } catch (const std::exception &error) {

@@ -1,6 +1,4 @@
 // Checks names, ids and material constants.
-#include <mvs/snapshot.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
@@ -13,9 +11,6 @@
 
 namespace mvs::core {
 namespace {
-
-// Length of mvs_part::name without the terminating zero.
-constexpr size_t name_limit = sizeof(mvs_part::name) - 1;
 
 template <typename Part>
 void check_names(const CowVector<Part> &parts, const char *kind, bool needed, Faults &faults) {
