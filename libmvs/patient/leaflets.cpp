@@ -24,6 +24,9 @@ constexpr size_t samples = 120;
 constexpr double least_guessed_share = 0.28;
 // Odds of the leaflet that is said to be the anterior one, below which this is doubted.
 constexpr double doubtful_odds = 0.1;
+// A valve with a third place as low as the guessed commissures is not likely a mitral one: the
+// guess is doubted. None of the valves of forty_surfaces.py has one.
+constexpr double third_leaflet_confidence = 0.1;
 // The anterior leaflet is up to twice as high as the posterior one, and about as high where that is
 // enlarged. Below this share of its height a given one is doubted, with a confidence of this.
 constexpr double low_anterior = 0.75, low_confidence = 0.4;
@@ -85,7 +88,8 @@ GuessedFeet guessed_commissures(const AnnulusSamples &annulus, const std::vector
                                   : ", shape of the annulus and place of the papillary tips",
              exact[i] * 1e3, exact[j] * 1e3));
   if (const size_t others = other_low_places(annulus.height, i, j); others > 0) {
-    findings.back().confidence *= 0.5;
+    findings.back().confidence =
+        std::min(0.5 * findings.back().confidence, third_leaflet_confidence);
     findings.back().sentence += format(
         "; %zu other places along the annulus are as low: clefts, or commissures of a third "
         "leaflet, as aortic and tricuspid valves have; a mitral valve is taken for granted",

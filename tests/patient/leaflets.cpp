@@ -13,11 +13,12 @@
 #include "measure/annulus/landmarks.h"
 #include "model/sides.h"
 #include "patient/coordinates.h"
+#include "patient/doubtful.h"
 #include "patient/findings.h"
 #include "patient/leaflet_heights.h"
 #include "patient/surface/mirrored.h"
 #include "tests/about.h"
-#include "tests/patient/parametric_sheet.h"
+#include "tests/patient/sheets.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;
@@ -68,11 +69,7 @@ TEST_CASE("landmarks_that_were_found_give_the_same_leaflets_when_they_are_given"
   const SheetCoordinates c = sheet_coordinates(p.sheet, p.rims);
   Findings first, second;
   const LeafletArcs found = find_leaflets(p.sheet, p.rims, c, {}, first);
-  const auto point = [](const std::vector<double> &v, size_t k) {
-    return Vec3(v[3 * k], v[3 * k + 1], v[3 * k + 2]);
-  };
-  const LeafletLandmarks landmarks = {
-      {point(first[0].value, 0), point(first[0].value, 1)}, {point(first[1].value, 0)}, {}};
+  const LeafletLandmarks landmarks = {points_in(first[0]), {points_in(first[1])[0]}, {}};
   const LeafletArcs given = find_leaflets(p.sheet, p.rims, c, landmarks, second);
   CHECK(given.from == found.from);
   CHECK(given.to == found.to);
@@ -207,6 +204,33 @@ TEST_CASE("places_as_low_as_the_commissures_are_counted") {
   std::vector<double> shallow = heights(2);
   for (size_t k = 85; k < 96; ++k) shallow[k] *= 0.8;  // an indentation
   CHECK(other_low_places(shallow, 0, 60) == 0);
+}
+
+// Leaflets of 22 and 13 mm that meet at a height of 7 mm. A dip of 6 mm in the middle of the lower
+// one makes two leaflets of it.
+TEST_CASE("a_third_leaflet_makes_the_guess_doubtful") {
+  constexpr int rows = 13, around = 96;
+  const std::vector<std::array<double, 2>> profile(rows + 1);
+  for (const double dip : {0.0, 6e-3}) {
+    SheetWithRims cone = revolved(profile, around);
+    for (size_t k = 0; k < cone.sheet.x.size(); ++k) {
+      const double angle = 2 * pi * static_cast<double>(k % around) / around - pi / 2;
+      const double off = std::abs(angle > pi ? angle - 2 * pi : angle), half = 0.36 * pi;
+      const double u = off < half ? off / half : (pi - off) / (pi - half);
+      double height = 7e-3 + (off < half ? 15e-3 : 6e-3) * (1 - u * u);
+      if (off >= half) height -= dip * std::exp(-16 * u * u);
+      const double down = static_cast<double>(k / around) / rows, inward = 1 - 20 * height * down;
+      const double y = 14e-3 * std::cos(angle);
+      cone.sheet.x[k] = {-18e-3 * std::sin(angle) * inward, (y > 0 ? 0.75 * y : y) * inward,
+                         -height * down};
+    }
+    const SheetCoordinates c = sheet_coordinates(cone.sheet, cone.rims);
+    Findings findings;
+    find_leaflets(cone.sheet, cone.rims, c, {}, findings);
+    CAPTURE(findings[0].confidence);
+    CHECK(is_doubtful(findings[0]) == (dip > 0));
+    CHECK((findings[0].sentence.find("other places") != std::string::npos) == (dip > 0));
+  }
 }
 
 TEST_CASE("labels_give_the_commissures_also_if_some_are_wrong") {

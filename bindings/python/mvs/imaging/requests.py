@@ -12,6 +12,7 @@ from .console import Console, silenced
 from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, known_values, read_rows, with_limits
 from .grid import spacing_of
 from .labels import choose_segments, leaflets_in
+from .landmark_names import misnamed
 from .landmarks import anterior_on_label, check_counts, read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
@@ -32,7 +33,19 @@ def valve_of_request(chosen: argparse.Namespace, console: Console) -> ImageValve
     given = {*_options(chosen), *(part for option, part in PARTS.items() if getattr(chosen, option)),
              *((LAW,) if chosen.leaflet else ())}
     made.findings = with_limits(keep_doubts([row for row in rows if row["name"] not in given], made.findings))
+    made.findings += misnamed_in_files(chosen, made.findings)
     return made
+
+
+def misnamed_in_files(chosen: argparse.Namespace, findings: tuple[mvs.Finding, ...]) -> tuple[mvs.Finding, ...]:
+    """Findings about the names of commissures and papillary tips in the files of the open image."""
+    found: tuple[mvs.Finding, ...] = ()
+    for option in ("commissures", "tips"):
+        path = getattr(chosen, option)
+        if path:
+            names = mvs.read_landmarks(path).names
+            found += misnamed(path, read_part(path, PARTS[option], chosen.frame), names, findings)
+    return found
 
 
 def _valve_of_request(chosen: argparse.Namespace, landmarks: dict[str, Any], console: Console) -> ImageValve:
