@@ -173,11 +173,13 @@ static void open_valve(void) {
   const mvs_parametric_desc founding = {.struct_size = sizeof founding,
                                         .shape = MVS_SHAPE_FOUNDING};
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
+  const mvs_step_options step = {.struct_size = sizeof step, .dt = option.dt};
   must(mvs_create(NULL, &sim));
   must(option.valve ? mvs_load_file(sim, option.valve, MVS_FORMAT_AUTO)
                     : mvs_generate_valve(sim, &founding));
   must(mvs_set_load(sim, &systole));
   must(mvs_settle(sim, NULL, NULL));
+  must(mvs_prepare_step(sim, &step));
 }
 
 static void log_driver(void *user, mvs_log_level level, const char *text) {

@@ -6,7 +6,8 @@
  * mvs_device_sync, which passes position and buttons to the valve and a new tissue model (force,
  * its derivative, nearby surfaces) to the servo.
  *
- *   mvs_device_open(&desc, &device);  mvs_device_start(device);  mvs_device_arm(device);
+ *   mvs_device_open(&desc, &device);  mvs_prepare_step(sim, NULL);
+ *   mvs_device_start(device);  mvs_device_arm(device);
  *   for (;;) { mvs_device_sync(device, sim, &report);  mvs_step(sim, NULL); }
  *
  * Two clocks run as well: mvs_step advances the valve by its `dt`, the hand moves in wall time. A

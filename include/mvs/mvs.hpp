@@ -101,6 +101,11 @@ class Simulator {
     must(mvs_step(sim_, &options));
   }
 
+  void prepare_step(mvs_step_options options = {}) {
+    options.struct_size = sizeof options;
+    must(mvs_prepare_step(sim_, &options));
+  }
+
   mvs_stats stats() const { return filled<mvs_stats>(mvs_get_stats, sim_); }
 
   Snapshot snapshot() const {

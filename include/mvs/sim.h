@@ -257,6 +257,13 @@ typedef struct mvs_step_options {
  * tool that pushes, as of mvs_settle. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
+/* Does now what the first mvs_step from here would do for the steps after it: memory, the search
+ * for contact, an elimination order and a factor, several times the work of a step. For a valve
+ * that is about to be stepped in real time, after mvs_settle, another load, a snapshot or a file.
+ * Changes nothing but the time of the steps. `options`: those of the steps, nullable; the errors of
+ * mvs_step. */
+MVS_API mvs_result mvs_prepare_step(mvs_sim *sim, const mvs_step_options *options);
+
 /* Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.
  * `converged` is 1 while the valve is at rest: an operation, another load or a tool makes it 0
  * until the next settle, or a step that finds nothing to move; so does a step that moves it. */

@@ -219,6 +219,10 @@ mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options) {
   return call_at_boundary(sim, [&](mvs_sim &s) { s.step(read_options(options)); });
 }
 
+mvs_result mvs_prepare_step(mvs_sim *sim, const mvs_step_options *options) {
+  return call_at_boundary(sim, [&](mvs_sim &s) { s.prepare_step(read_options(options)); });
+}
+
 mvs_result mvs_get_stats(const mvs_sim *sim, mvs_stats *stats) {
   return at_boundary([&] {
     checked_struct_size(stats, "stats");

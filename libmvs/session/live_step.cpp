@@ -25,6 +25,11 @@ void mvs_sim::step(const SolveOptions &how) {
   slices.reset();
 }
 
+void mvs_sim::prepare_step(const SolveOptions &how) {
+  must_have_valve();
+  solver.prepare_step(*now_.current.model, now_.current.state, how);
+}
+
 // Copies the current state into the buffers of the state before it (double buffering). If a
 // snapshot shares these buffers, the copy-on-write arrays allocate new ones.
 void mvs_sim::begin_step() {

@@ -39,6 +39,7 @@ struct mvs_sim {
   bool has_recorded(const mvs::core::Load &load) const;
   // Advances the present valve by one time step.
   void step(const mvs::core::SolveOptions &how);
+  void prepare_step(const mvs::core::SolveOptions &how);
   // Updates the solver after a change of valve or tools, if time steps are in use, so that the next
   // step does not pay for it.
   void make_ready() { solver.make_ready(*now_.current.model, now_.current.state); }

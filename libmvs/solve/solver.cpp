@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "base/error.h"
-#include "energy/forces.h"
 #include "linalg/mixed_precision.h"
 #include "solve/dynamic/explicit_euler.h"
 #include "solve/dynamic/implicit_euler.h"
@@ -132,6 +131,16 @@ struct Solver::Work {
     if (!implicit) implicit.emplace(model, backend, workers);
     return *implicit;
   }
+  // A solver that throws half-way through its work is not used again.
+  template <typename Use>
+  void use_implicit(const Model &model, Use &&use) {
+    try {
+      use(implicit_for(model));
+    } catch (...) {
+      implicit.reset();
+      throw;
+    }
+  }
   ExplicitEuler &explicit_for(const Model &model) {
     if (explicit_model != model.serial) explicit_.reset();
     explicit_model = model.serial;
@@ -226,12 +235,8 @@ SolveStats Solver::step_nodes(const Model &model, State &state, const SolveOptio
     step_alone(stepper, state, how, stats);
   } else {
     work_->how = how;
-    try {
-      step_alone(work_->implicit_for(model), state, how, stats);
-    } catch (...) {
-      work_->implicit.reset();  // it is half-way through a step
-      throw;
-    }
+    work_->use_implicit(model,
+                        [&](ImplicitEuler &stepper) { step_alone(stepper, state, how, stats); });
   }
   const bool stands = (stats.skipped & MVS_SKIPPED_STEP) != 0;
   state.rest_tolerance = stands ? rest_tolerance_of(state.load) : 0;
@@ -256,28 +261,18 @@ void Solver::make_ready(const Model &valve, const State &valve_state) noexcept {
   }
 }
 
-Forces evaluate_forces(const Model &valve, const State &valve_state) {
-  ToolPoints points;
-  const Model &model = points.extend(valve, tool_points(valve_state.tools));
-  const State state = ToolPoints::extended(valve_state);
-  TotalEnergy total_energy(model);
-  Profile profile;
-  total_energy.use_verlet_list(false);
-  total_energy.set_pressure(state.load.pressure);
-  total_energy.set_tools(state.tools);
-  total_energy.prepare(state.x, state.x, 0, profile);
-  Forces forces;
-  forces.energy = total_energy.gradient(state.x, forces.total, profile);
-  forces.energy += SpringTerm(model, Elements::prescribed).gradient(state.x, forces.total);
-  forces.energy += MembraneTerm(model, Elements::prescribed).gradient(state.x, forces.total);
-  forces.energy += BendingTerm(model, Elements::prescribed).gradient(state.x, forces.total);
-  forces.contact.assign(state.x.size(), Vec3::Zero());
-  total_energy.contact().gradient(forces.contact);
-  for (Vec3 &f : forces.total) f = -f;
-  for (Vec3 &f : forces.contact) f = -f;
-  forces.total.resize(valve_state.x.size());
-  forces.contact.resize(valve_state.x.size());
-  return forces;
+void Solver::prepare_step(const Model &valve, const State &valve_state,
+                          const SolveOptions &options) {
+  const Model &model = work_->tool_points.extend(valve, points_for(valve_state.tools, options));
+  if (options.solver == SolverKind::explicit_euler) {
+    work_->explicit_for(model);
+    return;
+  }
+  State state = ToolPoints::extended(valve_state);
+  work_->how = step_options(options);
+  StepOptions awake = work_->how;
+  awake.may_sleep = false;  // a valve at rest may be about to move
+  work_->use_implicit(model, [&](ImplicitEuler &stepper) { stepper.make_ready(state, awake); });
 }
 
 }  // namespace mvs::core

@@ -91,6 +91,9 @@ class Solver {
   // after it, with the options of the last step. Changes no result; reports no error, because that
   // step will.
   void make_ready(const Model &model, const State &state) noexcept;
+  // The same for steps of a model that are to begin, also the first ones, with their options.
+  // Throws what the step would throw.
+  void prepare_step(const Model &model, const State &state, const SolveOptions &options);
   // Coarser meshes of the last models that were settled over a hierarchy.
   CoarseLevels &coarse_levels();
 

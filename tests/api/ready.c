@@ -85,6 +85,55 @@ static void the_next_step_makes_no_factor(void (*begin)(void), void (*change)(vo
   mvs_destroy(fresh);
 }
 
+/* Of a simulator that has not stepped, from a valve at rest and then under another load, alone and
+ * beside a tool that pushes. */
+static void the_first_step_after_prepare_step_makes_no_factor(int with_tool) {
+  const mvs_load_case less = {sizeof less, 0, 0.9 * MVS_SYSTOLE_PA, 1};
+  const mvs_step_options slow = {.struct_size = sizeof slow, .dt = 2e-3, .damping = 5};
+  mvs_sim *sims[2] = {NULL, NULL};
+  hash128 before;
+  int k, of;
+  for (of = 0; of < 2; ++of) {
+    MUST(mvs_create(NULL, &sims[of]));
+    MUST(mvs_restore(sims[of], closed));
+    if (of == 0) MUST(mvs_prepare_step(sims[of], NULL)); /* at rest, with other options */
+    MUST(mvs_set_load(sims[of], &less));
+    if (with_tool) {
+      mvs_tool_desc ball = {.struct_size = sizeof ball, .kind = MVS_TOOL_KIND_BALL};
+      mvs_id tool = 0;
+      ball.position[2] = 0.05;
+      MUST(mvs_add_tool(sims[of], &ball, &tool));
+    }
+  }
+  before = sim_hash(sims[0]);
+  MUST(mvs_prepare_step(sims[0], &slow));
+  CHECK(same_hash(sim_hash(sims[0]), before));
+  for (k = 0; k < 20; ++k) {
+    for (of = 0; of < 2; ++of) {
+      mvs_profile profile = {.struct_size = sizeof profile};
+      MUST(mvs_step(sims[of], &slow));
+      MUST(mvs_get_profile(sims[of], &profile));
+      if (k == 0) CHECK(profile.factorisations == (of == 0 ? 0u : 1u));
+      if (k == 0 && of == 0) CHECK(profile.orderings == 0);
+    }
+    CHECK(same_hash(sim_hash(sims[0]), sim_hash(sims[1])));
+  }
+  for (of = 0; of < 2; ++of) mvs_destroy(sims[of]);
+}
+
+static void prepare_step_has_the_errors_of_step(void) {
+  mvs_step_options other = {.struct_size = sizeof other, .solver = MVS_SOLVER_NEWTON};
+  mvs_sim *fresh = NULL;
+  MUST(mvs_create(NULL, &fresh));
+  CHECK(mvs_prepare_step(fresh, NULL) == MVS_E_STATE);
+  MUST(mvs_restore(fresh, closed));
+  CHECK(mvs_prepare_step(fresh, &other) == MVS_E_ARGUMENT);
+  other.solver = MVS_SOLVER_EXPLICIT;
+  MUST(mvs_prepare_step(fresh, &other));
+  MUST(mvs_step(fresh, &other));
+  mvs_destroy(fresh);
+}
+
 int main(void) {
   const mvs_load_case systole = {sizeof systole, 0, MVS_SYSTOLE_PA, 1};
   MUST(mvs_create(NULL, &sim));
@@ -98,6 +147,9 @@ int main(void) {
   the_next_step_makes_no_factor(shorten_one, undo_one);
   the_next_step_makes_no_factor(shorten_and_undo, redo_one);
   the_next_step_makes_no_factor(shorten_one, back_to_the_checkpoint);
+  the_first_step_after_prepare_step_makes_no_factor(0);
+  the_first_step_after_prepare_step_makes_no_factor(1);
+  prepare_step_has_the_errors_of_step();
   mvs_snapshot_release(closed);
   mvs_destroy(sim);
   return finish("ready");

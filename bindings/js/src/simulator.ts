@@ -122,6 +122,11 @@ export class Simulator extends Owned {
     for (let k = 0; k < count; ++k) this.mvs.c.mvs_step(this.handle, options);
   }
 
+  /** Does now what the first step from here would do for the steps after it, and changes nothing else. */
+  prepareStep(options?: StepOptions): void {
+    this.mvs.c.mvs_prepare_step(this.handle, options);
+  }
+
   /** Statistics of the last settle or step. */
   stats(): Stats {
     return this.mvs.c.mvs_get_stats(this.handle);

@@ -437,6 +437,14 @@ class Simulator:
         damping: Optional[float] = None,
         budget: Optional[int] = None,
     ) -> Stats: ...
+    def prepare_step(
+        self,
+        *,
+        solver: Literal["implicit", "explicit"] = "implicit",
+        dt: Optional[float] = None,
+        damping: Optional[float] = None,
+        budget: Optional[int] = None,
+    ) -> None: ...
     @property
     def stats(self) -> Stats: ...
     @property

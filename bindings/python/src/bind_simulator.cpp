@@ -89,14 +89,25 @@ double advance_settle(Simulator &self, double seconds) {
   return share;
 }
 
-py::object step(Simulator &self, uint64_t count, const std::string &solver, Number dt,
-                Number damping, Count budget) {
-  if (count == 0) refuse(MVS_E_ARGUMENT, "count", "count: 1 or more steps are needed, not 0");
+mvs_step_options step_options(const std::string &solver, Number dt, Number damping, Count budget) {
   auto options = sized<mvs_step_options>();
   options.solver = solver_of(solver);
   options.dt = given_or_default(dt, "dt");
   options.damping = damping_of(damping, options.solver);
   options.budget = given_or_default(budget, "budget");
+  return options;
+}
+
+void prepare_step(Simulator &self, const std::string &solver, Number dt, Number damping,
+                  Count budget) {
+  const auto options = step_options(solver, dt, damping, budget);
+  self.call([&](mvs_sim *sim) { return mvs_prepare_step(sim, &options); });
+}
+
+py::object step(Simulator &self, uint64_t count, const std::string &solver, Number dt,
+                Number damping, Count budget) {
+  if (count == 0) refuse(MVS_E_ARGUMENT, "count", "count: 1 or more steps are needed, not 0");
+  const auto options = step_options(solver, dt, damping, budget);
   self.repeat(count, [&](mvs_sim *sim) { return mvs_step(sim, &options); });
   return stats_of(self);
 }
@@ -145,6 +156,11 @@ void bind_work(py::class_<Simulator> &type) {
            "\"implicit\" or \"explicit\"\ndt: s [implicit 1e-3; explicit: stable on this valve, at "
            "most 8e-6]\ndamping: "
            "1/s\nbudget: passes over the terms in an implicit step, 4 to 10000 [64]");
+  type.def("prepare_step", &prepare_step, py::kw_only(), "solver"_a = "implicit",
+           "dt"_a = py::none(), "damping"_a = py::none(), "budget"_a = py::none(),
+           "Does now what the first step from here would do for the steps after it (memory, search "
+           "for contact, elimination order, factor), so that it takes no longer than they. Changes "
+           "nothing else. Arguments: those of step.");
   type.def_property_readonly(
       "stats", [](Simulator &self) { return stats_of(self); },
       "Statistics of the last settle or step (mvs.Stats).");

@@ -38,6 +38,7 @@
 
 #include "tests/bench/clock.h"
 #include "tests/bench/closing.h"
+#include "tests/bench/live/first_steps.h"
 #include "tests/bench/live/step_play.h"
 #include "tests/bench/live/step_row.h"
 #include "tests/bench/live/step_watch.h"
@@ -236,6 +237,7 @@ void run(const Options &options) {
     print(whole);
     write(csv, whole);
     tell(options, scene, whole);
+    bench::tell_first_steps(scene, options.valve_of(scene), [&] { return options.now(); });
   }
   if (csv.is_open() && !csv.flush()) throw std::runtime_error("could not write " + options.csv);
 }
