@@ -38,7 +38,7 @@ typedef uint32_t mvs_format;
 
 /* Replaces valve and state of a simulator by those of a file, and its history by that of an HDF5
  * file; other formats give an empty history. The sentence of a failure begins with "path: ", or
- * "path:line: " for MVS_E_FORMAT. */
+ * "path:line: " for MVS_E_FORMAT and for a faulty part of an OBJ file, MVS_E_OP. */
 MVS_API mvs_result mvs_load_file(mvs_sim *sim, const char *path, mvs_format format);
 
 /* Loads from `size` bytes of memory; AUTO is MVS_FORMAT_OBJ. */

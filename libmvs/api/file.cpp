@@ -9,6 +9,7 @@
 
 #include "api/sim_call.h"
 #include "formats/formats.h"
+#include "formats/obj/part_line.h"
 #include "formats/surface/cursor.h"
 #include "formats/text/xml.h"
 #include "session/simulator.h"
@@ -69,6 +70,18 @@ void load_session(mvs_sim &sim, std::string_view bytes) {
   if (sim.history_start()) sim.file_starts.push_back(sim.history_start());
 }
 
+void load_obj(mvs_sim &sim, std::string_view bytes) {
+  Loaded loaded = read_obj(bytes);
+  ModelPtr model;
+  try {
+    model = make_model(std::move(loaded.valve), sim.model());
+  } catch (const Error &error) {
+    throw with_line_of_part(error, bytes);
+  }
+  check_rest(sim, *model, loaded.state);
+  replace_valve(sim, {{std::move(model), std::move(loaded.state)}, {}});
+}
+
 void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
   MVS_MUST(format_given != MVS_FORMAT_VTP && format_given != MVS_FORMAT_VTM, MVS_E_UNSUPPORTED,
            "format",
@@ -77,10 +90,7 @@ void load_bytes(mvs_sim &sim, std::string_view bytes, uint32_t format_given) {
            "FEBio models are written for FEBio, not read: load the OBJ or HDF5 file");
   if (format_given == MVS_FORMAT_H5) return load_session(sim, bytes);
   if (format_given == MVS_FORMAT_INP) return load_inp(sim, bytes);
-  Loaded loaded = read_obj(bytes);
-  ModelPtr model = make_model(std::move(loaded.valve), sim.model());
-  check_rest(sim, *model, loaded.state);
-  replace_valve(sim, {{std::move(model), std::move(loaded.state)}, {}});
+  load_obj(sim, bytes);
 }
 
 // Returns a cell array of a VTP file, whose cells are the triangles, then the chordae. Cells

@@ -86,6 +86,12 @@ class BadInput(Command):
             with self.subTest(name):
                 self.bad(name, content)
 
+    def test_a_part_that_the_checks_of_a_valve_refuse_is_named_by_its_line(self):
+        good = (self.dir / "v.obj").read_bytes().splitlines()
+        line = next(i for i, text in enumerate(good) if text.startswith(b"#mvs chord "))
+        good[line] = re.sub(rb" young=\S+", b"", good[line]) + b" young=1e-3"
+        self.assertRegex(self.bad("soft.obj", b"\n".join(good)), rf"soft\.obj:{line + 1}: chord \S+ has Young")
+
     def test_line_is_in_the_message(self):
         good = (self.dir / "v.obj").read_bytes().splitlines()
         line = next(i for i, text in enumerate(good) if text.startswith(b"v "))
