@@ -87,6 +87,8 @@ class H5Reader {
     if (found.no_memory) throw std::bad_alloc();
     MVS_MUST(!found.fault, MVS_E_FORMAT, path, "cannot read %s of the file: %s", path.c_str(),
              found.fault);
+    MVS_MUST(depth == 0 || !found.names.empty(), MVS_E_FORMAT, path,
+             "group %s of the file is empty: libmvs never writes one", path.c_str());
     for (const std::string &member : found.names) {
       object(id, member, std::string(path).append("/").append(member), depth + 1);
     }

@@ -135,6 +135,17 @@ TEST_CASE("attributes_are_refused") {
                 MVS_E_FORMAT, "mvs/x of the file has an attribute"));
 }
 
+TEST_CASE("empty_groups_are_refused") {
+  const auto add_group = [](hid_t group, const char *name) {
+    H5Gclose(H5Gcreate2(group, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  };
+  CHECK(refused(outcome(sealed([&](hid_t g) {
+                  add_doubles(g, {4});
+                  add_group(g, "extra");
+                })),
+                MVS_E_FORMAT, "group mvs/extra of the file is empty"));
+}
+
 TEST_CASE("external_soft_and_repeated_links_are_refused") {
   const auto of = [](const std::function<void(hid_t)> &fill) { return outcome(sealed(fill)); };
   CHECK(refused(of([](hid_t g) { H5Lcreate_soft("/mvs", g, "x", H5P_DEFAULT, H5P_DEFAULT); }),
