@@ -11,7 +11,8 @@ struct LeakOptions {
   std::string file;
 };
 
-// A figure of a region: its key in JSON, its heading in the table, and its value in their unit.
+// A figure of a region: its key in JSON, its heading in the table, and its value in their unit,
+// which is that of the same measure in `mvs measure`.
 struct Column {
   const char *key, *head;
   double mvs_region_measures::*value;
@@ -26,9 +27,9 @@ constexpr Column columns[] = {
      2},
     {"coaptation_length_min_mm", "least mm", &mvs_region_measures::coaptation_length_min, 1e3, 2},
     {"billow_height_mm", "billow mm", &mvs_region_measures::billow_height, 1e3, 2},
-    {"billow_volume_mm3", "billow mm3", &mvs_region_measures::billow_volume, 1e9, 1},
+    {"billow_volume_ml", "billow ml", &mvs_region_measures::billow_volume, 1e6, 3},
     {"tenting_height_mm", "tenting mm", &mvs_region_measures::tenting_height, 1e3, 2},
-    {"tenting_volume_mm3", "tenting mm3", &mvs_region_measures::tenting_volume, 1e9, 1},
+    {"tenting_volume_ml", "tenting ml", &mvs_region_measures::tenting_volume, 1e6, 3},
 };
 
 const char *kind_name(uint32_t kind) {
@@ -96,14 +97,14 @@ void run_leak(const LeakOptions &options, const Console &console) {
   const std::vector<mvs_orifice_part> parts = valve.orifice_parts();
   const double pressure_mmhg = valve.load().pressure / pa_per_mmhg;
   const bool at_rest = valve.at_rest();
-  double area = 0;
   Json region_rows = Json::array(), part_rows = Json::array();
   for (const mvs_region_measures &region : regions) region_rows.push_back(region_json(region));
-  for (const mvs_orifice_part &part : parts) {
-    part_rows.push_back(part_json(part));
-    area += part.area;
-  }
-  const uint32_t crossing = valve.measure(MVS_MEASURE_GROUP_CROSSINGS).intersections;
+  for (const mvs_orifice_part &part : parts) part_rows.push_back(part_json(part));
+  // not the sum of the openings, which rounds differently
+  const mvs_measures measures =
+      valve.measure(MVS_MEASURE_GROUP_ORIFICE | MVS_MEASURE_GROUP_CROSSINGS);
+  const double area = measures.regurgitant_orifice_area;
+  const uint32_t crossing = measures.intersections;
   std::string state = at_rest ? "" : ", not at rest";
   if (crossing != 0) {
     state +=

@@ -17,9 +17,9 @@ COLUMNS = (
     ("coaptation_length_mean", "coaptation length, mean, mm", 1e3, 2),
     ("coaptation_length_min", "coaptation length, least, mm", 1e3, 2),
     ("billow_height", "billow height, mm", 1e3, 2),
-    ("billow_volume", "billow volume, mm³", 1e9, 1),
+    ("billow_volume", "billow volume, ml", 1e6, 3),
     ("tenting_height", "tenting height, mm", 1e3, 2),
-    ("tenting_volume", "tenting volume, mm³", 1e9, 1),
+    ("tenting_volume", "tenting volume, ml", 1e6, 3),
 )
 """Field of Snapshot.regions(), heading, scale from SI, digits."""
 
