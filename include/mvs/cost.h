@@ -14,13 +14,19 @@ extern "C" {
 /* 5 mmHg in Pa: the default pressure difference that opens the valve in diastole. */
 #define MVS_DIASTOLE_PA 666.61
 
+/* Accepted flows through an open valve, m3/s: it is about twice the cardiac output, 16 ml/s of a
+ * newborn child and 250 of an adult. Numbers in l/min or l/s lie outside. */
+#define MVS_FLOW_MIN 1e-5
+#define MVS_FLOW_MAX 1e-2
+
 /* Options of mvs_snapshot_measure_cost. */
 typedef struct mvs_cost_options {
   uint32_t struct_size;
   mvs_backend backend; /* MVS_BACKEND_* */
   double pressure;     /* Pa, atrium minus ventricle in diastole, 20 or more [MVS_DIASTOLE_PA] */
   double residual;     /* N, at rest, as in mvs_settle_options [1e-5] */
-  double flow;         /* m3/s through the open valve, 1e-5 to 0.01 [not known: no gradient] */
+  double flow;         /* m3/s through the open valve, MVS_FLOW_MIN to MVS_FLOW_MAX [not known: no
+                          gradient] */
   double density;      /* kg/m3, of blood [1060] */
   double discharge;    /* discharge coefficient, 0.1 to 1 [0.85] */
   mvs_array septum;    /* F64 or F32, k x 3, m: points of the septum where it faces the

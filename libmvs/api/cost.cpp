@@ -26,9 +26,6 @@ constexpr double farthest_septum = 0.1, least_septum = 1e-3;
 
 // Pa. A valve is opened by some hundred; less than 0.15 mmHg is a number in mmHg (up to 20) or kPa.
 constexpr double least_opening = 20, most_opening = 13332.2;  // to 100 mmHg
-// m3/s. The flow in diastole is about twice the cardiac output: 16 ml/s of a newborn child, 250 of
-// an adult. Numbers in l/min or l/s, given as ml/s or m3/s, lie outside.
-constexpr double least_flow = 10e-6, most_flow = 0.01;
 
 // Options with their defaults in place of zeros.
 struct CostOptions {
@@ -48,11 +45,11 @@ CostOptions read_options(const mvs_cost_options *options) {
   given.pressure =
       or_default(given.pressure, MVS_DIASTOLE_PA, least_opening, most_opening, "options.pressure");
   must_be_in(given.residual, limits::residual, "options.residual");
-  MVS_MUST(given.flow == 0 || (given.flow >= least_flow && given.flow <= most_flow), MVS_E_ARGUMENT,
-           "options.flow",
+  MVS_MUST(given.flow == 0 || (given.flow >= MVS_FLOW_MIN && given.flow <= MVS_FLOW_MAX),
+           MVS_E_ARGUMENT, "options.flow",
            "options.flow is %g m3/s, %.3g ml/s: the flow through a mitral valve in diastole is "
            "about 250 ml/s, %g to %g ml/s are accepted: give it in m3/s",
-           given.flow, 1e6 * given.flow, 1e6 * least_flow, 1e6 * most_flow);
+           given.flow, 1e6 * given.flow, 1e6 * MVS_FLOW_MIN, 1e6 * MVS_FLOW_MAX);
   given.density = or_default(given.density, 1060, 500, 2000, "options.density");
   given.discharge = or_default(given.discharge, 0.85, 0.1, 1, "options.discharge");
   read.septum = read_points(given.septum, "options.septum");

@@ -214,12 +214,13 @@ static void bad_input_changes_nothing(void) {
   points.septum = packed(behind, 2, 3, MVS_TYPE_F64);
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &points, &cost, &opened), MVS_E_ARGUMENT,
             "on the side of the posterior leaflet");
-  /* mmHg taken for Pa; l/s taken for ml/s and for m3/s */
+  /* mmHg taken for Pa; l/s taken for ml/s and for m3/s; just beyond the limits */
   pressure.pressure = 5;
   MUST_FAIL(mvs_snapshot_measure_cost(closed, &pressure, &cost, &opened), MVS_E_ARGUMENT,
             "looks like mmHg or kPa given as Pa");
-  for (int k = 0; k < 2; ++k) {
-    const mvs_cost_options flow = {.struct_size = sizeof flow, .flow = k ? 0.25 : 0.25e-6};
+  static const double flows[] = {0.25, 0.25e-6, 0.999 * MVS_FLOW_MIN, 1.001 * MVS_FLOW_MAX};
+  for (int k = 0; k < 4; ++k) {
+    const mvs_cost_options flow = {.struct_size = sizeof flow, .flow = flows[k]};
     MUST_FAIL(mvs_snapshot_measure_cost(closed, &flow, &cost, &opened), MVS_E_ARGUMENT,
               "give it in m3/s");
   }

@@ -82,6 +82,11 @@ class Cost(Shell):
     def test_a_flow_in_litres_is_refused(self):
         self.refused(2, "0.25 ml/s is no flow through an open mitral valve", "cost", "closed.obj",
                      "--flow", 0.25)
+        for flow, accepted in ((9.99, False), (10, True), (10000, True), (10001, False)):
+            if accepted:
+                self.ok("cost", "closed.obj", "--flow", flow)
+            else:
+                self.refused(2, ", 10 to 10000 are accepted", "cost", "closed.obj", "--flow", flow)
 
     def test_wrong_input_is_named(self):
         sweep = ("sweep", "v.obj", "--op", "ring size=28", "--csv", "u.csv")

@@ -6,14 +6,18 @@
 namespace cli {
 namespace {
 
+// a division rounds 10 ml/s to the limit of the library, a product with 1e-6 rounds it below
+constexpr double ml_per_m3 = 1e6;
+
 // An error sentence for a flow outside of the limits of the library, such as one in l/s, else "".
 std::string wrong_flow(const std::string &given) {
   double flow = 0;
   if (!read_number(given, flow)) return "'" + given + "' is not a number in ml/s";
-  if (flow >= 10 && flow <= 10000) return "";
-  return given +
-         " ml/s is no flow through an open mitral valve, which is about 250 ml/s in diastole, 10 "
-         "to 10000 are accepted: give it in ml/s (1 l/min is 16.7 ml/s)";
+  if (flow / ml_per_m3 >= MVS_FLOW_MIN && flow / ml_per_m3 <= MVS_FLOW_MAX) return "";
+  return text(
+      "%s ml/s is no flow through an open mitral valve, which is about 250 ml/s in "
+      "diastole, %g to %g are accepted: give it in ml/s (1 l/min is 16.7 ml/s)",
+      given.c_str(), MVS_FLOW_MIN * ml_per_m3, MVS_FLOW_MAX * ml_per_m3);
 }
 
 }  // namespace
@@ -38,7 +42,7 @@ std::array<CLI::Option *, 3> add_cost_options(CLI::App &command, CostOptions &op
 
 CostMeter::CostMeter(const CostOptions &options) {
   options_.pressure = options.diastole_mmhg * pa_per_mmhg;
-  options_.flow = options.flow_ml_s * 1e-6;
+  options_.flow = options.flow_ml_s / ml_per_m3;
   words_ = text("diastole %g mmHg", options.diastole_mmhg);
   if (options.flow_ml_s > 0) words_ += text(", flow %g ml/s", options.flow_ml_s);
   if (options.septum.empty()) return;

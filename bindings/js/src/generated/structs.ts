@@ -605,7 +605,7 @@ export interface CostOptions {
   pressure?: number;
   /** N, at rest, as in mvs_settle_options [1e-5] */
   residual?: number;
-  /** m3/s through the open valve, 1e-5 to 0.01 [not known: no gradient] */
+  /** m3/s through the open valve, MVS_FLOW_MIN to MVS_FLOW_MAX [not known: no gradient] */
   flow?: number;
   /** kg/m3, of blood [1060] */
   density?: number;
