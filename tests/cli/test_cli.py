@@ -4,7 +4,7 @@ import math
 import re
 import unittest
 
-from command import Command
+from command import Command, mvs
 
 # Keys of the JSON object of `close`, on which scripts rely.
 CLOSE_KEYS = {"converged", "iterations", "wall_s", "residual_N", "vertices", "faces", "chords",
@@ -99,7 +99,10 @@ class BadInput(Command):
         self.assertIn(f"three.obj:{line + 1}: ", self.bad("three.obj", b"\n".join(good)))
 
     def test_a_folder_is_not_a_valve(self):
-        self.assertNotEqual(self.fails("info", ".").stderr, "")
+        (self.dir / "folder.obj").mkdir()
+        self.assertNotEqual(self.misused("info", "."), "")
+        self.assertEqual(mvs("info", "folder.obj", cwd=self.dir).returncode, 1)
+        (self.dir / "folder.obj").rmdir()
 
 
 class Usage(Command):

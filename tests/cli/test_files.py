@@ -49,7 +49,7 @@ class Convert(Command):
         self.assertIn("PolyData", (self.dir / "closed.vtp").read_text()[:400])
 
     def test_unknown_ending_is_refused(self):
-        self.assertIn(".xyz", self.fails("convert", "v.obj", "-o", "v.xyz").stderr)
+        self.assertIn(".xyz", self.misused("convert", "v.obj", "-o", "v.xyz"))
 
 
 class Remesh(Command):
@@ -74,7 +74,7 @@ class Remesh(Command):
         self.assertTrue(120 < by_edge["vertices"] < 300, by_edge)
 
     def test_too_few_vertices_are_refused_with_the_minimum(self):
-        self.assertRegex(self.fails("remesh", "v.obj", "-o", "no.obj", "--vertices", "5").stderr,
+        self.assertRegex(self.misused("remesh", "v.obj", "-o", "no.obj", "--vertices", "5"),
                          r"it needs \d+")
 
     def test_one_target_is_required(self):

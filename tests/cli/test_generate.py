@@ -57,8 +57,8 @@ class Generate(Command):
         self.assertAlmostEqual(info["annulus_cc_mm"], 38, delta=0.38)
 
     def test_an_impossible_valve_is_refused_with_its_range(self):
-        self.assertIn("annulus_ap", self.fails("generate", "--shape", "founding", "-o", "x.obj", "--annulus-ap",
-                                               500).stderr)
+        self.assertIn("annulus_ap", self.misused("generate", "--shape", "founding", "-o", "x.obj", "--annulus-ap",
+                                                 500))
 
     def test_a_dimension_that_is_no_number_above_zero_is_refused(self):
         for given in ("0", "-3", "nan", "1e400", "wide"):

@@ -28,7 +28,7 @@ class List(Haptics):
         self.assertIn("mvs haptics list", self.fails("list", "--driver", "nowhere"))
         (self.dir / "junk.so").write_text("no library")
         self.assertIn("cannot be loaded", self.fails("list", "--driver", "./junk.so"))
-        self.assertIn("no option", self.fails("list", "--driver", "replay", "--option", "x=1"))
+        self.assertIn("no option", self.fails("list", "--driver", "replay", "--option", "x=1", code=2))
         self.fails("list", "--option", "x=1", code=2)
         self.fails("list", "--driver", "replay", "--option", "x", code=2)
 

@@ -62,9 +62,10 @@ class Record(Haptics):
         self.json("haptics", "list", "--driver", "replay", "--option", f"file={out}")
 
     def test_nothing_is_written_for_a_missing_device(self):
-        self.assertIn("file", self.fails("record", "--driver", "replay", "-o", "none.txt"))
+        self.assertIn("file", self.fails("record", "--driver", "replay", "-o", "none.txt", code=2))
         self.assertFalse((self.dir / "none.txt").exists())
-        self.assertIn("--seconds", self.fails("record", *REPLAY, f"file={GRASP}", "-o", "none.txt"))
+        self.assertIn("--seconds", self.fails("record", *REPLAY, f"file={GRASP}", "-o", "none.txt",
+                                            code=2))
         self.assertFalse((self.dir / "none.txt").exists())
         self.assertIn("cannot be written", self.fails(
             "record", *REPLAY, f"file={GRASP}", "-o", "nowhere/r.txt", "--seconds", 1))

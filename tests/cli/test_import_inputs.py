@@ -69,7 +69,7 @@ class ImportInputs(OpenSurface):
         (self.dir / "link.obj").symlink_to(self.dir / "same.obj")
         for out in ("same.obj", "link.obj"):
             done = self.run_import(out, surface="same.obj")
-            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn("is the input", done.stderr)
         self.assertEqual((self.dir / "same.obj").read_bytes(), (self.dir / "made.obj").read_bytes())
         tips = self.dir / "marks.mrk.json"

@@ -63,9 +63,10 @@ class Op(Command):
             "%g,%g,0\n" % (11e-3 * math.cos(a), 15e-3 * math.sin(a)) for a in angles))
         (self.dir / "microns.txt").write_text("".join(
             "%g,%g,0\n" % (11e3 * math.cos(a), 15e3 * math.sin(a)) for a in angles))
+        move = ("head-move", "--head", "PM1", "--by", "500,0,0")
+        self.assertIn("a coordinate of 500 mm, it has to be within 50 mm: lengths are in mm",
+                      self.misused("op", "v.obj", *move, "-o", "q.obj"))
         for options, words in (
-            (("head-move", "--head", "PM1", "--by", "500,0,0"),
-             "a coordinate of 500 mm, it has to be within 50 mm: lengths are in mm"),
             (("chord-length", "--chord", "P2/3", "--drag-to", "900,0,0"),
              "mm long where it was dragged to: 0.1 to 200 mm are"),
             (("ring", "--curve", "metres.txt"), "in other units than mm"),
@@ -146,6 +147,15 @@ class Op(Command):
                 ('no papillary head named "PM9"',
                  ["neochord", "--head", "PM9", "--site", "node:3"]),
                 ('no scallop named "Q2"', ["neochord", "--head", "PM1", "--site", "Q2:0.1:1"]),
+                ("node 1000000", ["chord-add", "--head", "PM1", "--site", "node:1000000"]),
+                ('no chord named "P2/33"; near: P2/3', ["chord-remove", "--chord", "P2/33"]),
+                ('no chord named "p2/3"; near: P2/3', ["chord-remove", "--chord", "p2/3"]),
+                ("nowhere", ["chord-remove", "--chord", "nowhere"])):
+            with self.subTest(options):
+                self.assertIn(words, self.refused(*options))
+
+    def test_values_out_of_range_are_usage_errors(self):
+        for words, options in (
                 ("length is 20000 mm, the range is 0.1 to 200",
                  ["chord-length", "--chord", "P2/3", "--length", 20000]),
                 ("factor is 0, the range is", ["chord-length", "--chord", "P2/3", "--factor", 0]),
@@ -153,13 +163,10 @@ class Op(Command):
                 ("strands is 99", ["neochord", "--head", "PM1", "--site", "node:3", "--strands",
                                    99]),
                 ("0 of length, factor and drag_to", ["chord-length", "--chord", "P2/3"]),
-                ("node 1000000", ["chord-add", "--head", "PM1", "--site", "node:1000000"]),
-                ("coordinate of 1.5", ["chord-add", "--head", "PM1", "--site", "P2:1.5:1"]),
-                ('no chord named "P2/33"; near: P2/3', ["chord-remove", "--chord", "P2/33"]),
-                ('no chord named "p2/3"; near: P2/3', ["chord-remove", "--chord", "p2/3"]),
-                ("nowhere", ["chord-remove", "--chord", "nowhere"])):
+                ("coordinate of 1.5", ["chord-add", "--head", "PM1", "--site", "P2:1.5:1"])):
             with self.subTest(options):
-                self.assertIn(words, self.refused(*options))
+                self.assertIn(words, self.misused("op", "v.obj", *options, "-o", "never.obj"))
+        self.assertFalse((self.dir / "never.obj").exists())
 
     def test_malformed_options_are_usage_errors(self):
         chord = ["chord-length", "--chord", "P2/3"]

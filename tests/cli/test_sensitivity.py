@@ -62,7 +62,7 @@ class Sensitivity(Shell):
         self.assertIn("does not end on a leaflet",
                       self.refused("closed.obj", "--to", "sites", "--chord", trunk, code=1))
         self.assertIn("--to chords or --to sites",
-                      self.refused("closed.obj", "--to", "heads", "--chord", trunk, code=1))
+                      self.refused("closed.obj", "--to", "heads", "--chord", trunk, code=2))
         self.assertIn("x1", self.refused("closed.obj", "--chord", "x1", code=1))
 
     def with_sides(self, vertices):
@@ -102,9 +102,9 @@ class Sensitivity(Shell):
 
     def test_bad_input_is_refused(self):
         self.assertIn("not at rest", self.refused("v.obj", code=1))
-        self.assertIn("no measure is named", self.refused("closed.obj", "--of", "x", code=1))
+        self.assertIn("no measure is named", self.refused("closed.obj", "--of", "x", code=2))
         self.assertIn("it has to be one of the quantities",
-                      self.refused("closed.obj", "--sort", "orifice", code=1))
+                      self.refused("closed.obj", "--sort", "orifice", code=2))
         self.assertIn("choose from", self.refused("closed.obj", "--to", "x", code=2))
 
 

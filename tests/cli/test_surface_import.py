@@ -267,7 +267,7 @@ class SurfaceImport(OpenSurface):
         write_markups(self.dir / "ends_lps.mrk.json", points("commissures"), "LPS")
         both = ["--tips", self.dir / "tips_ras.mrk.json",
                 "--commissures", self.dir / "ends_lps.mrk.json"]
-        self.fails(1, "give the frame of the surface by --frame", "import", self.dir / "open.stl",
+        self.fails(2, "give the frame of the surface by --frame", "import", self.dir / "open.stl",
                    "-o", self.dir / "two.h5", *both)
         turned = self.imported("open.stl", "two.h5", "--frame", "LPS", *both)
         rows = {row["name"]: row["values"] for row in turned["findings"]}
@@ -280,7 +280,7 @@ class SurfaceImport(OpenSurface):
         self.fails(1, "cannot", "import", self.dir / "missing.stl", "-o", out)
         for name, way in (("open.nii.gz", "mvs-image"), ("valve.inp", "mvs close")):
             (self.dir / name).write_bytes(b"")
-            self.fails(1, way, "import", self.dir / name, "-o", out)
+            self.fails(2, way, "import", self.dir / name, "-o", out)
         (self.dir / "cut.stl").write_bytes((self.dir / "open.stl").read_bytes()[:-7])
         self.fails(1, "cut.stl", "import", self.dir / "cut.stl", "-o", out)
         far = [(0.5 + x, y, z) for x, y, z in self.points[:2]]

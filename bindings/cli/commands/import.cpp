@@ -87,8 +87,8 @@ void run_import(const ImportOptions &given, Console &console) {
   how.progress = &Progress::callback;
   how.user = &progress;
   mvs::Simulator sim = make_sim(how);
-  std::vector<mvs::Finding> findings =
-      mvs::build_valve(sim, desc_of(input, options, name), options.build);
+  std::vector<mvs::Finding> findings = with_file_contents(
+      [&] { return mvs::build_valve(sim, desc_of(input, options, name), options.build); });
   keep_doubts(known, findings);
   warn_of_ignored(known, options.with);
   warn_of_contradictions(findings);

@@ -38,7 +38,8 @@ Operated operate(const OpRequest &request, const Console &console) {
   const mvs::Snapshot first = sim.snapshot();
   OpText op(request.kind);
   for (const auto &[name, given] : request.fields) op.set(name, given, first);
-  with_command_units([&] { sim.check(op.get()); });
+  const auto check = [&] { with_command_units([&] { sim.check(op.get()); }); };
+  op.has_points() ? with_file_contents(check) : check();
   std::vector<AtRest> at_rest;
   const double pressure_mmhg = pressure_mmhg_of(request.settle_mmhg, sim);
   if (request.settle) {

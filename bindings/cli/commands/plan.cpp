@@ -72,7 +72,8 @@ void show_plan(const PlanOptions &options, const Console &console) {
 void check_plan(const PlanOptions &options, const Console &console) {
   mvs::Simulator sim = make_sim();
   sim.load_file(options.on);
-  const mvs_replay replay = sim.check_plan(plan_text(options.plan));
+  const std::string plan = plan_text(options.plan);
+  const mvs_replay replay = with_file_contents([&] { return sim.check_plan(plan); });
   print(
       console,
       {{"plan", options.plan},
@@ -87,7 +88,8 @@ void replay_plan(const PlanOptions &options, const Console &console) {
   demand_writable_valve(options.out);
   Progress progress(console);
   mvs::Simulator sim = load_sim(options.on, progress);
-  const mvs_replay done = sim.replay_plan(plan_text(options.plan));
+  const std::string plan = plan_text(options.plan);
+  const mvs_replay done = with_file_contents([&] { return sim.replay_plan(plan); });
   const mvs::Snapshot valve = sim.snapshot();
   if (!options.out.empty()) valve.save(options.out);
   print(console,

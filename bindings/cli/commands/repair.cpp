@@ -28,10 +28,10 @@ void run_repair(const RepairOptions &options, Console &console) {
   mvs::Simulator unrepaired = load_sim(options.file, progress, with_workers(console));
   mvs::Simulator repaired = load_sim(options.file, progress, with_workers(console));
   // an inapplicable plan fails before the closures, which take longer
-  repaired.check_plan(plan);
+  with_file_contents([&] { repaired.check_plan(plan); });
   const double pressure_mmhg = pressure_mmhg_of(options.pressure_mmhg, unrepaired);
   const AtRest before = settle(unrepaired, pressure_mmhg, options.file + " before");
-  const mvs_replay replay = repaired.replay_plan(plan);
+  const mvs_replay replay = with_file_contents([&] { return repaired.replay_plan(plan); });
   const AtRest after = settle(repaired, pressure_mmhg, options.file + " after");
   if (!options.out.empty()) after.valve.save(options.out);
   if (!options.plan_out.empty()) {

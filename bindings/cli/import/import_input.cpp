@@ -28,7 +28,7 @@ std::vector<double> array_values(const mvs::SurfaceFile &file, const std::string
     }
     known += std::string(known.empty() ? "" : ", ") + array.name;
   }
-  fail(MVS_E_ARGUMENT, name,
+  fail(MVS_E_ID, name,
        "the surface has no array \"" + name + "\" with one value for each " +
            (place == MVS_SURFACE_PLACE_POINT ? "point" : "triangle") +
            (known.empty() ? "; it has no arrays" : "; it has: " + known));
@@ -38,7 +38,7 @@ std::vector<uint32_t> labels_of(const mvs::SurfaceFile &file, const std::string 
   std::vector<uint32_t> labels;
   for (const double value : array_values(file, name, MVS_SURFACE_PLACE_TRIANGLE)) {
     if (value != 0 && value != 1 && value != 2) {
-      fail(MVS_E_ARGUMENT, name,
+      fail(MVS_E_FORMAT, name,
            text("the array \"%s\" has the value %g: 0 is unknown, 1 anterior, 2 posterior",
                 name.c_str(), value));
     }

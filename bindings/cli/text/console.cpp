@@ -67,15 +67,18 @@ void print(const Console &console, const Json &object, const std::string &human)
   write_out(console.json ? dump(object) : human);
 }
 
-void print_failure(const Console &console, const mvs::Error &failure) {
-  const std::string sentence = sentence_of(failure);
-  std::fprintf(stderr, "mvs: %s\n", sentence.c_str());
+void print_error_object(const Console &console, const mvs::Error &failure) {
   if (!console.json) return;
   write_out(dump({{"error",
                    {{"code", mvs_result_name(failure.code())},
-                    {"message", sentence},
+                    {"message", sentence_of(failure)},
                     {"part", failure.part()},
                     {"line", failure.line()}}}}));
+}
+
+void print_failure(const Console &console, const mvs::Error &failure) {
+  std::fprintf(stderr, "mvs: %s\n", sentence_of(failure).c_str());
+  print_error_object(console, failure);
 }
 
 InterruptFlag::InterruptFlag() : old_handler_(std::signal(SIGINT, on_interrupt)) {

@@ -29,7 +29,10 @@ Json number_json(double value, double scale = 1);
 // Prints the result of a command: the object with --json, else the text.
 void print(const Console &console, const Json &object, const std::string &human);
 
-// Prints a failure: the sentence on stderr, and with --json {"error": {...}} on stdout.
+// With --json, prints {"error": {...}} on stdout.
+void print_error_object(const Console &console, const mvs::Error &failure);
+
+// The same, and the sentence on stderr.
 void print_failure(const Console &console, const mvs::Error &failure);
 
 // Records Ctrl-C while it exists instead of ending the process; then restores the old handler.

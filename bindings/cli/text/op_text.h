@@ -47,6 +47,7 @@ class OpText {
   // Sets a field of points that are in the unit of the text.
   void set_points(const mvs_field_info &field, Points points);
 
+  bool has_points() const { return !points_.empty(); }
   const mvs_op *get() const { return reinterpret_cast<const mvs_op *>(words_.data()); }
 
  private:

@@ -63,7 +63,8 @@ mvs::Cost CostMeter::of(const mvs::Snapshot &closed, Progress *progress) const {
     options.progress = Progress::callback;
     options.user = progress;
   }
-  return with_command_units([&] { return closed.cost(options); });
+  const auto measure = [&] { return with_command_units([&] { return closed.cost(options); }); };
+  return septum_.empty() ? measure() : with_file_contents(measure);
 }
 
 }  // namespace cli

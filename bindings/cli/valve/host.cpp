@@ -40,13 +40,18 @@ Size size_of(const mvs::Snapshot &valve) {
   return size;
 }
 
-void fail(mvs_result code, const std::string &part, const std::string &sentence, int32_t line) {
+mvs::Error error_of(mvs_result code, const std::string &part, const std::string &sentence,
+                    int32_t line) {
   mvs_error error = {};
   error.code = code;
   error.line = line;
   std::snprintf(error.part, sizeof error.part, "%s", part.c_str());
   std::snprintf(error.message, sizeof error.message, "%s", sentence.c_str());
-  throw mvs::Error(error);
+  return mvs::Error(error);
+}
+
+void fail(mvs_result code, const std::string &part, const std::string &sentence, int32_t line) {
+  throw error_of(code, part, sentence, line);
 }
 
 std::string hash_of(const mvs::Snapshot &valve) {

@@ -23,9 +23,25 @@ struct Size {
 };
 Size size_of(const mvs::Snapshot &valve);
 
-// Throws a failure of the command in the form of a library error.
+// A failure of the command in the form of a library error.
+mvs::Error error_of(mvs_result code, const std::string &part, const std::string &sentence,
+                    int32_t line = 0);
+
+// Throws it. MVS_E_ARGUMENT is wrong usage: a word, option or value of the command line is refused.
 [[noreturn]] void fail(mvs_result code, const std::string &part, const std::string &sentence,
                        int32_t line = 0);
+
+// Does work with the contents of files, which are no part of the command line: a value that the
+// library refuses as an argument is a wrong file, not wrong usage.
+template <typename Work>
+auto with_file_contents(Work &&work) {
+  try {
+    return work();
+  } catch (const mvs::Error &error) {
+    if (error.code() != MVS_E_ARGUMENT) throw;
+    fail(MVS_E_FORMAT, error.part(), error.what(), error.line());
+  }
+}
 
 // The hash of a snapshot as 32 hexadecimal digits.
 std::string hash_of(const mvs::Snapshot &valve);

@@ -95,7 +95,7 @@ AskedParameters of_chord(const mvs::Snapshot &valve, const std::string &to,
     kept.names.push_back(all.names[p]);
   }
   if (kept.list.empty()) {
-    fail(MVS_E_ARGUMENT, "--chord", "--chord " + chord + ": this chord does not end on a leaflet");
+    fail(MVS_E_OP, "--chord", "--chord " + chord + ": this chord does not end on a leaflet");
   }
   return kept;
 }
