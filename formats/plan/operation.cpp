@@ -104,15 +104,17 @@ Json field_json(const Operation &op, const OpField &f, const Model &model) {
   }
 }
 
-// Builds the struct of an operation and owns the data of its pointers.
+// Builds the struct of an operation and owns the data of its pointers. Without a model, parts have
+// no id: the keys, types and choices are checked all the same.
 class OpReader {
  public:
-  OpReader(const OpKind &kind, const Model &model, bool exact)
+  OpReader(const OpKind &kind, const Model *model, bool exact)
       : kind_(kind), model_(model), exact_(exact), words_((kind.size + 7) / 8, 0) {
     put(mvs_op{kind.size, kind.number}, 0);
   }
 
-  void read(const OpField &f, const Json &json);
+  // Reads the fields of a step.
+  void read(const Json &step);
   Operation made() const { return Operation(reinterpret_cast<const mvs_op *>(words_.data())); }
 
  private:
@@ -141,12 +143,14 @@ class OpReader {
     const std::vector<Json> &xyz = json.items();
     return {number(f, xyz[0]), number(f, xyz[1]), number(f, xyz[2])};
   }
+  void read(const OpField &f, const Json &json);
   uint32_t choice(const OpField &f, const Json &json) const;
+  Id part(const OpField &f, const std::string &name) const;
   mvs_site site(const OpField &f, const Json &json) const;
   mvs_array points(const OpField &f, const Json &json);
 
   const OpKind &kind_;
-  const Model &model_;
+  const Model *model_;
   bool exact_;
   std::vector<uint64_t> words_;
   std::vector<std::unique_ptr<std::vector<Vec3>>> points_;
@@ -157,6 +161,12 @@ uint32_t OpReader::choice(const OpField &f, const Json &json) const {
   const std::optional<uint32_t> value = choice_of(f, text(f, json));
   if (!value) refuse(f, f.choices);
   return *value;
+}
+
+Id OpReader::part(const OpField &f, const std::string &name) const {
+  if (!model_) return 0;
+  return with_parts(model_->valve, f,
+                    [&](const auto &parts, const char *word) { return id_in(parts, name, word); });
 }
 
 bool is_site_key(std::string_view key) {
@@ -185,7 +195,7 @@ mvs_site OpReader::site(const OpField &f, const Json &json) const {
       refuse(f, "an object with scallop, along and height");
     }
     site.how = MVS_SITE_ANATOMICAL;
-    site.scallop = id_in(model_.valve.scallops, text(f, json["scallop"]), "scallop");
+    site.scallop = part(f, text(f, json["scallop"]));
     site.u[0] = number(f, json["along"]);
     site.u[1] = number(f, json["height"]);
   }
@@ -224,11 +234,7 @@ void OpReader::read(const OpField &f, const Json &json) {
       texts_.push_back(std::make_unique<std::string>(text(f, json)));
       return put(texts_.back()->c_str(), f.offset);
     default:
-      return put(with_parts(model_.valve, f,
-                            [&](const auto &parts, const char *word) {
-                              return id_in(parts, text(f, json), word);
-                            }),
-                 f.offset);
+      return put(part(f, text(f, json)), f.offset);
   }
 }
 
@@ -237,6 +243,26 @@ bool is_remark(std::string_view key) {
   static constexpr std::string_view remarks[] = {"do",       "title",  "made",  "time", "group",
                                                  "group_id", "before", "after", "notes"};
   return std::find(std::begin(remarks), std::end(remarks), key) != std::end(remarks);
+}
+
+const OpKind &kind_of(const Json &json) {
+  const OpKind *kind = find_op_kind(json["do"].text());
+  MVS_MUST(kind != nullptr, MVS_E_VERSION, "plan",
+           "the operation \"%.40s\" is not known to this version of libmvs",
+           json["do"].text().c_str());
+  return *kind;
+}
+
+void OpReader::read(const Json &step) {
+  for (const Json::Member &member : step.members()) {
+    const std::string &key = member.first;
+    if (is_remark(key)) continue;
+    const auto f = std::find_if(kind_.fields.begin(), kind_.fields.end(),
+                                [&](const OpField &field) { return key_of(field) == key; });
+    MVS_MUST(f != kind_.fields.end(), MVS_E_FORMAT, kind_.name, "%s has no field \"%.60s\"",
+             kind_.name, key.c_str());
+    read(*f, member.second);
+  }
 }
 
 }  // namespace
@@ -252,21 +278,13 @@ Json op_json(const Operation &op, const Model &model) {
 }
 
 Operation read_op(const Json &json, const Model &model, bool exact) {
-  const OpKind *kind = find_op_kind(json["do"].text());
-  MVS_MUST(kind != nullptr, MVS_E_VERSION, "plan",
-           "the operation \"%.40s\" is not known to this version of libmvs",
-           json["do"].text().c_str());
-  OpReader reader(*kind, model, exact);
-  for (const Json::Member &member : json.members()) {
-    const std::string &key = member.first;
-    if (is_remark(key)) continue;
-    const auto f = std::find_if(kind->fields.begin(), kind->fields.end(),
-                                [&](const OpField &field) { return key_of(field) == key; });
-    MVS_MUST(f != kind->fields.end(), MVS_E_FORMAT, kind->name, "%s has no field \"%.60s\"",
-             kind->name, key.c_str());
-    reader.read(*f, member.second);
-  }
+  OpReader reader(kind_of(json), &model, exact);
+  reader.read(json);
   return reader.made();
+}
+
+void check_op(const Json &json) {
+  OpReader(kind_of(json), nullptr, true).read(json);
 }
 
 }  // namespace mvs::core

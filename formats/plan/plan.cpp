@@ -124,9 +124,18 @@ bool is_group_name(const std::string &name) {
   return name.size() <= name_limit && is_plain_text(name);
 }
 
+// The values that a reader of the plan shows to people.
+void check_remarks(const Json &json, std::initializer_list<const char *> texts) {
+  for (const char *key : texts) {
+    MVS_MUST(!json.has(key) || json[key].is_text(), MVS_E_FORMAT, "plan", "%s has to be a text",
+             key);
+  }
+}
+
 PlanStep read_step(const Json &json) {
   MVS_MUST(json.is_object() && json.has("do") && json["do"].is_text(), MVS_E_FORMAT, "plan",
            "a step has to be an object with a \"do\"");
+  check_remarks(json, {"title"});
   PlanStep step;
   step.event = read_event(json);
   if (step.event) {
@@ -160,6 +169,12 @@ void check_plan_keys(const Json &json) {
     MVS_MUST(std::find(std::begin(known), std::end(known), key) != std::end(known), MVS_E_FORMAT,
              "plan", "a plan has no field \"%.60s\"", key.c_str());
   }
+}
+
+void check_valve(const Json &json) {
+  if (!json.has("valve")) return;
+  MVS_MUST(json["valve"].is_object(), MVS_E_FORMAT, "plan", "valve has to be an object");
+  check_remarks(json["valve"], {"name", "hash"});
 }
 
 std::string hash_at(const Json &json, const char *part) {
@@ -276,6 +291,8 @@ Plan read_plan(std::string_view text) {
   check_format(json);
   check_plan_version(json, "plan");
   check_plan_keys(json);
+  check_remarks(json, {"author", "notes"});
+  check_valve(json);
   MVS_MUST(json.has("steps"), MVS_E_FORMAT, "plan", "the plan has no \"steps\"");
   return {hash_at(json, "valve"), hash_at(json, "result"), read_steps(json["steps"])};
 }

@@ -68,4 +68,7 @@ Json entry_json(const HistoryEntry &entry);
 Json op_json(const Operation &op, const Model &model);
 Operation read_op(const Json &json, const Model &model, bool exact);
 
+// Throws for keys, types and choices of an operation that read_op would refuse on any valve.
+void check_op(const Json &json);
+
 }  // namespace mvs::core

@@ -193,6 +193,12 @@ class Simulator {
   mvs_sim *sim_ = nullptr;
 };
 
+// Checks the text of a plan without a valve.
+inline mvs_replay check_plan(const std::string &text) {
+  const mvs_sim *no_valve = nullptr;
+  return filled<mvs_replay>(mvs_check_plan, no_valve, text.data(), text.size());
+}
+
 }  // namespace mvs
 
 #endif

@@ -49,7 +49,9 @@ MVS_API mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size
                                    mvs_replay *replay);
 
 /* Checks whether mvs_replay_plan would apply every operation of a plan, and that its tools exist
- * where it moves or removes them. The simulator does not change; settling is not replayed. */
+ * where it moves or removes them. The simulator does not change; settling is not replayed. Warns as
+ * mvs_replay_plan of other units, from the calling thread. `sim` is nullable: what depends on no
+ * valve is checked, such as keys and types. `replay` is nullable. */
 MVS_API mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t size,
                                   mvs_replay *replay);
 

@@ -33,6 +33,16 @@ mvs_replay replay_of(const Plan &plan, const Snapshot &from, const Snapshot &to)
   return replay;
 }
 
+// Warns of tissue and pressures of a plan that are probably in other units.
+void log_plan(const mvs_sim &sim, const Plan &plan, const Model &after, const Model &before) {
+  log_units(sim, after, &before);
+  for (const PlanStep &step : plan.steps) {
+    if (step.event && step.event->kind == RecordedEvent::load) {
+      log_pressure(sim, step.event->pressure);
+    }
+  }
+}
+
 }  // namespace
 
 extern "C" {
@@ -64,25 +74,26 @@ mvs_result mvs_replay_plan(mvs_sim *sim, const void *data, uint64_t size, mvs_re
     commit(s, std::move(steps.now),
            [&](const Snapshot &after) { return steps_record(before->value, after); });
     if (replay) write_struct(replay, how, "replay");
-    log_units(s, *s.present()->model, before->model.get());
-    for (const PlanStep &step : plan.steps) {
-      if (step.event && step.event->kind == RecordedEvent::load) {
-        log_pressure(s, step.event->pressure);
-      }
-    }
+    log_plan(s, plan, *s.present()->model, *before->model);
   });
 }
 
 mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t size, mvs_replay *replay) {
   return at_boundary([&] {
-    must_point(sim, "sim");
     if (replay) checked_struct_size(replay, "replay");
+    if (!sim) {
+      mvs_replay how = {};
+      how.operations = check_steps(read_plan(read_bytes(data, size)).steps);
+      if (replay) write_struct(replay, how, "replay");
+      return;
+    }
     const SnapshotPtr before = sim->present();
     const Plan plan = read_plan(read_bytes(data, size));
     const bool exact = plan.valve_hash == hash_text(before->value.current);
     Replay steps(before->value, exact, {});
     steps.run(plan.steps);
     if (replay) write_struct(replay, replay_of(plan, before->value, steps.now), "replay");
+    log_plan(*sim, plan, *steps.now.current.model, *before->model);
   });
 }
 

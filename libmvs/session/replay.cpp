@@ -79,7 +79,33 @@ Json flagged(const mvs_snapshot &snapshot, uint8_t flag) {
   return names;
 }
 
+// Runs the work of a step; a failure names the step, counted from 1, and its operation.
+template <typename Work>
+void in_step(const std::vector<PlanStep> &steps, size_t k, Work work) {
+  const PlanStep &step = steps[k];
+  const std::string word = step.event ? "" : step.op["do"].text() + ": ";
+  try {
+    work(step);
+  } catch (const Error &error) {
+    const bool named = std::string_view(error.what()).starts_with(word);
+    fail(error.code, error.part, "step %zu of the plan: %s%s", k + 1, named ? "" : word.c_str(),
+         error.what());
+  }
+}
+
 }  // namespace
+
+uint32_t check_steps(const std::vector<PlanStep> &steps) {
+  uint32_t operations = 0;
+  for (size_t k = 0; k < steps.size(); ++k) {
+    in_step(steps, k, [&](const PlanStep &step) {
+      if (step.event) return;
+      check_op(step.op);
+      ++operations;
+    });
+  }
+  return operations;
+}
 
 void Replay::operate(const PlanStep &step) {
   const Model &model = *now.current.model;
@@ -126,19 +152,13 @@ void Replay::note_tools(const RecordedEvent &event) {
 
 void Replay::run(const std::vector<PlanStep> &steps) {
   for (size_t k = 0; k < steps.size(); ++k) {
-    const PlanStep &step = steps[k];
-    const std::string word = step.event ? "" : step.op["do"].text() + ": ";
-    try {
+    in_step(steps, k, [&](const PlanStep &step) {
       if (step.event) {
         execute(*step.event, step.place);
       } else {
         operate(step);
       }
-    } catch (const Error &error) {
-      const bool named = std::string_view(error.what()).starts_with(word);
-      fail(error.code, error.part, "step %zu of the plan: %s%s", k + 1, named ? "" : word.c_str(),
-           error.what());
-    }
+    });
   }
 }
 

@@ -40,6 +40,10 @@ class Replay {
   uint64_t group_id_ = 0, number_ = 0;
 };
 
+// Checks what does not depend on a valve: keys, types and choices of the operations. Throws with
+// the number of the step; returns the number of operations.
+uint32_t check_steps(const std::vector<PlanStep> &steps);
+
 // Executes events with the solver of a simulator.
 RunEvent event_runner(mvs_sim &sim);
 

@@ -37,7 +37,7 @@ WRONG_VALUES = (["close", "v.obj", "--residual", 1e9], ["close", "v.obj", "--res
 
 # Contents of files, and parts of a valve, that are wrong.
 WRONG_CONTENTS = (["plan", "check", "far.json", "--on", "v.obj"], ["plan", "replay", "far.json", "--on", "v.obj"],
-                  ["repair", "v.obj", "--plan", "far.json"],
+                  ["plan", "show", "unknown.json"], ["repair", "v.obj", "--plan", "far.json"],
                   ["op", "v.obj", "ring", "--curve", "points.txt", "-o", "x.obj"],
                   ["op", "v.obj", "chord-remove", "--chord", "P9/9", "-o", "x.obj"],
                   ["op", "v.obj", "chord-add", "--head", "PM1", "--site", "node:99999", "-o", "x.obj"],

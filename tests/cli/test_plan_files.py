@@ -54,9 +54,11 @@ class Plans(Command):
         for text, words in (('{"format": "mvs-plan",\n "version": 1,\n}', "line 3"),
                             ({"steps": [step]}, 'lacks "format": "mvs-plan"'),
                             ({**head, "format": 3}, 'lacks "format": "mvs-plan"'),
-                            (head, '"steps" must be a list'),
+                            (head, 'the plan has no "steps"'),
+                            ({**head, "steps": 3}, '"steps" has to be a list'),
                             ({**head, "steps": [3]}, 'an object with a "do"'),
-                            ({**head, "steps": [step], "valve": "any"}, '"valve" must be')):
+                            ({**head, "steps": [step], "valve": "any"}, 'valve has to be an object'),
+                            ({**head, "steps": [{**step, "title": 3}]}, 'step 1: title has to be a text')):
             (self.dir / "own.json").write_text(text if isinstance(text, str) else json.dumps(text))
             for line in (["plan", "show", "own.json"],
                          ["repair", "sick.obj", "--plan", "own.json", "-o", "never.obj"]):
@@ -85,9 +87,30 @@ class Plans(Command):
     def test_a_load_of_a_plan_in_another_unit_is_warned_of(self):
         for pressure, words in ((120, "looks like mmHg given as Pa"), (15998.64, "")):
             self.plan("load.json", {"do": "load", "pressure_Pa": pressure, "boundary_fraction": 1})
-            said = self.ok("plan", "replay", "load.json", "--on", "v.obj").stderr
-            self.assertIn(words, said)
-            self.assertEqual(words != "", said != "")
+            for part in "replay", "check":
+                said = self.ok("plan", part, "load.json", "--on", "v.obj").stderr
+                self.assertIn(words, said)
+                self.assertEqual(words != "", said != "")
+
+    def test_every_command_refuses_what_no_valve_could_have(self):
+        ring = {"do": "ring", "size_m": 0.034}
+        for step, words in (({**ring, "colour": "red"}, 'ring has no field "colour"'),
+                            ({**ring, "size_m": "wide"}, "size_m has to be a number"),
+                            ({"do": "fly"}, 'operation "fly" is not known'),
+                            ({"do": "settle", "colour": "red"}, '"colour"'),
+                            ({"do": "chord_add", "head": "PM1", "site": {"node": 1, "at": 2}},
+                             'site has no field "at"')):
+            self.plan("odd.json", ring, step)
+            for line in (["plan", "show", "odd.json"], ["plan", "check", "odd.json", "--on", "v.obj"],
+                         ["plan", "replay", "odd.json", "--on", "v.obj"],
+                         ["repair", "sick.obj", "--plan", "odd.json"]):
+                with self.subTest(line, words=words):
+                    said = self.fails(*line).stderr
+                    self.assertRegex(said, r"^mvs: odd\.json: step 2[^\n]*\n$")
+                    self.assertIn(words, said)
+        (self.dir / "odd.json").write_text(json.dumps(
+            {"format": "mvs-plan", "version": 1, "steps": [], "colour": "red"}))
+        self.assertIn('a plan has no field "colour"', self.fails("plan", "show", "odd.json").stderr)
 
     def test_a_file_that_is_not_a_plan_is_refused(self):
         (self.dir / "empty.json").write_text("")
@@ -95,7 +118,7 @@ class Plans(Command):
             {"format": "mvs-plan", "version": 1, "steps": [{"do": "load", "pressure_Pa": "high"}]}))
         for name, words in (("v.obj", "is no plan"), ("nowhere.json", "No such file"),
                             (".", "cannot be read"), ("empty.json", "is no plan"),
-                            ("number.json", "wrong type")):
+                            ("number.json", "step 1: pressure_Pa has to be a number")):
             with self.subTest(name):
                 printed = self.fails("plan", "show", name).stderr
                 self.assertRegex(printed, rf"^mvs: {re.escape(name)}: [^\n]*{words}[^\n]*\n$")

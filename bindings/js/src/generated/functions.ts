@@ -609,9 +609,9 @@ const signatures: Record<string, Signature> = {
     name: "mvs_check_plan",
     returns: "mvs_result",
     steps: [
-      { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
+      { name: "sim", nullable: true, how: "handle", of: "mvs_sim" },
       { name: "data", nullable: false, how: "bytes" },
-      { name: "replay", nullable: false, how: "outStruct", of: "mvs_replay" },
+      { name: "replay", nullable: true, how: "outStruct", of: "mvs_replay" },
     ],
   },
   mvs_add_tool: {
@@ -1477,9 +1477,11 @@ export class Functions extends Calls {
 
   /**
    * Checks whether mvs_replay_plan would apply every operation of a plan, and that its tools exist
-   * where it moves or removes them. The simulator does not change; settling is not replayed.
+   * where it moves or removes them. The simulator does not change; settling is not replayed. Warns
+   * as mvs_replay_plan of other units, from the calling thread. `sim` is nullable: what depends on
+   * no valve is checked, such as keys and types. `replay` is nullable.
    */
-  mvs_check_plan(sim: SimHandle, data: Uint8Array | string): Replay {
+  mvs_check_plan(sim: SimHandle | null, data: Uint8Array | string): Replay {
     return this.invoke(signatures.mvs_check_plan!, [sim, data]) as never;
   }
 
