@@ -260,8 +260,8 @@ MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 /* Does now what the first mvs_step from here would do for the steps after it: memory, the search
  * for contact, an elimination order and a factor, several times the work of a step. For a valve
  * that is about to be stepped in real time, after mvs_settle, another load, a snapshot or a file.
- * Changes nothing but the time of the steps. `options`: those of the steps, nullable; the errors of
- * mvs_step. */
+ * Changes nothing but the time of the steps, whose options these are. The errors of mvs_step.
+ * `options` is nullable. */
 MVS_API mvs_result mvs_prepare_step(mvs_sim *sim, const mvs_step_options *options);
 
 /* Reads the statistics of the last settle or step of this valve; MVS_E_STATE before the first.

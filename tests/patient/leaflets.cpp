@@ -5,7 +5,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -209,7 +211,8 @@ TEST_CASE("places_as_low_as_the_commissures_are_counted") {
 // Leaflets of 22 and 13 mm that meet at a height of 7 mm. A dip of 6 mm in the middle of the lower
 // one makes two leaflets of it.
 TEST_CASE("a_third_leaflet_makes_the_guess_doubtful") {
-  constexpr int rows = 13, around = 96;
+  constexpr size_t rows = 13, around = 96;
+  constexpr double pi = std::numbers::pi;
   const std::vector<std::array<double, 2>> profile(rows + 1);
   for (const double dip : {0.0, 6e-3}) {
     SheetWithRims cone = revolved(profile, around);
@@ -219,7 +222,8 @@ TEST_CASE("a_third_leaflet_makes_the_guess_doubtful") {
       const double u = off < half ? off / half : (pi - off) / (pi - half);
       double height = 7e-3 + (off < half ? 15e-3 : 6e-3) * (1 - u * u);
       if (off >= half) height -= dip * std::exp(-16 * u * u);
-      const double down = static_cast<double>(k / around) / rows, inward = 1 - 20 * height * down;
+      const size_t row = k / around;
+      const double down = static_cast<double>(row) / rows, inward = 1 - 20 * height * down;
       const double y = 14e-3 * std::cos(angle);
       cone.sheet.x[k] = {-18e-3 * std::sin(angle) * inward, (y > 0 ? 0.75 * y : y) * inward,
                          -height * down};

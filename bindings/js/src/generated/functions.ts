@@ -253,7 +253,7 @@ const signatures: Record<string, Signature> = {
     returns: "mvs_result",
     steps: [
       { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
-      { name: "options", nullable: false, how: "inStruct", of: "mvs_step_options" },
+      { name: "options", nullable: true, how: "inStruct", of: "mvs_step_options" },
     ],
   },
   mvs_get_stats: {
@@ -1174,10 +1174,10 @@ export class Functions extends Calls {
    * Does now what the first mvs_step from here would do for the steps after it: memory, the search
    * for contact, an elimination order and a factor, several times the work of a step. For a valve
    * that is about to be stepped in real time, after mvs_settle, another load, a snapshot or a file.
-   * Changes nothing but the time of the steps. `options`: those of the steps, nullable; the errors
-   * of mvs_step.
+   * Changes nothing but the time of the steps, whose options these are. The errors of mvs_step.
+   * `options` is nullable.
    */
-  mvs_prepare_step(sim: SimHandle, options: StepOptions): void {
+  mvs_prepare_step(sim: SimHandle, options?: StepOptions | null): void {
     return this.invoke(signatures.mvs_prepare_step!, [sim, options]) as never;
   }
 
