@@ -151,10 +151,10 @@ def _node_thickness(snapshot: Snapshot) -> NDArray[np.float64]:
 
 def _areas(nodes: Points, triangles: NDArray[np.int64]) -> NDArray[np.float64]:
     a, b, c = (nodes[triangles[:, k]] for k in range(3))
-    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    return np.asarray(np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2)
 
 
-def _cones(start: list, end: list, first: list, last: list) -> Cones:
+def _cones(start: list[Points], end: list[Points], first: list[float], last: list[float]) -> Cones:
     return Cones(
         np.array(start, dtype=float).reshape(-1, 3), np.array(end, dtype=float).reshape(-1, 3),
         np.array(first, dtype=float), np.array(last, dtype=float),

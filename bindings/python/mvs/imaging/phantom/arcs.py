@@ -104,7 +104,7 @@ def _arc(p: Points, q: Points, length: float, out: Points) -> Points:
     angles = np.linspace(-half, half, count + 1)
     x = radius * np.sin(angles) + chord / 2
     y = radius * (np.cos(angles) - np.cos(half))
-    path = p + x[:, None] * along + y[:, None] * side
+    path: Points = p + x[:, None] * along + y[:, None] * side
     path[0], path[-1] = p, q
     return path
 

@@ -15,7 +15,7 @@ from ...errors import ArgumentError, Error
 from ...kinds import LeafletLaw
 from .files import label_errors_of, save
 from .volumes import Phantom, Volume, make
-from .settings import LABEL_ERRORS, PRESETS, LabelErrors, Settings
+from .settings import LABEL_ERRORS, PRESETS, Settings
 from .truth import MM, Progress
 
 LENGTHS = (
@@ -74,13 +74,13 @@ def settings_of(arguments: argparse.Namespace) -> Settings:
             raise ArgumentError(f"--blur takes one or two widths, not {len(blur)}", "blur")
         changes["blur"] = blur * 2 if len(blur) == 1 else blur
     usual = PRESETS[arguments.kind]()
-    errors = {
-        name: value for name, value in (
-            ("kinds", _kinds(arguments.label_errors)), ("mean", arguments.label_mean),
-            ("hd95", arguments.label_hd95),
-        ) if value is not None
-    }
-    changes["labels"] = dataclasses.replace(usual.labels, **errors)
+    kinds, mean, hd95 = _kinds(arguments.label_errors), arguments.label_mean, arguments.label_hd95
+    changes["labels"] = dataclasses.replace(
+        usual.labels,
+        kinds=usual.labels.kinds if kinds is None else kinds,
+        mean=usual.labels.mean if mean is None else mean,
+        hd95=usual.labels.hd95 if hd95 is None else hd95,
+    )
     return dataclasses.replace(usual, **changes)
 
 

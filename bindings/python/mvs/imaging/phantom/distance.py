@@ -61,12 +61,12 @@ class Cones:
         out = at - a
         if length <= abs(first - last):  # one sphere holds the other
             centre = np.zeros(3) if first >= last else axis
-            return np.linalg.norm(out - centre, axis=1) - max(first, last)
+            return np.asarray(np.linalg.norm(out - centre, axis=1) - max(first, last))
         slope = (first - last) / length
         y = out @ (axis / length)
         x = np.sqrt(np.maximum(np.einsum("ij,ij->i", out, out) - y * y, 0))
         s = np.clip(y - slope / np.sqrt(1 - slope * slope) * x, 0, length)
-        return np.sqrt(x * x + (y - s) ** 2) - first + slope * s
+        return np.asarray(np.sqrt(x * x + (y - s) ** 2) - first + slope * s)
 
 
 def distance_to_sheet(sheet: Sheet, triangle: NDArray[np.int32], at: Points) -> Values:
@@ -95,7 +95,7 @@ def distance_to_sheet(sheet: Sheet, triangle: NDArray[np.int32], at: Points) -> 
     inside = (beta >= 0) & (gamma >= 0) & (beta + gamma <= 1)
     best = np.where(inside, np.minimum(best, _dot(out, normal) ** 2 / area2), best)
     linear = half[0] + beta * (half[1] - half[0]) + gamma * (half[2] - half[0])
-    return np.sqrt(best) - np.where(inside, linear, thick)
+    return np.asarray(np.sqrt(best) - np.where(inside, linear, thick))
 
 
 def sheet_samples(sheet: Sheet, gap: float) -> tuple[Points, NDArray[np.int32]]:
@@ -118,4 +118,4 @@ def sheet_samples(sheet: Sheet, gap: float) -> tuple[Points, NDArray[np.int32]]:
 
 
 def _dot(a: Points, b: Points) -> Values:
-    return np.einsum("ij,ij->i", a, b)
+    return np.asarray(np.einsum("ij,ij->i", a, b))

@@ -66,4 +66,5 @@ def around(points: Points, spacing: float, margin: float, axes: Points, max_voxe
             f"take {np.ceil(least * 100) / 100:g} mm or more, or a smaller margin", "spacing",
         )
     middle = (low + high) / 2 - spacing * (size - 1) / 2
-    return Grid(tuple(int(n) for n in size), float(spacing), axes @ middle, axes.copy())
+    i, j, k = (int(n) for n in size)
+    return Grid((i, j, k), float(spacing), axes @ middle, axes.copy())

@@ -79,4 +79,4 @@ def _lateral(ways: Points) -> Points:
     mean /= max(float(np.linalg.norm(mean)), 1e-9)
     across = ways - (ways @ mean)[:, None] * mean
     largest = float(np.linalg.norm(across, axis=1).max())
-    return across / largest if largest > 1e-6 else 0 * across
+    return np.asarray(across / largest if largest > 1e-6 else 0 * across)

@@ -58,12 +58,10 @@ class Shares:
 
 def micro_ct_image(grid: Grid, shares: Shares, settings: Settings, stage: int) -> NDArray[np.int16]:
     """The micro-CT-like volume [k, j, i]."""
-    value = np.zeros(grid.shape, dtype=np.float32)
-    for part in shares.parts:
-        value += ATTENUATION[part.part] * part.share
-    value = _blurred(value, settings)
+    blurred = _blurred(_attenuation(grid, shares), settings)
     random = np.random.default_rng([settings.seed, 4, stage])
-    value = BACKGROUND + value * (1 + settings.bias * _bias(grid, random))
+    value = BACKGROUND + blurred * (1 + settings.bias * _bias(grid, random))
+    del blurred  # a volume is large
     value += ATTENUATION["leaflet"] * settings.noise * random.standard_normal(
         grid.shape, dtype=np.float32
     )
@@ -124,10 +122,17 @@ def reflection_of(
     return found
 
 
+def _attenuation(grid: Grid, shares: Shares) -> Array:
+    value = np.zeros(grid.shape, dtype=np.float32)
+    for part in shares.parts:
+        value += ATTENUATION[part.part] * part.share
+    return value
+
+
 def _blurred(value: Array, settings: Settings) -> Array:
     from scipy.ndimage import gaussian_filter
 
-    return gaussian_filter(value, _sigmas(settings), mode="nearest", truncate=4.0)
+    return np.asarray(gaussian_filter(value, _sigmas(settings), mode="nearest", truncate=4.0))
 
 
 def _sigmas(settings: Settings) -> tuple[float, float, float]:
@@ -155,4 +160,4 @@ def _bias(grid: Grid, random: np.random.Generator) -> Array:
     c = random.normal(size=9).astype(np.float32)
     field = c[0] * k + c[1] * j + c[2] * i + c[3] * k * j + c[4] * j * i + c[5] * k * i
     field = field + c[6] * (k * k - 1 / 3) + c[7] * (j * j - 1 / 3) + c[8] * (i * i - 1 / 3)
-    return field / np.float32(max(np.abs(field).max(), 1e-12))
+    return np.asarray(field / np.float32(max(np.abs(field).max(), 1e-12)))

@@ -56,7 +56,7 @@ def surface_voxels(label: NDArray[np.bool_]) -> NDArray[np.float64]:
     voxels = np.argwhere(label)
     if not len(voxels):
         return voxels.astype(float)
-    low = voxels.min(axis=0)
+    low: NDArray[np.int64] = voxels.min(axis=0)
     cut = np.pad(label[tuple(slice(a, b + 1) for a, b in zip(low, voxels.max(axis=0)))], 1)
     inner = cut.copy()
     for axis in range(3):

@@ -99,4 +99,4 @@ def _anterior(snapshot: Snapshot, nodes: Points) -> Points:
     own = np.asarray(snapshot.triangle_nodes)[np.asarray(snapshot.triangle_leaflet) == which]
     centres = nodes[own].mean(axis=1)
     middle = centres.mean(axis=0)
-    return centres[np.argmin(((centres - middle) ** 2).sum(axis=1))]
+    return np.asarray(centres[np.argmin(((centres - middle) ** 2).sum(axis=1))])

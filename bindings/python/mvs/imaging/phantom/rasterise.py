@@ -185,5 +185,5 @@ def _blocks(
                 continue
             size = last - first + 1
             index = np.indices(size[::-1]).reshape(3, -1).T[:, ::-1] + first
-            block = tuple(slice(p, q + 1) for p, q in zip(first[::-1], last[::-1]))
-            yield n, block, grid.to_patient(index.astype(float))
+            k, j, i = (slice(p, q + 1) for p, q in zip(first[::-1], last[::-1]))
+            yield n, (k, j, i), grid.to_patient(index.astype(float))

@@ -76,7 +76,7 @@ def micro_ct(**changes: object) -> Settings:
         drop_out=0.0, tilt=0.0, chords_seen=True, label_width=0.0, landmark_error=0.0,
         labels=LabelErrors(), misplaced=4.0,
     )
-    return dataclasses.replace(usual, **changes)  # type: ignore[arg-type]
+    return _changed(usual, changes)
 
 
 def ultrasound(**changes: object) -> Settings:
@@ -86,7 +86,11 @@ def ultrasound(**changes: object) -> Settings:
         drop_out=0.8, tilt=20.0, chords_seen=False, label_width=1.75, landmark_error=0.5,
         labels=LabelErrors(kinds=LABEL_ERRORS),
     )
-    return dataclasses.replace(usual, **changes)  # type: ignore[arg-type]
+    return _changed(usual, changes)
+
+
+def _changed(usual: Settings, changes: dict[str, object]) -> Settings:
+    return dataclasses.replace(usual, **changes)  # type: ignore[arg-type]  # refuses other names; _check values
 
 
 PRESETS = {"micro-ct": micro_ct, "ultrasound": ultrasound}

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Callable
-from typing import Optional, Union
+from typing import TYPE_CHECKING, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,9 @@ from ...errors import OpError
 from ...kinds import MMHG, LeafletLaw, NodeKind
 from .heads import with_spread_heads
 from .settings import Settings
+
+if TYPE_CHECKING:
+    from ...editing import _FilledValve
 
 MM = 1e3
 Progress = Optional[Callable[[str, float], None]]
@@ -101,22 +104,18 @@ def posed(valve: Valve, pose: NDArray[np.float64]) -> Valve:
     return moved
 
 
-def varied_thickness(valve: Valve, settings: Settings) -> NDArray[np.float64]:
+def varied_thickness(valve: _FilledValve, settings: Settings) -> NDArray[np.float64]:
     """The thickness of each triangle times 1 + variation * f, |f| <= 1, a sum of three long waves."""
-    leaflets = np.array([leaflet.thickness or 1e-3 for leaflet in valve.leaflets])
-    base = valve.triangle_thickness
-    if base is None:
-        base = leaflets[np.asarray(valve.triangle_leaflet)]
     random = np.random.default_rng([settings.seed, 2])
     centres = valve.nodes[valve.triangles].mean(axis=1)
     waves = random.normal(size=(3, 3))
     waves *= 2 * np.pi / 15e-3 / np.linalg.norm(waves, axis=1, keepdims=True)
     phases = random.uniform(0, 2 * np.pi, 3)
     factor = np.sin(centres @ waves.T + phases).sum(axis=1) / 3
-    return np.ascontiguousarray(base * (1 + settings.thickness_variation * factor))
+    return np.ascontiguousarray(valve.triangle_thickness * (1 + settings.thickness_variation * factor))
 
 
-def contact_thickness(valve: Valve) -> float:
+def contact_thickness(valve: _FilledValve) -> float:
     """The distance of mid-surfaces at which leaflets touch (m): their mean thickness.
 
     At most three quarters of the median edge: neighbours in the sheet are no contact.

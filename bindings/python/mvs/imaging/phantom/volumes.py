@@ -114,15 +114,18 @@ def _image_and_parts(
     solids: list[tuple[str, Solid]] = [("leaflet", sheet) for sheet in anatomy.leaflets]
     solids += [("muscles", anatomy.muscles), ("chordae", anatomy.chords), ("wall", anatomy.wall)]
     reach = max(np.sqrt(3) * settings.spacing, 0.3)
-    shares, elements, inside = Shares(grid), [], {}
+    shares, inside = Shares(grid), {}
+    elements: list[NDArray[np.int32]] = []
     for n, (name, solid) in enumerate(solids):
         field = distance_field(grid, solid, reach)
         shares.add(name, coverage(grid, solid, field, sub_voxels(settings.spacing, solid)))
         if name == "leaflet":
-            elements.append(field.element if settings.kind == "ultrasound" else None)
+            if settings.kind == "ultrasound":
+                elements.append(field.element)
         else:
             inside[name] = field.distance < 0
         done(0.1 + 0.5 * (n + 1) / len(solids))
+    image: NDArray[Any]
     if settings.kind == "ultrasound":
         reflection = reflection_of(grid, anatomy.leaflets, elements, settings)
         image = ultrasound_image(grid, shares, reflection, settings, stage)
@@ -177,14 +180,14 @@ def _placed(grid: Grid, placement: Matrix) -> Grid:
 
 
 def _apply(move: Matrix, points: Matrix) -> Matrix:
-    return points @ move[:3, :3].T + move[:3, 3]
+    return np.asarray(points @ move[:3, :3].T + move[:3, 3])
 
 
 def _rotation(axis: Matrix, angle: float) -> Matrix:
     """The rotation about an axis (Rodrigues)."""
     x, y, z = axis / np.linalg.norm(axis)
     cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+    return np.asarray(np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross)
 
 
 def places_of(snapshot: Snapshot) -> LeafletPlaces:
