@@ -10,9 +10,11 @@ from collections.abc import Iterable, Sequence
 from typing import Any, Union
 
 import numpy as np
+from numpy.typing import NDArray
 
 import mvs
 
+Values = Union[Sequence[float], NDArray[np.float64]]
 CLOSED = ("closed_annulus", "closed_tips")
 POINTS = ("annulus", "commissures", "anterior", "papillary_tips", *CLOSED)
 LENGTHS = ("thickness", "edge_error", "edge_lost", "thickness_error", "closed_error")
@@ -26,7 +28,7 @@ INPUTS = (*POINTS, *LENGTHS, LAW)
 
 
 def finding(name: str, source: mvs.FindingSource, confidence: float, sentence: str,
-            values: Sequence[float] = (), unit: str = "") -> mvs.Finding:
+            values: Values = (), unit: str = "") -> mvs.Finding:
     """A finding; `values` in SI units, points as x, y, z in turn."""
     return mvs.Finding(name, source, float(confidence), sentence,
                        np.asarray(values, float).ravel(), unit)
@@ -50,7 +52,7 @@ def write_findings(path: Union[str, "os.PathLike[str]"], source: str,
     os.replace(beside, path)
 
 
-def _digest(values: Sequence[float]) -> str:
+def _digest(values: Values) -> str:
     """A digest of the bits of the values (FNV-1a), as `mvs import` writes it: an edited row has another one."""
     known = 14695981039346656037
     for byte in np.asarray(values, "<f8").tobytes():
@@ -163,8 +165,8 @@ def with_limits(findings: Iterable[mvs.Finding]) -> tuple[mvs.Finding, ...]:
 
 
 def _law(path: Union[str, "os.PathLike[str]"], number: float) -> mvs.LeafletLaw:
-    try:
-        return mvs.LeafletLaw(number)
-    except ValueError:
-        raise mvs.FormatError(f'{os.fspath(path)}: the finding "{LAW}" has the value {number:g}: it has to be the number '
-                              f"of a law of leaflets, 1 to {len(mvs.LeafletLaw)}", LAW) from None
+    for law in mvs.LeafletLaw:
+        if law == number:
+            return law
+    raise mvs.FormatError(f'{os.fspath(path)}: the finding "{LAW}" has the value {number:g}: it has to be the number '
+                          f"of a law of leaflets, 1 to {len(mvs.LeafletLaw)}", LAW)

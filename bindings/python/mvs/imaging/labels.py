@@ -233,7 +233,7 @@ def _closed(grid: Grid, tissue: Volume, radius: float) -> Volume:
     voxels = radius / grid.step
     wide = image.distance_transform_edt(tissue < 0.5) <= voxels
     closed = image.distance_transform_edt(wide) > voxels
-    return np.maximum(tissue, closed.astype(np.float32))
+    return np.asarray(np.maximum(tissue, closed.astype(np.float32)))
 
 
 def report_thickness(sheet: Sheet, findings: list[Finding]) -> None:

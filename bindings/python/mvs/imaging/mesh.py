@@ -162,7 +162,7 @@ def _unlike_neighbours(triangles: Triangles) -> NDArray[np.int64]:
     if not unlike.any():
         return np.zeros((0, 2), np.int64)
     beside: list[list[tuple[int, bool]]] = [[] for _ in triangles]
-    pairs = np.column_stack([owner[first], owner[second]])
+    pairs: NDArray[np.int64] = np.column_stack([owner[first], owner[second]])
     for (a, b), turn in zip(pairs.tolist(), unlike.tolist()):
         beside[a].append((b, turn))
         beside[b].append((a, turn))
@@ -178,7 +178,7 @@ def _unlike_neighbours(triangles: Triangles) -> NDArray[np.int64]:
                     turned[other] = bool(turned[here]) != turn
                     front.append(other)
     way = np.array(turned, bool)
-    return pairs[(way[pairs[:, 0]] != way[pairs[:, 1]]) != unlike]
+    return np.asarray(pairs[(way[pairs[:, 0]] != way[pairs[:, 1]]) != unlike])
 
 
 def loop_length(points: Points, loop: NDArray[np.int64]) -> float:

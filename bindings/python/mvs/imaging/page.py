@@ -6,13 +6,14 @@ import html
 import io
 import os
 from string import Template
-from typing import Any, Optional, Union
+from typing import Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 import mvs
 from mvs.report.markup import cells, figure, heads, table
+from .mesh import Sheet
 from .needs import need
 from .repair import chapter
 from .valve import ImageValve, ScannedImage, leaflet_mesh
@@ -177,7 +178,7 @@ def _slices(made: ImageValve) -> str:
     return "".join(rows)
 
 
-def slice_picture(image: ScannedImage, snapshot: mvs.Snapshot, surface: Optional[Any]) -> bytes:
+def slice_picture(image: ScannedImage, snapshot: mvs.Snapshot, surface: Optional[Sheet]) -> bytes:
     """Three slices through a volume with the cuts of the mesh and of the surface in the image."""
     drawing = need("mvs.drawing.pictures")
     points, triangles = leaflet_mesh(snapshot)
@@ -186,7 +187,8 @@ def slice_picture(image: ScannedImage, snapshot: mvs.Snapshot, surface: Optional
     centre = frame.origin + frame.axes[2] * float(local[:, 2].mean())
     half = 1.25 * float(np.abs(local - [0, 0, local[:, 2].mean()]).max())
     shown = drawing.new_figure(15, 5.2)
-    letters = ({(0.03, 0.5): "P", (0.97, 0.5): "A"}, {}, {(0.5, 0.03): "P", (0.5, 0.97): "A"})
+    letters: tuple[dict[tuple[float, float], str], ...] = (
+        {(0.03, 0.5): "P", (0.97, 0.5): "A"}, {}, {(0.5, 0.03): "P", (0.5, 0.97): "A"})
     for k, (across, up) in enumerate(((0, 2), (1, 2), (1, 0))):
         right, high = frame.axes[across], frame.axes[up]
         ax = shown.add_axes((0.005 + k / 3, 0.01, 0.325, 0.98))
@@ -196,11 +198,10 @@ def slice_picture(image: ScannedImage, snapshot: mvs.Snapshot, surface: Optional
         ax.imshow(values, cmap="gray", origin="lower", extent=[-half * 1e3, half * 1e3] * 2,
                   vmin=float(np.percentile(values, 1)), vmax=max(float(values.max()), 1e-6))
         normal = np.cross(right, high)
-        for name, mesh in (("image", surface), ("mesh", (points, triangles))):
+        for name, mesh in (("image", surface), ("mesh", Sheet(points, triangles))):
             if mesh is None:
                 continue
-            both = mesh if isinstance(mesh, tuple) else (mesh.points, mesh.triangles)
-            for line in cut_lines(*both, centre, normal):
+            for line in cut_lines(mesh.points, mesh.triangles, centre, normal):
                 flat = (line - centre) * 1e3
                 ax.plot(flat @ right, flat @ high, color=COLOURS[name],
                         linewidth=1.2 if name == "mesh" else 2.2, alpha=0.95)

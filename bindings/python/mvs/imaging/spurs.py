@@ -97,14 +97,14 @@ def _ribbons(sheet: Sheet, rims: list[NDArray[np.int64]], half: float) -> list[N
     edges, _ = unique_edges(sheet.triangles)
     size = areas(sheet.points, sheet.triangles)
     core = _far_from(sheet.points, edges, np.unique(np.concatenate(rims)), half)
-    inner = _large_pieces(sheet, core[sheet.triangles].all(axis=1), size)
+    inner = _large_pieces(sheet, np.all(core[sheet.triangles], axis=1), size)
     if not inner.any():
         return []
     # paths along edges are up to a sixth longer than straight ones (in regular triangles), and the first points
     # beyond a distance lie an edge beyond it
     edge = np.percentile(np.linalg.norm(sheet.points[edges[:, 0]] - sheet.points[edges[:, 1]], axis=1), 99)
     lost = _far_from(sheet.points, edges, np.unique(sheet.triangles[inner]), 7 / 6 * half + float(edge))
-    ribbons = np.flatnonzero(~_large_pieces(sheet, ~lost[sheet.triangles].any(axis=1), size))
+    ribbons = np.flatnonzero(~_large_pieces(sheet, ~np.any(lost[sheet.triangles], axis=1), size))
     piece = pieces(sheet.triangles[ribbons], len(sheet.points))
     area = np.bincount(piece, size[ribbons])
     return [ribbons[piece == k] for k in np.flatnonzero(area >= half**2)]  # smaller ones are corners of a rim

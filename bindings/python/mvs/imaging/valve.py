@@ -45,7 +45,8 @@ def scanned(image: Any, motion: Optional[Motion] = None) -> ScannedImage:
     """A volume, or the segments of a label map, for pictures; at most some 10 million voxels."""
     sitk = need("SimpleITK")
     if isinstance(image, LabelMap):
-        mask = sum((k + 1) * m.astype(np.uint8) for k, m in enumerate(image.masks.values()))
+        none = np.zeros(image.image.GetSize()[::-1], np.uint8)
+        mask = sum(((k + 1) * m.astype(np.uint8) for k, m in enumerate(image.masks.values())), none)
         drawn = sitk.GetImageFromArray(mask)
         drawn.CopyInformation(image.image)
         image = crop(drawn, mask > 0, 10e-3)

@@ -77,7 +77,7 @@ def nifti_length(header: bytes) -> int:
     voxels = 1
     for size in dim[1:dim[0] + 1]:
         voxels *= max(1, int(size))
-    return int(offset) + voxels * bits // 8
+    return int(offset) + voxels * int(bits) // 8
 
 
 MOST_SHIFT = 0.25

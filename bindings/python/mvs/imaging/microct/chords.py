@@ -93,7 +93,8 @@ def heads_of(at: Points, paths: Paths, tips: Optional[Points]) -> tuple[Points, 
         used, number = np.unique(nearest, return_inverse=True)
         return np.asarray(tips, float)[used], number
     hierarchy = need("scipy.cluster.hierarchy")
-    number, places = np.zeros(len(begin), np.int64), []
+    number = np.zeros(len(begin), np.int64)
+    places: list[Points] = []
     for label in np.unique(muscle):
         rows = np.flatnonzero(muscle == label)
         group = (hierarchy.fcluster(hierarchy.linkage(begin[rows], "average"), SAME_HEAD, "distance")
@@ -162,7 +163,7 @@ def smooth_line(line: Points, step: float) -> Points:
     odd = np.vstack([-away[:0:-1], away, -away[-2::-1]])
     sigma = min(1.2e-3 / step, count / 4)
     away = need("scipy.ndimage").gaussian_filter1d(odd, sigma, axis=0)[count - 1:2 * count - 1]
-    return straight + away
+    return np.asarray(straight + away)
 
 
 def diameters(tissue: Tissue, mask: NDArray[np.bool_], lines: tuple[Points, ...]) -> Points:

@@ -10,17 +10,21 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from typing import Optional
+from typing import TYPE_CHECKING, Optional
 
 import numpy as np
 
 import mvs
+from mvs.laws import leaflet_law_of
 from ..console import Console
 from ..findings import finding
 from ..mesh import Sheet
 from ..valve import distance_from_image
 from .loaded import Closure, settled
 from .tissue import tissue_finding, with_law
+
+if TYPE_CHECKING:
+    from mvs.editing import _FilledValve
 
 LENGTH_PRIOR = mvs.Prior(0.1, 3.0)
 """Standard deviation of a measured length, share: with 0.2 four phantoms closed 0.01 to 0.06 mm nearer, and a fit took
@@ -47,13 +51,13 @@ class Fitted:
     """A valve with fitted lengths, closed from open. Distances from the loaded image, m RMS: of this closure, and
     of that which the fit followed (`along`)."""
 
-    valve: mvs.Valve
+    valve: _FilledValve
     closure: Closure
     distance: float
     along: float
 
 
-def with_fitted_lengths(valve: mvs.Valve, closure: Closure, laws: Sequence[mvs.LeafletLaw], loaded: Sheet,
+def with_fitted_lengths(valve: _FilledValve, closure: Closure, laws: Sequence[mvs.LeafletLaw], loaded: Sheet,
                         console: Console) -> tuple[Closure, list[mvs.Finding]]:
     """Sets the rest lengths of a valve, and the law of its leaflets, to those that close it nearest to the
     loaded image.
@@ -62,7 +66,7 @@ def with_fitted_lengths(valve: mvs.Valve, closure: Closure, laws: Sequence[mvs.L
     """
     before = _distance(closure[1], loaded)
     fits: dict[mvs.LeafletLaw, Fitted] = {}
-    own = valve.leaflets[0].law
+    own = _law_of(valve)
     for law in list(laws[:TISSUES]) or [own]:
         console.stage(f"fitting the lengths of chordae with the tissue {law.name.lower()}")
         changed = dataclasses.replace(valve, leaflets=valve.leaflets if law == own else with_law(valve.leaflets, law))
@@ -77,7 +81,7 @@ def with_fitted_lengths(valve: mvs.Valve, closure: Closure, laws: Sequence[mvs.L
         fit = _fitted(dataclasses.replace(best.valve), best.closure, loaded, console)
         if fit is None or fit.distance > LESS * best.distance:
             break
-        best = fits[best.valve.leaflets[0].law] = fit
+        best = fits[_law_of(best.valve)] = fit
     if best is None or (closure[2].converged and best.distance > LESS * before):
         return closure, [finding(
             "fitted_chordae", mvs.FindingSource.MEASURED, 0.3,
@@ -96,7 +100,7 @@ def with_fitted_lengths(valve: mvs.Valve, closure: Closure, laws: Sequence[mvs.L
     return best.closure, found
 
 
-def _fitted(valve: mvs.Valve, closure: Optional[Closure], loaded: Sheet, console: Console) -> Optional[Fitted]:
+def _fitted(valve: _FilledValve, closure: Optional[Closure], loaded: Sheet, console: Console) -> Optional[Fitted]:
     """None if the valve does not come to rest without crossings, or nothing can be fitted.
 
     closure: of the valve as it is, where it is known
@@ -115,6 +119,10 @@ def _fitted(valve: mvs.Valve, closure: Optional[Closure], loaded: Sheet, console
     if not closure[2].converged or closure[1].measures.intersections:
         return None
     return Fitted(valve, closure, _distance(closure[1], loaded), _distance(fit.closed, loaded))
+
+
+def _law_of(valve: _FilledValve) -> mvs.LeafletLaw:
+    return mvs.LeafletLaw(leaflet_law_of(valve.leaflets[0].law))
 
 
 def _distance(closed: mvs.Snapshot, loaded: Sheet) -> float:

@@ -97,7 +97,7 @@ def paths_of(results: Mapping[str, Any]) -> Paths:
         links, directed=False, indices=starts, min_only=True, return_predecessors=True)
     ends = ends[np.isfinite(distance[ends])]
     ends = _one_of_each_flare(ends, voxels, to_leaflet, before, step)
-    paths = tuple(_trace(before, end) for end in ends)
+    paths = tuple(_trace(before, int(end)) for end in ends)
     return Paths(voxels, paths, tuple(int(own[path[0]]) for path in paths), chords)
 
 

@@ -48,7 +48,8 @@ def ways_of(network: ChordNetwork) -> list[Way]:
     arriving = {int(b): k for k, (_, b) in enumerate(network.segments)}
     ways = []
     for end in range(network.heads + network.branches, len(network.nodes)):
-        chain, node = [], end
+        chain: list[int] = []
+        node = end
         while node in arriving and len(chain) < len(network.segments):
             chain.append(arriving[node])
             node = int(network.segments[arriving[node], 0])

@@ -187,7 +187,7 @@ def opened(flat: Mask, radius: float) -> Mask:
     image = need("scipy.ndimage")
     amount = image.gaussian_filter(flat.astype(np.float32), radius, truncate=3)
     usual = float(np.median(amount[flat])) if flat.any() else 0.0
-    return flat & (amount > 0.6 * usual)
+    return np.asarray(flat & (amount > 0.6 * usual))
 
 
 def blown_up(mask: Mask, factor: int, shape: tuple[int, ...]) -> Mask:
@@ -202,7 +202,7 @@ def blocks(mask: Mask, factor: int) -> Volume:
     pad = [(0, -n % factor) for n in mask.shape]
     whole = np.pad(mask, pad)
     a, b, c = (n // factor for n in whole.shape)
-    return whole.reshape(a, factor, b, factor, c, factor).mean(axis=(1, 3, 5), dtype=np.float32)
+    return np.asarray(whole.reshape(a, factor, b, factor, c, factor).mean(axis=(1, 3, 5), dtype=np.float32))
 
 
 def flatness(share: Volume, sigma: float) -> Volume:
@@ -211,8 +211,7 @@ def flatness(share: Volume, sigma: float) -> Volume:
     Near 1 in a plane, some 0.2 at a straight rim, 0 in a cable.
     """
     image = need("scipy.ndimage")
-    blur = lambda field: image.gaussian_filter(field, sigma, truncate=3)  # noqa: E731
-    weight = blur(share)
+    weight = image.gaussian_filter(share, sigma, truncate=3)
     at = np.argwhere(share > 0)
     rows = tuple(at.T)
     inverse = 1 / np.maximum(weight[rows], 1e-6)

@@ -7,7 +7,8 @@ image does not show it; the loaded one does, as the chordae and the boundary are
 from __future__ import annotations
 
 import dataclasses
-from typing import Optional
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Optional
 
 import mvs
 from ..console import Console
@@ -16,12 +17,15 @@ from ..mesh import Sheet
 from ..valve import distance_from_image
 from .loaded import Closure, settled
 
+if TYPE_CHECKING:
+    from mvs.editing import _FilledValve
+
 CANDIDATES = (mvs.LeafletLaw.BILINEAR, mvs.LeafletLaw.FUNG, mvs.LeafletLaw.MAY_NEWMAN_YIN,
               mvs.LeafletLaw.PROT)
 """Membranes of mitral tissue, each with the published constants of the library"""
 
 
-def with_tissue_of_image(valve: mvs.Valve, loaded: Sheet, console: Console
+def with_tissue_of_image(valve: _FilledValve, loaded: Sheet, console: Console
                          ) -> tuple[mvs.Finding, Closure, list[mvs.LeafletLaw]]:
     """Sets the law of all leaflets of a valve to that whose closure is nearest to the loaded image, and
     closes the valve. Returns the laws as well, nearest first.
@@ -64,6 +68,6 @@ def tissue_finding(away: dict[mvs.LeafletLaw, float]) -> mvs.Finding:
         f"{words}); give --leaflet if the tissue is known", [away[law] for law in order], "m")
 
 
-def with_law(leaflets: list[mvs.Leaflet], law: mvs.LeafletLaw) -> list[mvs.Leaflet]:
+def with_law(leaflets: Sequence[mvs.Leaflet], law: mvs.LeafletLaw) -> list[mvs.Leaflet]:
     """Leaflets with the published constants of a law."""
     return [dataclasses.replace(one, law=law, constants=()) for one in leaflets]

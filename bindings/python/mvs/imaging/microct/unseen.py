@@ -8,6 +8,8 @@ the lengths of all. Without a loaded image nothing would tell a chord that is no
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,6 +20,9 @@ from ..needs import need
 from ..valve import nearest_on
 from .muscles import SAME_MUSCLE
 
+if TYPE_CHECKING:
+    from mvs.editing import _FilledValve
+
 Points = NDArray[np.float64]
 EMPTY = 2e-3
 """m: places of normal anatomy with no insertion this near are empty. Insertions are 2 to 4 mm apart, those that are
@@ -26,7 +31,7 @@ SYSTOLIC_STRAIN = 0.015
 """Strain of chordae in the closed valve, as in libmvs/patient/chordae/patient_chordae.cpp"""
 
 
-def with_unseen_chords(valve: mvs.Valve, normal: mvs.Snapshot, closed: mvs.Snapshot,
+def with_unseen_chords(valve: _FilledValve, normal: mvs.Snapshot, closed: mvs.Snapshot,
                        loaded: Sheet) -> list[mvs.Finding]:
     """Adds chordae to a valve whose chordae are those that were seen.
 
@@ -85,7 +90,7 @@ def _heads_for(valve: mvs.Valve, muscle: Points, wanted: Points) -> tuple[NDArra
     return np.where(np.isfinite(length), nodes[best], -1), length
 
 
-def _append(valve: mvs.Valve, ends: NDArray[np.int64], rest: Points, kind: NDArray[np.uint32]) -> None:
+def _append(valve: _FilledValve, ends: NDArray[np.int64], rest: Points, kind: NDArray[np.uint32]) -> None:
     """Adds chordae as thick and stiff as those that insert on the leaflets."""
     inserting = np.asarray(valve.chord_kind) != mvs.ChordKind.TRUNK
     count = len(ends)

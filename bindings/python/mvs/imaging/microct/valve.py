@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +26,9 @@ from .muscles import muscle_groups
 from .stages import PIPELINE
 from .tissue import with_tissue_of_image
 from .unseen import with_unseen_chords
+
+if TYPE_CHECKING:
+    from mvs.editing import _FilledValve
 
 Points = NDArray[np.float64]
 MARGINAL, BASAL = 2.5e-3, 4e-3
@@ -122,7 +125,7 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
                                findings=(*kept, *found))
 
 
-def _with_unseen_and_fitted(valve: mvs.Valve, normal: mvs.Snapshot, closure: Closure, laws: list[mvs.LeafletLaw],
+def _with_unseen_and_fitted(valve: _FilledValve, normal: mvs.Snapshot, closure: Closure, laws: list[mvs.LeafletLaw],
                             loaded: Sheet, console: Console) -> tuple[Closure, list[mvs.Finding]]:
     """Adds chordae that are not seen, and fits the lengths of all. Where no fit is nearer to the loaded image, those seen are
     fitted alone, and the nearer valve is taken.
@@ -176,7 +179,7 @@ def _vertices_of(opened: mvs.Snapshot, network: ChordNetwork) -> tuple[NDArray[n
     return free[columns[np.argsort(rows)]], away[rows, columns]
 
 
-def _set_chords(valve: mvs.Valve, opened: mvs.Snapshot, network: ChordNetwork,
+def _set_chords(valve: _FilledValve, opened: mvs.Snapshot, network: ChordNetwork,
                 vertex: NDArray[np.int64]) -> None:
     kinds = np.asarray(opened.node_kind)
     count = int((kinds <= mvs.NodeKind.ANNULUS).sum())
