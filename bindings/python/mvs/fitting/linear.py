@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from .result import Fit
 
 Array = NDArray[np.float64]
+Quantity = tuple[int, int, int, None, None, Optional[Array]]
+"""A row for Snapshot._sensitivity; the last: weights of the positions."""
 
 EXACT, LINEARISED = 1e-9, 1e-7
 """N, residuals of the fit and of the valve whose chordae are all just taut: a node with a stiffness of 0.05 N/m
@@ -66,7 +68,7 @@ class Linear:
     def own(self) -> Array:
         """Tension by slack, of all chordae, with the stiffness of SOFTEST."""
         own = -self.slope[:, self.chords]
-        return own + SOFTEST * np.abs(np.diag(own)).max(initial=0) * np.eye(len(own))
+        return np.asarray(own + SOFTEST * np.abs(np.diag(own)).max(initial=0) * np.eye(len(own)))
 
     def slack_of(self, z: Array, guess: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_]]:
         """Slack y >= 0 of each chord, with w = z - y, and which are slack, from a guess of these: block
@@ -111,7 +113,7 @@ class Linear:
         mean = kept.mean(axis=0)
         chance = np.trace(inverse @ np.atleast_2d(np.cov(kept, rowvar=False))) / len(kept)
         share = 1 - chance / max(mean @ inverse @ mean, 1e-300)
-        return max(share, 0.0) * mean
+        return np.asarray(max(share, 0.0) * mean)
 
     def energy(self, z: Array, slack: NDArray[np.bool_]) -> tuple[float, Array, NDArray[np.bool_]]:
         """Minus the logarithm of the posterior, its gradient, and the slack chordae."""
@@ -144,7 +146,7 @@ def linearised(fit: Fit, trees: bool = True) -> Linear:
         at = _settled(free, z, places, closed, LINEARISED)
     x = np.array(at.node_position)
     residual, nodes, directions = fit.target.residuals(x)
-    quantities = [(QUANTITY["tension"], int(c), 0, None, None, None) for c in of]
+    quantities: list[Quantity] = [(QUANTITY["tension"], int(c), 0, None, None, None) for c in of]
     quantities = quantities or [(QUANTITY["linear"], 0, 0, None, None, np.zeros_like(x))]
     found = at._sensitivity(quantities, list(free.rows), MOTION | NO_TEST, None)
     motion = found["motion"].reshape(len(z), -1, 3)[:, nodes]

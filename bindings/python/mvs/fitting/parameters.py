@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Mapping
-from typing import Optional
+from typing import TYPE_CHECKING, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,9 @@ from ..laws import exact, leaflet_law
 from ..sensitivity_rows import AXES
 from ..words import did_you_mean, listed
 from .rows import THICKNESS, rows_of
+
+if TYPE_CHECKING:
+    from ..editing import _FilledValve
 
 Array = NDArray[np.float64]
 
@@ -65,7 +68,7 @@ class Free:
     reach: Array
     lowest: Array
     highest: Array
-    base: Valve
+    base: _FilledValve
 
     @property
     def low(self) -> Array:
@@ -107,19 +110,19 @@ class Free:
     def _leaflets(self, value: Mapping[str, float]) -> list[Leaflet]:
         made = []
         for leaflet in self.base.leaflets:
-            assert isinstance(leaflet, Leaflet)
+            assert isinstance(leaflet.constants, tuple)  # Leaflet makes a tuple of a mapping too
             keys = [constant.key for constant in leaflet_law(leaflet.law).constants]
             constants = [value.get(f"tissue {leaflet.name} {key}", old)
                          for key, old in zip(keys, leaflet.constants)]
             made.append(dataclasses.replace(leaflet, constants=tuple(map(exact, constants))))
         return made
 
-    def _set_thickness(self, made: Valve, value: Mapping[str, float]) -> None:
+    def _set_thickness(self, made: _FilledValve, value: Mapping[str, float]) -> None:
         for row, leaflet in enumerate(self.base.leaflets):
-            label = f"thickness {leaflet.name}"  # type: ignore[union-attr]
+            label = f"thickness {leaflet.name}"
             if label not in value:
                 continue
-            change = value[label] - leaflet.thickness  # type: ignore[union-attr]
+            change = value[label] - leaflet.thickness
             mine = self.base.triangle_leaflet == row
             changed = np.clip(made.triangle_thickness + change, *THICKNESS)  # beyond it by rounding only
             made.triangle_thickness = np.where(mine, changed, made.triangle_thickness)

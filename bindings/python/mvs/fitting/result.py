@@ -101,7 +101,7 @@ class Fit:
     def singular_values(self) -> Array:
         """Singular values of the Jacobian in standard deviations of data and prior: directions above 1 are determined
         better by the data than by the prior."""
-        return np.linalg.svd(self.jacobian, compute_uv=False)
+        return np.asarray(np.linalg.svd(self.jacobian, compute_uv=False), float)
 
     @property
     def determined(self) -> Array:
@@ -114,7 +114,7 @@ class Fit:
     def covariance_z(self) -> Array:
         """Posterior covariance of z (Laplace's approximation): (J^T J + I)^-1."""
         normal = self.jacobian.T @ self.jacobian + (np.eye(len(self.z)) if self.with_prior else 0)
-        return np.linalg.pinv(normal, hermitian=True)
+        return np.asarray(np.linalg.pinv(normal, hermitian=True), float)
 
     @property
     def covariance(self) -> Array:
@@ -181,7 +181,7 @@ class Fit:
         found = self.closed._sensitivity([(8, 0, 0, name, None, None)], list(self.free.rows), NO_TEST, None)
         value = float(found["value"][0])
         slope = np.asarray(found["derivative"][0]) * self.free.deviation
-        deviation = float(np.sqrt(max(slope @ self.covariance_z @ slope, 0)))
+        deviation = float(np.sqrt(max(float(slope @ self.covariance_z @ slope), 0.0)))
         reach = _normal_quantile(0.5 + level / 2) * deviation
         return Interval(name, unit, value, deviation, value - reach, value + reach, level)
 

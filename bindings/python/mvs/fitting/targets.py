@@ -75,9 +75,7 @@ def closest_on_triangles(p: Array, corners: Array) -> Array:
     """The closest point of each triangle (..., 3, 3) to each point (..., 3), by Voronoi regions (Ericson,
     Real-Time Collision Detection, 2005)."""
     a, b, c = corners[..., 0, :], corners[..., 1, :], corners[..., 2, :]
-    dot = lambda u, v: (u * v).sum(axis=-1)  # noqa: E731
     ab, ac = b - a, c - a
-    best = None
     d00, d01, d11 = dot(ab, ab), dot(ab, ac), dot(ac, ac)
     d20, d21 = dot(p - a, ab), dot(p - a, ac)
     det = d00 * d11 - d01 * d01
@@ -94,7 +92,12 @@ def closest_on_triangles(p: Array, corners: Array) -> Array:
         nearer = square < least
         best = np.where(nearer[..., None], foot, best)
         least = np.where(nearer, square, least)
-    return best
+    return np.asarray(best)
+
+
+def dot(u: Array, v: Array) -> Array:
+    """The products of vectors along the last axis."""
+    return np.asarray((u * v).sum(axis=-1))
 
 
 def target_of(start: _core.Snapshot, given: Any) -> Target:

@@ -78,4 +78,4 @@ def _balanced(x: Array, ends: NDArray[np.int64], rest: Array, idle: NDArray[np.b
         x[nodes] = found if sweep == 0 else x[nodes] + (found - x[nodes]) / (POWER - 1)
         ratio = np.linalg.norm(x[ends[:, 1]] - x[ends[:, 0]], axis=1) / rest
         weight = (ratio / ratio.max()) ** (POWER - 2) / rest**2
-    return weight * ratio * rest
+    return np.asarray(weight * ratio * rest)
