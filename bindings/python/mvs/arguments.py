@@ -14,7 +14,7 @@ import operator
 import os
 import re
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Optional
+from typing import Any, Optional, SupportsIndex
 
 from .words import did_you_mean, shown
 
@@ -102,14 +102,14 @@ def _is_number(value: object) -> bool:
 
 def _is_index(value: object) -> bool:
     try:
-        return operator.index(value) >= 0  # type: ignore[arg-type]
+        return isinstance(value, SupportsIndex) and operator.index(value) >= 0
     except TypeError:
         return False
 
 
 def _is_triple(value: object, count: int) -> bool:
     try:
-        return len(value) == count and all(map(_is_number, value))  # type: ignore
+        return len(value) == count and all(map(_is_number, value))  # type: ignore[arg-type,call-overload]  # TypeError: below
     except TypeError:
         return False
 

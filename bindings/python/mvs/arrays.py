@@ -96,16 +96,17 @@ class Curve:
 
 def _with_near_names(kind: Kind) -> Kind:
     """Lets the constructor of a dataclass name the fields that an unknown one may mean."""
-    make = kind.__init__  # type: ignore[misc]
+    make = kind.__init__  # type: ignore[misc]  # a subclass could have another one, and kind is no subclass
+    known = {field.name for field in dataclasses.fields(kind)}
 
     @functools.wraps(make)
     def checked(self: Any, *given: Any, **named: Any) -> None:
         for name in named:
-            if name not in kind.__dataclass_fields__:  # type: ignore[attr-defined]
+            if name not in known:
                 raise TypeError(_no_field(name))
         make(self, *given, **named)
 
-    kind.__init__ = checked  # type: ignore[misc]
+    kind.__init__ = checked  # type: ignore[misc]  # kind is no subclass, as above
     return kind
 
 

@@ -87,7 +87,7 @@ class Sensitivity:
 
     def __getitem__(self, label: str) -> Array:
         """The row of a quantity, by its label."""
-        return self.derivative[self._row(label)]
+        return np.asarray(self.derivative[self._row(label)])
 
     def _row(self, label: str) -> int:
         label = SHORT.get(label, label)
@@ -160,7 +160,9 @@ def sensitivity(
     found = self._sensitivity([r[2] for r in rows], [c[2] for c in columns], flags, slack)
     moved = found.pop("motion")
     nodes = len(self.node_position)
-    notes = {key: tuple(map(_words, found.pop(key).tolist())) for key in ("of_notes", "to_notes")}
+    of_notes, to_notes = (
+        tuple(map(_words, found.pop(key).tolist())) for key in ("of_notes", "to_notes")
+    )
     found.pop("weak_chords")
     for key in ("derivative", "above", "below"):
         found[key] = found[key].reshape(len(rows), len(columns))  # a view of one column has one axis
@@ -169,9 +171,10 @@ def sensitivity(
         to=tuple(c[0] for c in columns),
         of_units=tuple(r[1] for r in rows),
         to_units=tuple(c[1] for c in columns),
+        of_notes=of_notes,
+        to_notes=to_notes,
         snapshot=self,
         motion=moved.reshape(len(columns), -1, 3)[:, :nodes] if motion else None,
-        **notes,
         **found,
     )
 

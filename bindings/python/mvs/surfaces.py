@@ -66,7 +66,7 @@ class Landmarks:
         """The position (3,) in m of the first point of this name; KeyError for another name."""
         if name not in self.names:
             raise KeyError(f'there is no point "{name}"{did_you_mean(name, self.names)}')
-        return self.points[self.names.index(name)]
+        return np.asarray(self.points[self.names.index(name)])
 
     def __repr__(self) -> str:
         size = f"{len(self)} points, {self.frame or 'unknown frame'}"

@@ -98,7 +98,7 @@ class Table(Sequence[Row]):
 
 def _pandas() -> Any:
     try:
-        import pandas  # type: ignore[import-untyped,unused-ignore]
+        import pandas
     except ImportError as error:
         raise ImportError("to_dataframe needs pandas: pip install 'libmvs[tables]'") from error
     return pandas

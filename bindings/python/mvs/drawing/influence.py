@@ -25,7 +25,7 @@ NAMED = 5
 """Chordae of the largest influence that get their names."""
 
 
-@matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
+@matplotlib.rc_context(STYLE)
 def influence_map(
     drawing: Drawing, change: NDArray[np.float64], names: list[str], text: str
 ) -> bytes:

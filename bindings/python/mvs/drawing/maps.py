@@ -61,7 +61,7 @@ def deviation_map(drawing: Drawing, deviation: NDArray[np.float64], width: float
     return _map(drawing, colours, text, width, extend="max")
 
 
-@matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
+@matplotlib.rc_context(STYLE)
 def _map(
     drawing: Drawing,
     colours: Colours,
@@ -136,7 +136,7 @@ def _draw_borders(ax: Any, drawing: Drawing, flat: Unrolled) -> None:
                     fontsize=12, fontweight="bold")
 
 
-@matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
+@matplotlib.rc_context(STYLE)
 def section_plot(other: Drawing, closed: Drawing, name: str = "open") -> bytes:
     """The central anteroposterior cross-section of a closed valve, its sheets as thick as the
     contact thickness, and that of another shape of the valve as a line."""

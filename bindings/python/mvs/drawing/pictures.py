@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping
-from typing import Any, Optional
+from typing import TYPE_CHECKING, Any, Optional
 
 import matplotlib
 import matplotlib.image
@@ -18,11 +18,14 @@ from mvs import PartKind
 from .geometry import Drawing
 from .scene import ORIFICE_PARTS, Colours, Scene, View, orifice_colour
 
+if TYPE_CHECKING:
+    from matplotlib.typing import RcKeyType
+
 INK = "#222222"
 DPI = 110
 LABEL_STEP = 5.5
 """mm of the picture between labels of parts of the orifice."""
-STYLE = {"font.family": "DejaVu Sans", "font.size": 11, "text.color": INK}
+STYLE: dict[RcKeyType, Any] = {"font.family": "DejaVu Sans", "font.size": 11, "text.color": INK}
 """Settings of matplotlib within a drawing function; those of the user stay as they are."""
 
 
@@ -118,7 +121,7 @@ def colour_bar(figure: Any, ax: Any, colours: Colours, text: str, extend: str = 
     bar.outline.set_visible(False)
 
 
-@matplotlib.rc_context(STYLE)  # type: ignore[arg-type]
+@matplotlib.rc_context(STYLE)
 def picture(
     drawing: Drawing,
     view: View,

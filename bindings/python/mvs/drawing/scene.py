@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from typing import Any, Optional
+from typing import Any, Literal, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,7 +82,7 @@ class Scene:
         self.plotter = pyvista.Plotter(
             off_screen=True, window_size=[PIXELS, int(PIXELS * height)], lighting="none"
         )
-        self.plotter.set_background("white")  # type: ignore[arg-type]
+        self.plotter.set_background("white")  # type: ignore[arg-type]  # functools.wraps in pyvista hides self
         for position, strength in (
             ((-0.7, 0.9, 1.0), 0.7),
             ((1.0, 0.1, 0.6), 0.34),
@@ -179,7 +179,7 @@ class Scene:
         values: Optional[NDArray[np.float64]] = None,
         high: float = 1.0,
         low: float = 0.0,
-        shades: str = "viridis",
+        shades: Literal["viridis", "coolwarm"] = "viridis",
     ) -> None:
         """Adds chordae as tubes of their cross-section that taper towards the leaflet, coloured by
         values, such as the tension in N, if they are given; grey where these are 0 or below `low`."""
