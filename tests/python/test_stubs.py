@@ -1,5 +1,6 @@
 """The stubs match the module."""
 
+import importlib.util
 import os
 import re
 import subprocess
@@ -7,6 +8,9 @@ import sys
 from pathlib import Path
 
 import mvs
+import pytest
+
+LONG = pytest.mark.skipif(not os.environ.get("MVS_TEST_LONG"), reason="MVS_TEST_LONG is not set")
 
 
 def test_stubs_match_the_module(tmp_path):
@@ -46,6 +50,21 @@ def test_the_arrays_of_a_copied_valve_are_not_optional(tmp_path):
         [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", str(program)],
         capture_output=True, text=True, cwd=tmp_path,
         env={**os.environ, "MYPYPATH": str(Path(mvs.__file__).parents[1])},
+    )
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
+@LONG  # 20 s without a cache, 45 s beside other work
+def test_the_package_has_no_error_of_type():
+    from conftest import ROOT
+
+    for package in ("matplotlib", "pyvista", "SimpleITK"):
+        if importlib.util.find_spec(package) is None:
+            pytest.skip(f"{package} is absent: mypy would not know its types")
+    found = subprocess.run(
+        [sys.executable, "-m", "mypy", "--strict", "--config-file", str(ROOT / "pyproject.toml"),
+         "--cache-dir", os.devnull, "mvs"],
+        capture_output=True, text=True, cwd=ROOT / "bindings" / "python",
     )
     assert found.returncode == 0, found.stdout + found.stderr
 
