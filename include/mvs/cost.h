@@ -71,10 +71,10 @@ typedef struct mvs_cost {
 /* Measures the cost of the repair of a snapshot. The snapshot is of the closed valve; it is then
  * opened in a copy: boundary_fraction 0, a pressure difference that opens, Newton's method.
  *
- * `opened`, nullable, receives the open valve, the same bits as after mvs_restore, mvs_set_load and
+ * *opened receives the open valve, the same bits as after mvs_restore, mvs_set_load and
  * mvs_settle; release it with mvs_snapshot_release. Tools stay as they are. If the open valve does
- * not come to rest, cost->opened is 0. MVS_E_CANCELLED if the callback cancelled. `options` is
- * nullable. From any thread. */
+ * not come to rest, cost->opened is 0. MVS_E_CANCELLED if the callback cancelled. `options` and
+ * `opened` are nullable. From any thread. */
 MVS_API mvs_result mvs_snapshot_measure_cost(const mvs_snapshot *snapshot,
                                              const mvs_cost_options *options, mvs_cost *cost,
                                              const mvs_snapshot **opened);

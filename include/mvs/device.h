@@ -67,13 +67,14 @@ MVS_API mvs_result mvs_get_driver(uint32_t index, const char **name, const char 
 
 /* Loads a driver and reports the devices that it finds. `driver` is a name in that folder or an
  * absolute path; a file that everybody may write, or that belongs to neither root nor the caller,
- * is refused. `options` are "key=value" lines, nullable. */
+ * is refused. `options` are "key=value" lines; `options` is nullable. */
 MVS_API mvs_result mvs_device_list(const char *driver, const char *options, mvs_driver_found found,
                                    void *user);
 
 /* Checks all requirements of a device, and whether its driver can be loaded. A null `driver` checks
  * every driver in the folder without options; a check is then named "driver: check", and a driver
- * without device or vendor library is one note, not a fault. */
+ * without device or vendor library is one note, not a fault. `driver` and `options` are nullable.
+ */
 MVS_API mvs_result mvs_device_doctor(const char *driver, const char *options,
                                      mvs_driver_finding finding, void *user);
 

@@ -59,7 +59,8 @@ typedef struct mvs_ensemble_options {
 /* Closes the valve of a snapshot once per member and stores the results in *ensemble;
  * mvs_ensemble_release frees it. A member that does not converge or diverges is marked and excluded
  * from all statistics; divergence of member 0 is the failure MVS_E_DIVERGED. MVS_E_CANCELLED if the
- * progress callback cancelled. `settle` and `options` are nullable. */
+ * progress callback cancelled. settle->max_iterations limits the last settle of a member, not those
+ * on its way. `settle` and `options` are nullable. */
 MVS_API mvs_result mvs_ensemble_run(const mvs_snapshot *start, const mvs_load_case *load,
                                     const mvs_settle_options *settle,
                                     const mvs_ensemble_options *options, mvs_ensemble **ensemble);

@@ -227,22 +227,23 @@ typedef struct mvs_op_patch {
  * present snapshot, so that it may be called from any thread at any time. */
 MVS_API mvs_result mvs_check_op(const mvs_sim *sim, const mvs_op *op);
 
-/* Applies an operation and stores the id of the part that it made in *made (nullable; 0: it made no
- * part). Operations undone before can no longer be redone. */
+/* Applies an operation and stores the id of the part that it made in *made (0: it made no part).
+ * Operations undone before can no longer be redone. `made` is nullable. */
 MVS_API mvs_result mvs_apply_op(mvs_sim *sim, const mvs_op *op, mvs_id *made);
 
 /* Reverts the last operation, or the whole last group, bit for bit: the state is that directly
  * before it. MVS_E_STATE without an operation to undo. */
 MVS_API mvs_result mvs_undo(mvs_sim *sim);
 
-/* Repeats the operation or group undone last, bit for bit: the state is that directly after it, so
- * that the settles and steps which followed are to be made again. MVS_E_STATE without an operation
- * to redo. */
+/* Repeats the operation or group undone last, bit for bit: the state is that directly after it, of
+ * a group directly after its last operation, so that the settles and steps which followed are to be
+ * made again. MVS_E_STATE without an operation to redo. */
 MVS_API mvs_result mvs_redo(mvs_sim *sim);
 
 /* Begin and end a group: its operations are undone and redone together, shown as `name` in a menu.
  * Groups do not nest; an empty group is discarded. While one is open, undo, redo and
- * restoring give MVS_E_STATE. */
+ * restoring give MVS_E_STATE. A new valve or a file ends it. A checkpoint that is set in a group
+ * keeps the operations before it as a group of their own. */
 MVS_API mvs_result mvs_begin_group(mvs_sim *sim, const char *name);
 MVS_API mvs_result mvs_end_group(mvs_sim *sim);
 

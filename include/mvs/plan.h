@@ -57,12 +57,14 @@ MVS_API mvs_result mvs_check_plan(const mvs_sim *sim, const void *data, uint64_t
 
 /* Start and end a journal of the present valve in a new file. While it is open, each operation,
  * undo, redo and checkpoint is on the disk before its call returns, or the call fails with MVS_E_IO
- * and nothing changes. It fails as well if the file was deleted meanwhile, and so does
- * mvs_close_journal, which closes the journal all the same. The history so far is written first,
- * with its undone operations and its checkpoints. MVS_E_STATE if the file exists; if the call
- * fails, no file remains. One simulator at a time has a journal open; mvs_recover_journal of
- * another, in this or another process, gives MVS_E_STATE. A journal of more than 1 GiB could not be
- * read: the call that would make it so long fails with MVS_E_STATE.
+ * and nothing changes. Loads, settles and steps are written with the operation, undo, redo or
+ * checkpoint that follows them: those after the last one are not in the journal. It fails as well
+ * if the file was deleted meanwhile, and so does mvs_close_journal, which closes the journal all
+ * the same. The history so far is written first, with its undone operations and its checkpoints.
+ * MVS_E_STATE if the file exists; if the call fails, no file remains. One simulator at a time has a
+ * journal open; mvs_recover_journal of another, in this or another process, gives MVS_E_STATE. A
+ * journal of more than 1 GiB could not be read: the call that would make it so long fails with
+ * MVS_E_STATE.
  *
  * A new valve ends the journal, with a warning in the log: also the same valve with other tissue
  * (mvs_set_leaflet) or another mesh, and a snapshot of another valve that is restored. Operations

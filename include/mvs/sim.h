@@ -249,12 +249,13 @@ typedef struct mvs_step_options {
   uint32_t reserved;
 } mvs_step_options;
 
-/* Advances by one time step: a bounded amount of work without progress callbacks. After a few steps
- * it makes no allocation and no system call while no snapshot of the valve is held and no hand has
- * moved. An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing a
- * tool prepares the next step of a valve that is being stepped within its own call. MVS_E_DIVERGED
- * if numbers left their range: use a smaller dt; MVS_E_UNSUPPORTED for the explicit solver with a
- * tool that pushes, as of mvs_settle. `options` is nullable. */
+/* Advances by one time step: a bounded amount of work without progress callbacks. Once its buffers
+ * hold the contact that the motion makes (up to 100 steps after a change) it makes no allocation
+ * and no system call while no snapshot of the valve is held and no hand has moved. An operation,
+ * mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing a tool prepares the next
+ * step of a valve that is being stepped within its own call. MVS_E_DIVERGED if numbers left their
+ * range: use a smaller dt; MVS_E_UNSUPPORTED for the explicit solver with a tool that pushes, as of
+ * mvs_settle. `options` is nullable. */
 MVS_API mvs_result mvs_step(mvs_sim *sim, const mvs_step_options *options);
 
 /* Does now what the first mvs_step from here would do for the steps after it: memory, the search

@@ -25,8 +25,9 @@ MVS_API void mvs_snapshot_release(const mvs_snapshot *snapshot);
 /* Restores a simulator to a snapshot of this or another simulator, bit for bit. */
 MVS_API mvs_result mvs_restore(mvs_sim *sim, const mvs_snapshot *snapshot);
 
-/* Returns a 128-bit hash of model and state: equal for equal inputs of the next step. The hash of a
- * snapshot may differ between versions of the library. */
+/* Returns a 128-bit hash of model and state: equal for equal inputs of the next step, but for a
+ * move of a tool that no step or settle has used yet (mvs_move_tool): neither snapshots nor files
+ * have it. The hash of a snapshot may differ between versions of the library. */
 MVS_API mvs_result mvs_snapshot_get_hash(const mvs_snapshot *snapshot, uint64_t hash[2]);
 
 /* Arrays of a snapshot: n nodes, m triangles, l leaflets, c chord segments, h heads, r rings, k
@@ -195,7 +196,7 @@ MVS_API mvs_result mvs_snapshot_get_rest(const mvs_snapshot *snapshot, mvs_rest 
  * mass, a small disturbance grows or falls with the eigenvalues of -D^-1 K: the equilibrium is
  * stable where all their real parts are negative. That is so wherever Ks is positive definite.
  * Branch points with less stiffness than 1e-3 N/m, whose chordae are slack or carry next to
- * nothing, are left out. */
+ * nothing, are eliminated: they follow the other nodes without force. */
 typedef struct mvs_stability {
   uint32_t struct_size;
   uint32_t stable;         /* 1: growth_rate is at most 1e-3 1/s, or Ks is positive definite */

@@ -30,9 +30,9 @@ void check_chord_site(const Model &model, const Parameter &p, size_t place) {
     return model.topology.node_kind[node] == NodeKind::leaflet;
   };
   MVS_MUST(on_leaflet(chord.a) != on_leaflet(chord.b), MVS_E_ARGUMENT, "chord " + chord.name,
-           "parameters[%zu]: chord %s does not end on a leaflet: only an insertion has a site to "
-           "move",
-           place, chord.name.c_str());
+           "parameters[%zu]: chord %s %s: only a chord with one insertion has a site to move",
+           place, chord.name.c_str(),
+           on_leaflet(chord.a) ? "ends on leaflets at both ends" : "does not end on a leaflet");
   const uint32_t node = on_leaflet(chord.a) ? chord.a : chord.b;
   MVS_MUST(
       p.component < model.node_count() && edge_between(model.topology, node, p.component) != none,

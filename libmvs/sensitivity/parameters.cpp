@@ -16,14 +16,19 @@ namespace {
 using Kind = ParameterKind;
 
 // The step of the difference: small beside the sharpest feature of a law, the rounded kink of the
-// bilinear membrane, which is 0.2 % of its constant Ic.
+// bilinear membrane, which is 0.2 % of its constant Ic. Springs have sharp kinks and are linear
+// between them: the smallest step whose difference rounding leaves right to 1e-7.
 double difference_step(const Model &model, const Parameter &p) {
+  const std::vector<Leaflet> &leaflets = model.valve.leaflets;
+  const bool has_springs = std::any_of(leaflets.begin(), leaflets.end(), [](const Leaflet &one) {
+    return one.law == LeafletLawId::spring;
+  });
   switch (p.kind) {
     case Kind::leaflet_thickness:
     case Kind::scallop_thickness:
       return 1e-2 * natural_scale(model, {}, p);  // a polynomial of third degree
     case Kind::prestrain:
-      return 1e-4;
+      return has_springs ? 1e-8 : 1e-4;
     default:
       return 1e-5 * natural_scale(model, {}, p);
   }

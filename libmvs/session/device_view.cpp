@@ -2,6 +2,7 @@
 #include "session/device_view.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/option_checks.h"
 #include "history/event_limits.h"
@@ -24,7 +25,11 @@ DeviceView DeviceView::read(const mvs_device_view &given) {
            "view.origin is (%g, %g, %g) m: each has to be a number within %g", given.origin[0],
            given.origin[1], given.origin[2], limits::coordinate);
   const double *const q = given.rotation;
-  const Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
+  // numbers below the least normal one have too few digits for a length of 1
+  if (rotation.coeffs().cwiseAbs().maxCoeff() < std::numeric_limits<double>::min()) {
+    rotation.coeffs() *= 0x1p+200;
+  }
   // the stable norm of a NaN beside numbers may be finite
   const double length = rotation.coeffs().stableNorm();
   MVS_MUST(rotation.coeffs().allFinite() && std::isfinite(length), MVS_E_ARGUMENT, "view.rotation",

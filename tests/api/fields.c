@@ -68,7 +68,56 @@ static void no_bending_is_a_flag(void) {
   MUST_FAIL(mvs_check_valve(&f.desc, NULL, NULL), MVS_E_OP, "bending scale");
 }
 
+/* An operation with a field left at 0 and the same with the described default give the same bits.
+ */
+static void described_defaults_are_the_defaults(void) {
+  mvs_sim *sim = NULL;
+  const mvs_snapshot *open = NULL;
+  mvs_part head = {0}, scallop = {0};
+  mvs_op_ring ring = {.op = {sizeof ring, MVS_OP_RING}, .size = 0.034};
+  mvs_op_chord_add chord = {.op = {sizeof chord, MVS_OP_CHORD_ADD}};
+  mvs_op *const ops[] = {&ring.op, &chord.op};
+  int filled = 0;
+  MUST(mvs_create(NULL, &sim));
+  MUST(mvs_generate_valve(sim, NULL));
+  MUST(mvs_get_snapshot(sim, &open));
+  MUST(mvs_snapshot_get_part(open, MVS_PART_HEAD, 0, &head));
+  MUST(mvs_snapshot_find_part(open, MVS_PART_SCALLOP, "A2", &scallop));
+  chord.head = head.id;
+  chord.site.how = MVS_SITE_ANATOMICAL;
+  chord.site.scallop = scallop.id;
+  chord.site.u[0] = chord.site.u[1] = 0.5;
+  for (size_t k = 0; k < sizeof ops / sizeof *ops; ++k) {
+    const hash128 before = sim_hash(sim);
+    hash128 zero;
+    mvs_op_info kind = {.struct_size = sizeof kind};
+    uint32_t index = 0;
+    MUST(mvs_apply_op(sim, ops[k], NULL));
+    zero = sim_hash(sim);
+    MUST(mvs_undo(sim));
+    while (mvs_get_op_info(index, &kind) == MVS_OK && kind.kind != ops[k]->kind) ++index;
+    for (uint32_t f = 0; f < kind.fields; ++f) {
+      mvs_field_info field = {.struct_size = sizeof field};
+      double *at;
+      MUST(mvs_get_op_field(index, f, &field));
+      at = (double *)((char *)ops[k] + field.offset);
+      if (field.type != MVS_FIELD_NUMBER || *at != 0 || field.default_value != field.default_value)
+        continue;
+      *at = field.default_value;
+      ++filled;
+    }
+    MUST(mvs_apply_op(sim, ops[k], NULL));
+    CHECK(same_hash(sim_hash(sim), zero));
+    MUST(mvs_undo(sim));
+    CHECK(same_hash(sim_hash(sim), before));
+  }
+  CHECK(filled == 3); /* ap_ratio; young and area */
+  mvs_snapshot_release(open);
+  mvs_destroy(sim);
+}
+
 int main(void) {
+  described_defaults_are_the_defaults();
   every_field_of_the_measures_is_described();
   longer_elements_are_read_by_their_stride();
   no_bending_is_a_flag();

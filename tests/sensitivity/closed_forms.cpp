@@ -57,6 +57,33 @@ TEST_CASE("height_of_a_pyramid_follows_each_parameter") {
   }
 }
 
+// The springs end 3e-5 below or beyond the strain of the kink of their law, which is more than the
+// slack: a difference over more than that would mix both moduli. The force of a spring is k R s(e),
+// e = L / R - 1, and k R shrinks as R does.
+TEST_CASE("prestrain_of_springs_near_their_kink_has_the_modulus_of_their_side") {
+  Pyramid p;
+  const double stretch = p.length() / p.rest_length, strain = stretch - 1;
+  for (const double off : {3e-5, -3e-5}) {
+    Valve valve = p.model.valve;
+    valve.leaflets.edit()[0].constants[2] = strain + off;
+    p.model = model_of_sheet(valve, {1, 2, 3, 4, 5, 6, 7});
+    const double modulus = off > 0 ? 1 : valve.leaflets[0].constants[1] / 100e3;
+    const double stress = off > 0 ? strain : strain + off - modulus * off;
+    const double up = p.height / p.length(), all = 6 * p.k * p.rest_length;
+    const double stiffness =
+        all / p.length() * (modulus * stretch * up * up + stress * (1 - up * up));
+    p.state.load.pressure = 3 / p.base * (all * stress * up + p.tension());
+    const Sensitivity found =
+        differentiate(p.model, p.state, {apex}, {{ParameterKind::prestrain, 0, 0, {}}}, {});
+    CAPTURE(off);
+    CHECK(found.parameter_notes[0] == 0);
+    // rounding of a difference over 1e-8
+    CHECK(
+        found.derivative[0] ==
+        about(-all * up * (modulus * stretch - stress) / (stiffness + p.chord_stiffness()), 1e-6));
+  }
+}
+
 TEST_CASE("tension_of_a_chord_follows_its_length_at_fixed_positions_too") {
   const Pyramid p;
   const double total = p.chord_stiffness() + p.sheet_stiffness();

@@ -76,6 +76,7 @@ static void what_cannot_be_is_refused_and_changes_nothing(void) {
   mvs_id tool = 0;
   start_at_edge(&node, at);
   const hash128 before = sim_hash(sim);
+  mvs_tool_state rod = {.struct_size = sizeof rod};
   mvs_tool_desc good = grasp_at(at), bad = good;
   MUST_FAIL(mvs_add_tool(NULL, &good, &tool), MVS_E_ARGUMENT, "null");
   MUST_FAIL(mvs_add_tool(sim, NULL, &tool), MVS_E_ARGUMENT, "null");
@@ -112,7 +113,10 @@ static void what_cannot_be_is_refused_and_changes_nothing(void) {
   CHECK(tool == 0);
   CHECK(same_hash(before, sim_hash(sim)));
   bad.position[2] = 0.06;
+  bad.axis[0] = bad.axis[1] = 4.94e-324; /* the least number: still a direction */
   MUST(mvs_add_tool(sim, &bad, &tool));
+  MUST(mvs_get_tool(sim, tool, &rod));
+  CHECK(rod.axis[0] > 0.7071 && rod.axis[0] == rod.axis[1]);
   MUST_FAIL(mvs_move_tool(sim, tool, NULL, NULL), MVS_E_ARGUMENT, "null");
   MUST_FAIL(mvs_move_tool(sim, tool, nowhere, NULL), MVS_E_ARGUMENT, "within 10");
   MUST_FAIL(mvs_move_tool(sim, tool, at, flat), MVS_E_ARGUMENT, "direction");

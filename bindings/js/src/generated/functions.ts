@@ -474,7 +474,7 @@ const signatures: Record<string, Signature> = {
       { name: "snapshot", nullable: false, how: "handle", of: "mvs_snapshot" },
       { name: "options", nullable: true, how: "inStruct", of: "mvs_cost_options" },
       { name: "cost", nullable: false, how: "outStruct", of: "mvs_cost" },
-      { name: "opened", nullable: false, how: "outHandle", of: "mvs_snapshot", freedBy: "mvs_snapshot_release" },
+      { name: "opened", nullable: true, how: "outHandle", of: "mvs_snapshot", freedBy: "mvs_snapshot_release" },
     ],
   },
   mvs_check_op: {
@@ -491,7 +491,7 @@ const signatures: Record<string, Signature> = {
     steps: [
       { name: "sim", nullable: false, how: "handle", of: "mvs_sim" },
       { name: "op", nullable: false, how: "operation" },
-      { name: "made", nullable: false, how: "outScalar", element: "u64" },
+      { name: "made", nullable: true, how: "outScalar", element: "u64" },
     ],
   },
   mvs_undo: {
@@ -1159,12 +1159,13 @@ export class Functions extends Calls {
   }
 
   /**
-   * Advances by one time step: a bounded amount of work without progress callbacks. After a few
-   * steps it makes no allocation and no system call while no snapshot of the valve is held and no
-   * hand has moved. An operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or
-   * removing a tool prepares the next step of a valve that is being stepped within its own call.
-   * MVS_E_DIVERGED if numbers left their range: use a smaller dt; MVS_E_UNSUPPORTED for the
-   * explicit solver with a tool that pushes, as of mvs_settle. `options` is nullable.
+   * Advances by one time step: a bounded amount of work without progress callbacks. Once its
+   * buffers hold the contact that the motion makes (up to 100 steps after a change) it makes no
+   * allocation and no system call while no snapshot of the valve is held and no hand has moved. An
+   * operation, mvs_end_group, undo, redo, mvs_restore_checkpoint, or adding or removing a tool
+   * prepares the next step of a valve that is being stepped within its own call. MVS_E_DIVERGED if
+   * numbers left their range: use a smaller dt; MVS_E_UNSUPPORTED for the explicit solver with a
+   * tool that pushes, as of mvs_settle. `options` is nullable.
    */
   mvs_step(sim: SimHandle, options?: StepOptions | null): void {
     return this.invoke(signatures.mvs_step!, [sim, options]) as never;
@@ -1214,8 +1215,9 @@ export class Functions extends Calls {
   }
 
   /**
-   * Returns a 128-bit hash of model and state: equal for equal inputs of the next step. The hash of
-   * a snapshot may differ between versions of the library.
+   * Returns a 128-bit hash of model and state: equal for equal inputs of the next step, but for a
+   * move of a tool that no step or settle has used yet (mvs_move_tool): neither snapshots nor files
+   * have it. The hash of a snapshot may differ between versions of the library.
    */
   mvs_snapshot_get_hash(snapshot: SnapshotHandle): bigint[] {
     return this.invoke(signatures.mvs_snapshot_get_hash!, [snapshot]) as never;
@@ -1352,10 +1354,10 @@ export class Functions extends Calls {
   /**
    * Measures the cost of the repair of a snapshot. The snapshot is of the closed valve; it is then
    * opened in a copy: boundary_fraction 0, a pressure difference that opens, Newton's method.
-   * `opened`, nullable, receives the open valve, the same bits as after mvs_restore, mvs_set_load
-   * and mvs_settle; release it with mvs_snapshot_release. Tools stay as they are. If the open valve
+   * *opened receives the open valve, the same bits as after mvs_restore, mvs_set_load and
+   * mvs_settle; release it with mvs_snapshot_release. Tools stay as they are. If the open valve
    * does not come to rest, cost->opened is 0. MVS_E_CANCELLED if the callback cancelled. `options`
-   * is nullable. From any thread.
+   * and `opened` are nullable. From any thread.
    */
   mvs_snapshot_measure_cost(snapshot: SnapshotHandle, options?: CostOptions | null): { cost: Cost; opened: SnapshotHandle } {
     return this.invoke(signatures.mvs_snapshot_measure_cost!, [snapshot, options]) as never;
@@ -1372,8 +1374,8 @@ export class Functions extends Calls {
   }
 
   /**
-   * Applies an operation and stores the id of the part that it made in *made (nullable; 0: it made
-   * no part). Operations undone before can no longer be redone.
+   * Applies an operation and stores the id of the part that it made in *made (0: it made no part).
+   * Operations undone before can no longer be redone. `made` is nullable.
    */
   mvs_apply_op(sim: SimHandle, op: Operation): bigint {
     return this.invoke(signatures.mvs_apply_op!, [sim, op]) as never;
@@ -1389,8 +1391,8 @@ export class Functions extends Calls {
 
   /**
    * Repeats the operation or group undone last, bit for bit: the state is that directly after it,
-   * so that the settles and steps which followed are to be made again. MVS_E_STATE without an
-   * operation to redo.
+   * of a group directly after its last operation, so that the settles and steps which followed are
+   * to be made again. MVS_E_STATE without an operation to redo.
    */
   mvs_redo(sim: SimHandle): void {
     return this.invoke(signatures.mvs_redo!, [sim]) as never;
@@ -1399,7 +1401,8 @@ export class Functions extends Calls {
   /**
    * Begin and end a group: its operations are undone and redone together, shown as `name` in a
    * menu. Groups do not nest; an empty group is discarded. While one is open, undo, redo and
-   * restoring give MVS_E_STATE.
+   * restoring give MVS_E_STATE. A new valve or a file ends it. A checkpoint that is set in a group
+   * keeps the operations before it as a group of their own.
    */
   mvs_begin_group(sim: SimHandle, name: string): void {
     return this.invoke(signatures.mvs_begin_group!, [sim, name]) as never;
@@ -1408,7 +1411,8 @@ export class Functions extends Calls {
   /**
    * Begin and end a group: its operations are undone and redone together, shown as `name` in a
    * menu. Groups do not nest; an empty group is discarded. While one is open, undo, redo and
-   * restoring give MVS_E_STATE.
+   * restoring give MVS_E_STATE. A new valve or a file ends it. A checkpoint that is set in a group
+   * keeps the operations before it as a group of their own.
    */
   mvs_end_group(sim: SimHandle): void {
     return this.invoke(signatures.mvs_end_group!, [sim]) as never;
@@ -1598,7 +1602,8 @@ export class Functions extends Calls {
    * Closes the valve of a snapshot once per member and stores the results in *ensemble;
    * mvs_ensemble_release frees it. A member that does not converge or diverges is marked and
    * excluded from all statistics; divergence of member 0 is the failure MVS_E_DIVERGED.
-   * MVS_E_CANCELLED if the progress callback cancelled. `settle` and `options` are nullable.
+   * MVS_E_CANCELLED if the progress callback cancelled. settle->max_iterations limits the last
+   * settle of a member, not those on its way. `settle` and `options` are nullable.
    */
   mvs_ensemble_run(start: SnapshotHandle, load: LoadCaseInput, settle?: SettleOptions | null, options?: EnsembleOptions | null): EnsembleHandle {
     return this.invoke(signatures.mvs_ensemble_run!, [start, load, settle, options]) as never;

@@ -424,7 +424,8 @@ export interface Rest {
  * edge. In overdamped motion, D dx/dt = -K x with a damping D of 500 1/s times the mass, a small
  * disturbance grows or falls with the eigenvalues of -D^-1 K: the equilibrium is stable where all
  * their real parts are negative. That is so wherever Ks is positive definite. Branch points with
- * less stiffness than 1e-3 N/m, whose chordae are slack or carry next to nothing, are left out.
+ * less stiffness than 1e-3 N/m, whose chordae are slack or carry next to nothing, are eliminated:
+ * they follow the other nodes without force.
  */
 export interface Stability {
   /** 1: growth_rate is at most 1e-3 1/s, or Ks is positive definite */
