@@ -15,6 +15,8 @@ namespace {
 
 using Kind = ParameterKind;
 
+constexpr uint32_t kink_constant = 2;  // of the law of springs
+
 // The step of the difference: small beside the sharpest feature of a law, the rounded kink of the
 // bilinear membrane, which is 0.2 % of its constant Ic. Springs have sharp kinks and are linear
 // between them: the smallest step whose difference rounding leaves right to 1e-7.
@@ -29,6 +31,10 @@ double difference_step(const Model &model, const Parameter &p) {
       return 1e-2 * natural_scale(model, {}, p);  // a polynomial of third degree
     case Kind::prestrain:
       return has_springs ? 1e-8 : 1e-4;
+    case Kind::leaflet_constant:
+    case Kind::scallop_constant:
+      if (has_springs && p.component == kink_constant) return 1e-8;
+      [[fallthrough]];
     default:
       return 1e-5 * natural_scale(model, {}, p);
   }
