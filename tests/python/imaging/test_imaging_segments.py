@@ -49,6 +49,19 @@ def test_segmentations_that_are_cut_short_or_damaged_are_refused(tmp_path, damag
         imaging.read_labels(path)
 
 
+@pytest.mark.parametrize("code", ["utf-8", "latin-1"])
+@pytest.mark.parametrize("detached", [False, True])
+def test_names_of_segments_keep_letters_that_are_not_ascii(tmp_path, detached, code):
+    """pynrrd drops such letters: "Feuillet ant\u00e9rieur" was "Feuillet antrieur", which means no leaflet."""
+    path = written(tmp_path / ("a.seg.nhdr" if detached else "a.seg.nrrd"), ("first", "second"))
+    names = ["Feuillet ant\u00e9rieur", "Feuillet post\u00e9rieur" if code == "latin-1" else "\u540e\u53f6"]
+    data = path.read_bytes()
+    for old, new in zip((b"first", b"second"), names):
+        data = data.replace(b"_Name:=" + old, b"_Name:=" + new.encode(code))
+    path.write_bytes(data)
+    assert list(imaging.read_labels(path).masks) == names
+
+
 def test_segments_with_one_name_are_numbered(tmp_path):
     read = imaging.read_labels(written(tmp_path / "a.seg.nrrd", ("leaflet", "leaflet")))
     assert read.values == {"leaflet": 1, "leaflet 2": 2}

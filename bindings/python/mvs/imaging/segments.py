@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 import zlib
 from collections.abc import Container, Mapping
 from pathlib import Path
@@ -44,6 +45,7 @@ def read_segments(name: str) -> tuple[Any, list[Segment]]:
     try:
         header = nrrd.read_header(name)
         read = slicerio.read_segmentation(name)
+        names = header_names(name)
     except (nrrd.NRRDError, zlib.error, EOFError, OSError, ValueError, LookupError, TypeError, AttributeError) as error:
         raise FormatError(f"{name}: is no segmentation of 3D Slicer, is cut short or damaged "
                           f"({_reason(error)}): export it again", "path") from error
@@ -60,13 +62,39 @@ def read_segments(name: str) -> tuple[Any, list[Segment]]:
     layers = voxels if voxels.ndim == 4 else voxels[None]
     found: dict[str, Segment] = {}
     for k, row in enumerate(rows):
-        title = own_name(str(row.get("name") or row.get("id") or f"Segment {k}"), found)
+        title = own_name(names[k] or str(row.get("id") or f"Segment {k}"), found)
         value, layer = _number(name, title, row, "labelValue", None), _number(name, title, row, "layer", 0)
         if not 0 <= layer < len(layers):
             raise FormatError(f'{name}: the segment "{title}" is said to be in layer {layer}, and the file has '
                               f"{len(layers)}: save the segmentation again", "labels")
         found[title] = Segment(title, value, np.ascontiguousarray((layers[layer] == value).T))
     return image, list(found.values())
+
+
+def header_names(path: str) -> list[str]:
+    """The names of the segments in the header of a file, in the order of their numbers; "" for none.
+
+    3D Slicer writes UTF-8; pynrrd reads ASCII and drops other letters.
+    """
+    names: dict[int, str] = {}
+    with open(path, "rb") as file:
+        for raw in file:
+            line = _text(raw).strip()
+            if not line:  # the data follow
+                break
+            row = re.match(r"Segment(\d+)_([^:]+):=?(.*)", line)
+            if row:
+                names.setdefault(int(row[1]), "")
+            if row and row[2].strip() == "Name":
+                names[int(row[1])] = row[3].strip()
+    return [names[k] for k in sorted(names)]
+
+
+def _text(raw: bytes) -> str:
+    try:
+        return raw.decode("utf-8")
+    except UnicodeDecodeError:  # of other programs
+        return raw.decode("latin-1")
 
 
 def _image_of(name: str, layer: NDArray[Any], to_lps: NDArray[np.float64]) -> Any:
