@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import mvs
+from mvs.surfaces import PatientFrame
 from .findings import finding
 from .names import POSTERIOR
 
@@ -25,7 +26,7 @@ def read_part(path: Union[str, "os.PathLike[str]"], part: str,
     frame: of a file that does not state its own, "LPS" or "RAS". ArgumentError without it: a frame
         that is taken for the other one mirrors the valve, and no check of the points would show it
     """
-    read = mvs.read_landmarks(path, frame="LPS")
+    read = landmarks_in(path, "LPS")
     if read.file_frame is None and frame is None:
         raise mvs.ArgumentError(
             f"{os.fspath(path)}: does not state whether its points are in LPS or RAS: say so with "
@@ -36,6 +37,14 @@ def read_part(path: Union[str, "os.PathLike[str]"], part: str,
     if not len(points):
         raise mvs.ArgumentError(f"{os.fspath(path)}: has no points", part)
     return points
+
+
+def landmarks_in(path: Union[str, "os.PathLike[str]"], frame: Optional[PatientFrame] = None) -> mvs.Landmarks:
+    """Landmarks in the unit that the file states; mm where it states none, as of medical images and 3D Slicer."""
+    try:
+        return mvs.read_landmarks(path, None, frame)
+    except mvs.ArgumentError:
+        return mvs.read_landmarks(path, "mm", frame)
 
 
 COUNTS = {"commissures": (2, 2, "a mitral valve has two"), "anterior": (1, 1, "give one point of that leaflet"),

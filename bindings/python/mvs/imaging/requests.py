@@ -13,7 +13,7 @@ from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, known_values, 
 from .grid import spacing_of
 from .labels import choose_segments, leaflets_in
 from .landmark_names import misnamed
-from .landmarks import anterior_on_label, check_counts, read_part
+from .landmarks import anterior_on_label, check_counts, landmarks_in, read_part
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
 from .names import ANTERIOR, POSTERIOR, UNKNOWN
@@ -43,7 +43,7 @@ def misnamed_in_files(chosen: argparse.Namespace, findings: tuple[mvs.Finding, .
     for option in ("commissures", "tips"):
         path = getattr(chosen, option)
         if path:
-            names = mvs.read_landmarks(path).names
+            names = landmarks_in(path).names
             found += misnamed(path, read_part(path, PARTS[option], chosen.frame), names, findings)
     return found
 
