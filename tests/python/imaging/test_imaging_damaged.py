@@ -12,7 +12,7 @@ pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
 from label_images import NAMES, funnel, image_of, write_dicom  # noqa: E402
 from mvs import imaging  # noqa: E402
 from mvs.imaging.command import main  # noqa: E402
-from mvs.imaging.labels import choose_segments  # noqa: E402
+from mvs.imaging.leaflet_segments import choose_segments  # noqa: E402
 from mvs.imaging.names import ANTERIOR, POSTERIOR, UNKNOWN, leaflet_of  # noqa: E402
 
 
@@ -97,7 +97,12 @@ def test_tissue_at_the_border_of_the_image_is_a_doubtful_finding():
     ("PMVL", POSTERIOR), ("MV_ant.", ANTERIOR), ("MV_post.", POSTERIOR), ("Anteriore", ANTERIOR),
     ("Lembo posteriore", POSTERIOR), ("feuillet ant\u00e9rieur", ANTERIOR), ("valve poste\u0301rieure", POSTERIOR),
     ("Vorderes Mitralsegel", ANTERIOR), ("hinteres Segel", POSTERIOR), ("posterior (mitral)", POSTERIOR),
-    ("anterior and posterior leaflet", UNKNOWN), ("LeafletP1", POSTERIOR), ("tissue", None)])
+    ("anterior and posterior leaflet", UNKNOWN), ("LeafletP1", POSTERIOR), ("tissue", None),
+    ("LV posterior", None), ("Anterior PM", None), ("APM", None), ("TV anterior leaflet", None), ("LA anterior", None),
+    ("la_anterior", None), ("valva anterior de la mitral", ANTERIOR), ("Anterior leaflet + septum", ANTERIOR),
+    ("septum + anterior leaflet", None), ("Posterior leaflet incl. annulus", POSTERIOR), ("Aortic leaflet", ANTERIOR),
+    ("aortic mitral leaflet", ANTERIOR), ("Mural leaflet", POSTERIOR), ("murales Segel", POSTERIOR),
+    ("aortic valve leaflet", None), ("left aortic leaflet", None), ("aortic root", None), ("mural thrombus", None)])
 def test_names_of_segments_mean_leaflets_or_other_parts(name, leaflet):
     assert leaflet_of(name) == leaflet
 
@@ -107,7 +112,11 @@ def test_segments_that_are_left_out_are_a_finding_and_too_much_tissue_is_refused
     labels[:3, :3, :3] = 3
     found = imaging.leaflets_in(imaging.labels_of(image_of(labels), {**NAMES, 3: "papillary muscle"})).findings
     said = [f.sentence for f in found if f.name == "segments"]
-    assert said == ['leaflets are "anterior leaflet", "posterior leaflet"; "papillary muscle" is left out']
+    assert said == ['the anterior leaflet is "anterior leaflet"; the posterior leaflet is "posterior leaflet"; '
+                    '"papillary muscle" is left out']
+    merged = imaging.leaflets_in(imaging.labels_of(image_of(funnel()[0]), {1: "leaflet", 2: "leaflet"})).findings
+    (one,) = [f for f in merged if f.name == "segments"]
+    assert one.doubtful and 'leaflets are "leaflet", "leaflet 2"; their names do not say' in one.sentence
     full = imaging.labels_of(image_of(np.ones_like(labels)), {1: "leaflets"})
     with pytest.raises(mvs.ArgumentError, match='"leaflets" fill 100 % of the image'):
         imaging.leaflets_in(full)

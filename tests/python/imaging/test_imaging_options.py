@@ -19,7 +19,7 @@ from mvs import imaging  # noqa: E402
 from mvs.imaging import requests  # noqa: E402
 from mvs.imaging.command import main, parser_of  # noqa: E402
 from mvs.imaging.findings import RANGES, finding, read_known, with_limits  # noqa: E402
-from mvs.imaging.labels import choose_segments  # noqa: E402
+from mvs.imaging.leaflet_segments import choose_segments  # noqa: E402
 from mvs.imaging.landmarks import anterior_on_label  # noqa: E402
 
 

@@ -7,7 +7,7 @@ what is mended is a finding, and what no rule mends is refused with a sentence.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any, Optional
 
 import numpy as np
@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Grid, Volume, spacing_of
+from .leaflet_segments import choose_segments, in_quotes, other_leaflet, report_segments
 from .mesh import Sheet, areas, handles, in_largest_piece, is_crumpled, largest_piece, loop_length, loops_by_length
-from .names import ANTERIOR, POSTERIOR, UNKNOWN, leaflet_of
+from .names import ANTERIOR, POSTERIOR, UNKNOWN
 from .needs import need
 from .reading import LabelMap
 from .tissue_sheet import LabelSettings, Tell, check_sheet, fitted_sheet, grid_step, silent, tissue_on_grid
@@ -31,64 +32,6 @@ class Leaflets:
     findings: list[Finding]
 
 
-def other_leaflet(label: int) -> int:
-    """The label of the leaflet opposite to one."""
-    return POSTERIOR if label == ANTERIOR else ANTERIOR
-
-
-def choose_segments(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
-                    image: str = "image") -> dict[str, int]:
-    """The leaflet of each segment that is a part of the leaflets.
-
-    chosen: leaflet by name of segment, as the caller knows it, the other leaflet by name where it holds one only;
-        else by the names, or, if no name means a leaflet and there is one segment, that one. ArgumentError
-        names the segments otherwise
-    """
-    known = ", ".join(f'"{name}"' for name in labels.masks) or "none"
-    if chosen:
-        lost = [name for name in chosen if name not in labels.masks]
-        if lost:
-            raise ArgumentError(f'there is no segment "{lost[0]}"; the {image} has: {known}', "labels")
-        return _with_other_leaflet(labels, chosen, known, image)
-    filled = [name for name, mask in labels.masks.items() if mask.any()]
-    if not filled:
-        raise ArgumentError(f"the {image} has no valve in it: every voxel is background. Give the label map of the leaflets", "labels")
-    found = {name: leaflet_of(name) for name in filled}
-    meant = {name: label for name, label in found.items() if label is not None}
-    if not meant and len(filled) == 1:
-        return {filled[0]: UNKNOWN}
-    if not meant:
-        raise ArgumentError(
-            f"no name of a segment means a leaflet (the {image} has: {known}): say which ones are, "
-            "with --anterior-label and --posterior-label, or --leaflet-label", "labels")
-    got = set(meant.values())
-    if got in ({ANTERIOR}, {POSTERIOR}):
-        missing = "posterior" if got == {ANTERIOR} else "anterior"
-        empty = [name for name in labels.masks
-                 if name not in filled and leaflet_of(name) == other_leaflet(max(got))]
-        raise ArgumentError(
-            (f'one leaflet is missing: in the {image} the segment "{empty[0]}" has no voxels. ' if empty else
-             f"one leaflet is missing: the {image} has {known}, and no segment of the {missing} leaflet. ")
-            + "A valve needs both; if one segment holds both leaflets, say --leaflet-label", "labels")
-    return meant
-
-
-def _with_other_leaflet(labels: LabelMap, chosen: Mapping[str, int], known: str, image: str) -> dict[str, int]:
-    """The chosen segments, and where they are of one leaflet those whose names mean the other."""
-    got = set(chosen.values())
-    if got not in ({ANTERIOR}, {POSTERIOR}):
-        return dict(chosen)
-    label = other_leaflet(max(got))
-    word, given = ("anterior", "posterior") if label == ANTERIOR else ("posterior", "anterior")
-    found = {name: label for name, mask in labels.masks.items()
-             if name not in chosen and mask.any() and leaflet_of(name) == label}
-    if not found:
-        raise ArgumentError(
-            f"the {given} leaflet alone is given, and no name of another segment means the {word} one (the {image} has: "
-            f"{known}): give --{word}-label as well, or --leaflet-label if one segment holds both leaflets", "labels")
-    return {**chosen, **found}
-
-
 def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
                 settings: LabelSettings = LabelSettings(), tell: Tell = silent) -> Leaflets:
     """The mid-surface of the leaflets in a label map."""
@@ -98,14 +41,9 @@ def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     for name in segments:
         mask |= labels.masks[name]
     if mask.mean() > MOST_FILLED:
-        raise ArgumentError(f"the segments {_in_quotes(segments)} fill {100 * mask.mean():.0f} % of the image: these are "
+        raise ArgumentError(f"the segments {in_quotes(segments)} fill {100 * mask.mean():.0f} % of the image: these are "
                             "no leaflets. Name the right segments", "labels")
-    left = [name for name, voxels in labels.masks.items() if name not in segments and voxels.any()]
-    if left:
-        findings.append(finding(
-            "segments", FindingSource.GIVEN if chosen else FindingSource.GUESSED, 1.0 if chosen else 0.8,
-            f"leaflets are {_in_quotes(segments)}; {_in_quotes(left)} "
-            f"{'is' if len(left) == 1 else 'are'} left out"))
+    findings += report_segments(labels, segments, bool(chosen))
     mask = _without_islands(mask, settings.island, findings)
     _report_cut(mask, findings)
     check_sheet(mask, np.array(labels.image.GetSpacing()) * 1e-3)
@@ -117,10 +55,6 @@ def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
 
 MOST_FILLED = 0.5
 """Leaflets fill less of an image: 1 mm of tissue in a cavity of 30 mm is a tenth, in a tight crop"""
-
-
-def _in_quotes(names: Iterable[str]) -> str:
-    return ", ".join(f'"{name}"' for name in names)
 
 
 def _report_cut(mask: NDArray[np.bool_], findings: list[Finding]) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from mvs import ArgumentError, Finding, FindingSource
 from .findings import finding
 from .grid import Floats, Points, spacing_of
-from .labels import choose_segments
+from .leaflet_segments import choose_segments, report_segments
 from .mesh import Sheet, areas, largest_piece
 from .names import ANTERIOR, POSTERIOR
 from .needs import need
@@ -99,7 +99,8 @@ def closed_surface(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     surface runs through the middle of the tissue, right only where one leaflet is.
     """
     segments = choose_segments(labels, chosen, "loaded image")
-    sheets, findings = [], []
+    sheets: list[Sheet] = []
+    findings = report_segments(labels, segments, bool(chosen), "closed_segments")
     groups: list[tuple[str, list[str]]] = []
     if set(segments.values()) >= {ANTERIOR, POSTERIOR}:
         for label, word in ((ANTERIOR, "anterior"), (POSTERIOR, "posterior")):

@@ -11,9 +11,10 @@ import mvs
 from .console import Console, silenced
 from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, known_values, read_rows, with_limits
 from .grid import spacing_of
-from .labels import choose_segments, leaflets_in
+from .labels import leaflets_in
 from .landmark_names import misnamed
 from .landmarks import anterior_on_label, check_counts, landmarks_in, read_part
+from .leaflet_segments import choose_segments
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
 from .names import ANTERIOR, POSTERIOR, UNKNOWN
