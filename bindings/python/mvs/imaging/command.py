@@ -9,17 +9,16 @@ from __future__ import annotations
 
 import argparse
 import importlib.util
-import json
 import sys
-from collections.abc import Iterable, Sequence
-from pathlib import Path
-from typing import Any, Optional
+from collections.abc import Sequence
+from typing import Optional
 
 import mvs
 from .checks import check_request, findings_path
-from .console import Console
+from .console import Console, warnings_in_lines
 from .needs import in_words
 from .options import add_build
+from .result import print_result, warn_of_contradictions
 
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
@@ -30,7 +29,8 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
         if given and given[0] not in commands and given[0] not in ("-h", "--help", "--version"):
             given.insert(0, "build")
         chosen = parser.parse_args(given or ["--help"])
-        return int(chosen.run(chosen) or 0)
+        with warnings_in_lines(getattr(chosen, "quiet", False)):
+            return int(chosen.run(chosen) or 0)
     except (mvs.Error, OSError, ImportError) as error:
         print(f"mvs-image: {in_words(error)}", file=sys.stderr)
         return 1
@@ -78,56 +78,9 @@ def run_build(chosen: argparse.Namespace) -> int:
         console.stage("report")
         write_page(chosen.report, made, str(chosen.image))
     console.done()
-    _warn_of_contradictions(made.findings)
-    _print_result(chosen, made, findings)
+    warn_of_contradictions(made.findings)
+    print_result(chosen, made, findings)
     if not made.converged:
         print("mvs-image: the valve does not come to rest under load; the findings say what was "
               "guessed", file=sys.stderr)
     return 0 if made.converged else 1
-
-
-def _warn_of_contradictions(findings: Iterable[mvs.Finding]) -> None:
-    """Names inputs that contradict the image, such as swapped labels, as `mvs import` does."""
-    for one in findings:
-        if one.doubtful:
-            print(f"mvs-image: warning: {one.name}, {100 * one.confidence:.0f} % sure: {one.sentence}", file=sys.stderr)
-
-
-def _print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None:
-    opened, closed = made.opened, made.closed
-    vertices = int((opened.node_kind <= mvs.NodeKind.ANNULUS).sum())
-    leak = closed.measures.regurgitant_orifice_area * 1e6
-    rows = [{"name": f.name, "source": mvs.FindingSource(f.source).name.lower(),
-             "confidence": f.confidence, "sentence": f.sentence, "doubtful": f.doubtful} for f in made.findings]
-    if chosen.json:
-        print(json.dumps({
-            "file": str(chosen.output), "findings_file": str(findings), "vertices": vertices,
-            "chords": len(opened.chord_kind), "converged": made.converged,
-            "regurgitant_orifice_area_mm2": leak, "hash": str(opened.hash), "findings": rows,
-            **_repair_facts(made)}))
-        return
-    print(f"{chosen.output}: an open valve of {vertices} leaflet vertices, {len(opened.chord_kind)} "
-          f"chord segments, {len(opened.head_nodes)} papillary heads")
-    print(f"{findings}: what was found, guessed and assumed; edit it and give it by --with")
-    interval = next((f.values for f in made.findings if f.name == "leak_interval" and len(f.values) == 2), None)
-    shape = "sealed" if leak < 0.05 else f"leaks through {leak:.1f} mm2"
-    print(f"closed under 120 mmHg: {f'at rest, {shape}' if made.converged else 'NOT at rest: no figure of this shape holds'}"
-          + (f"; {interval[0] * 1e6:.1f} to {interval[1] * 1e6:.1f} mm2 over what is not sure"
-             if interval is not None else ""))
-    if made.repair:
-        facts = _repair_facts(made)["repair"]
-        print(f"after {facts['operations']} operations: "
-              f"{'at rest' if facts['converged'] else 'NOT at rest'}, "
-              f"{facts['regurgitant_orifice_area_mm2']:.1f} mm2")
-    print(f"  {'finding':<18} {'from':<9} sure   what was seen, and what to give if it is wrong")
-    for row in rows:
-        print(f"  {row['name']:<18} {row['source']:<9} {100 * row['confidence']:3.0f} %  "
-              f"{row['sentence']}")
-
-
-def _repair_facts(made: Any) -> dict[str, Any]:
-    if not made.repair:
-        return {}
-    leak = made.repair.closed.measures.regurgitant_orifice_area * 1e6
-    return {"repair": {"operations": made.repair.operations, "converged": made.repair.converged,
-                       "regurgitant_orifice_area_mm2": leak}}

@@ -6,8 +6,11 @@ import contextlib
 import os
 import sys
 import time
+import warnings
 from collections.abc import Iterator
-from typing import Optional, TextIO
+from typing import Optional, TextIO, Union
+
+from mvs import ValveWarning
 
 
 class Console:
@@ -72,3 +75,16 @@ def silenced() -> Iterator[None]:
         os.dup2(kept, 2)
         os.close(kept)
         os.close(nowhere)
+
+
+@contextlib.contextmanager
+def warnings_in_lines(quiet: bool) -> Iterator[None]:
+    """Shows each warning as one line on stderr, without source code; quiet: only those about the valve and its files."""
+    def show(message: Union[Warning, str], category: type[Warning], filename: str, lineno: int,
+             file: Optional[TextIO] = None, line: Optional[str] = None) -> None:
+        if not quiet or issubclass(category, ValveWarning):
+            print(f"mvs-image: warning: {' '.join(str(message).split())}", file=sys.stderr)
+
+    with warnings.catch_warnings():
+        warnings.showwarning = show
+        yield

@@ -16,6 +16,7 @@ from mvs.report.markup import cells, figure, heads, table
 from .mesh import Sheet
 from .needs import need
 from .repair import chapter
+from .result import verdict_of
 from .valve import ImageValve, ScannedImage, leaflet_mesh
 
 PAGE = Template("""<!DOCTYPE html>
@@ -56,10 +57,7 @@ def write_page(path: Union[str, "os.PathLike[str]"], made: ImageValve, source: s
 
 
 def page_of(made: ImageValve, source: str) -> str:
-    leak = made.closed.measures.regurgitant_orifice_area * 1e6
-    verdict = "Closed under 120 mmHg: " + (
-        "NOT at rest: no figure of this shape holds." if not made.converged else
-        "at rest, sealed." if leak < 0.05 else f"at rest, leaks through {leak:.1f} mm2.")
+    verdict = f"Closed under 120 mmHg: {verdict_of(made)}."
     said = {one.name: one.sentence for one in made.findings}
     interval = " ".join(f"{words}." for words in (
         said.get("leak"), "Interval: " + said["leak_interval"] if "leak_interval" in said else None)
