@@ -89,6 +89,17 @@ def test_tissue_at_the_border_of_the_image_is_a_doubtful_finding():
     assert "(last row)" in found[0].sentence
 
 
+def test_a_refusal_says_first_that_the_border_of_the_image_cuts_the_leaflets():
+    """It said that the valve is closed or a leaflet is missing."""
+    labels, _ = funnel()
+    first = labels.shape[2] // 2 - 8
+    image = sitk.RegionOfInterest(image_of(labels), [labels.shape[2] - first, *labels.shape[1::-1]], [first, 0, 0])
+    found = imaging.leaflets_in(imaging.labels_of(image, NAMES))
+    with pytest.raises(mvs.ArgumentError, match=r"^the leaflets touch the border of the image \(first column\).*As they are, "
+                                                "the leaflets have one rim"):
+        imaging.check_open_valve(found)
+
+
 @pytest.mark.parametrize("name, leaflet", [
     ("Anterior papillary muscle", None), ("mitral annulus", None), ("posterior wall", None), ("aorta", None),
     ("Left anterior descending", None), ("Hinterwand", None), ("commissure antérieure", None), ("LAD", None),

@@ -27,7 +27,7 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
     total = float(areas(sheet.points, sheet.triangles).sum())
     if total < 3e-4 or total > 5e-3:
         raise ArgumentError(
-            f"the leaflets have {total * 1e4:.1f} cm2 (those of a mitral valve have 6 to 30): there is "
+            _cut_before(found) + f"the leaflets have {total * 1e4:.1f} cm2 (those of a mitral valve have 6 to 30): there is "
             "no whole valve in the image, or its spacing is wrong", "image")
     cut_spurs(found)
     loops, length, rims = _rims(found, settings)
@@ -39,14 +39,14 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
     small = [k for k in range(2, len(loops)) if length[k] <= np.pi * settings.hole]
     if len(loops) < 2 or length[1] <= np.pi * settings.hole:
         raise ArgumentError(
-            "the leaflets have one rim and no orifice: the valve is closed in this image, the label covers "
+            _cut_before(found) + "the leaflets have one rim and no orifice: the valve is closed in this image, the label covers "
             "the orifice, or a leaflet is missing. Give the image of the open valve with both leaflets, and "
             "the closed one by --loaded",
             "image")
     if len(rims) > 2:
         centre = sheet.points[loops[rims[2]]].mean(axis=0) * 1e3
         raise ArgumentError(
-            f"the leaflets have {len(rims)} rims, {', '.join(f'{1e3 * length[k]:.0f}' for k in rims)} "
+            _cut_before(found) + f"the leaflets have {len(rims)} rims, {', '.join(f'{1e3 * length[k]:.0f}' for k in rims)} "
             "mm long: an open valve has two, annulus and free edge. The third surrounds a hole, or the "
             f"label joins the leaflets, near ({centre[0]:.0f}, {centre[1]:.0f}, {centre[2]:.0f}) mm in "
             "LPS: mend the segmentation there, or allow larger holes by --hole", "image")
@@ -57,6 +57,12 @@ def check_open_valve(found: Leaflets, settings: LabelSettings = LabelSettings())
         found.findings.append(finding(
             "holes", FindingSource.GUESSED, 0.8,
             f"{len(holes)} holes with rims up to {1e3 * holes[0]:.1f} mm long were filled", holes, "m"))
+
+
+def _cut_before(found: Leaflets) -> str:
+    """The finding that the border of the image cuts the leaflets, before the sentence of a refusal."""
+    cut = next((one.sentence for one in found.findings if one.name == "cut_by_border"), None)
+    return f"{cut}. As they are, " if cut else ""
 
 
 def _rims(found: Leaflets, settings: LabelSettings) -> tuple[list[NDArray[np.int64]], list[float], list[int]]:
