@@ -221,3 +221,19 @@ def test_options_without_effect_beside_chordae_of_an_image_are_named():
     assert _unused({"thickness_error": 1e-4, "edge": 2e-3}) == ()
     (one,) = _unused({"edge_error": 1e-4, "chords": 50})
     assert one.doubtful and one.sentence.startswith("--edge-error, --chords have no effect here")
+
+
+def test_maps_of_probabilities_are_refused_and_grey_volumes_are_not(tmp_path):
+    """A map of 0 to 1 was taken for a micro-CT."""
+    image = image_of((funnel(0.7)[0] > 0).astype(np.float32), 0.7)
+    map_of = sitk.DiscreteGaussian(image, 0.2)
+    noise = np.random.default_rng(0).normal(scale=0.05, size=image.GetSize()[::-1]).astype(np.float32)
+    grey = sitk.GetImageFromArray(np.clip(0.6 * sitk.GetArrayFromImage(map_of) + noise, 0, 1))
+    grey.CopyInformation(image)
+    for volume, refused in ((map_of, True), (grey, False), (map_of * 900 + 100, False)):
+        sitk.WriteImage(volume, str(tmp_path / "a.nii.gz"))
+        if refused:
+            with pytest.raises(mvs.ArgumentError, match="a map of probabilities, 0 to 1.*threshold it at 0.5 to labels"):
+                requests._image(tmp_path / "a.nii.gz", parsed())
+        else:
+            assert not isinstance(requests._image(tmp_path / "a.nii.gz", parsed()), imaging.LabelMap)

@@ -103,6 +103,19 @@ def is_label_map(image: Any) -> bool:
     return int((found != 0).sum()) <= MOST_LABELS and bool((found == np.rint(found)).all())
 
 
+BEYOND, AT_0, LEAST_AT_0 = 0.02, 0.005, 0.7
+"""By how much interpolation may leave 0 to 1, how near to 0 the background of a map of probabilities is, and its least
+share. Grey volumes scaled to 0 to 1 have noise there; leaflets, thin and blurred, need not reach 1"""
+
+
+def is_probability(values: NDArray[Any]) -> bool:
+    """Whether the voxels are all about within 0 and 1, most at 0 and some above a half, as those of a network before a
+    threshold."""
+    if not np.issubdtype(values.dtype, np.floating) or values.min() < -BEYOND or not 0.5 < values.max() < 1 + BEYOND:
+        return False
+    return bool((np.abs(values) < AT_0).mean() > LEAST_AT_0)
+
+
 SIGNED_MOST = 10.0
 """The largest value of signed label images: grey values are larger."""
 

@@ -18,8 +18,9 @@ from .leaflet_segments import choose_segments
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
 from .names import ANTERIOR, POSTERIOR, UNKNOWN
+from .needs import need
 from .open_valve import check_open_valve
-from .reading import MOST_LABELS, LabelMap, is_label_map, labels_of, read_labels, read_volume
+from .reading import MOST_LABELS, LabelMap, is_label_map, is_probability, labels_of, read_labels, read_volume
 from .tissue_sheet import LabelSettings
 from .valve import ImageValve, build, scanned
 
@@ -215,6 +216,9 @@ def _image(path: Any, chosen: argparse.Namespace) -> Any:
         volume = read_volume(path)
     if is_label_map(volume):
         return labels_of(volume, path=str(path))
+    if is_probability(need("SimpleITK").GetArrayViewFromImage(volume)):
+        raise mvs.ArgumentError(f"{path}: is a map of probabilities, 0 to 1: threshold it at 0.5 to labels first, one for "
+                                "each leaflet; if it is a grey volume, multiply its values by 1000", "image")
     named = [option for option in SEGMENT_OPTIONS if getattr(chosen, option) is not None]
     if named:
         option = f"--{named[0].replace('_', '-')}"
