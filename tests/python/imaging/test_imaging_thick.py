@@ -1,4 +1,4 @@
-"""mvs.imaging.microct: thick leaflets, and a free edge without chordae."""
+"""mvs.imaging: thick leaflets, lumps of calcium, and a free edge without chordae."""
 
 import mvs
 import numpy as np
@@ -7,6 +7,8 @@ import pytest
 pytest.importorskip("SimpleITK", reason="needs the extra imaging (SimpleITK)")
 pytest.importorskip("skimage", reason="needs the extra imaging (scikit-image)")
 
+from label_images import NAMES, funnel, image_of  # noqa: E402
+from mvs import imaging  # noqa: E402
 from mvs.imaging import mesh  # noqa: E402
 from mvs.imaging.microct import PIPELINE  # noqa: E402
 from mvs.imaging.microct.valve import BARE_EDGE, bare_edge  # noqa: E402
@@ -38,3 +40,19 @@ def test_a_free_edge_without_chordae_is_seen():
     left = np.asarray(opened.node_rest)[ends, 0] > 0
     # half of the edge has none; the mean of both sides of the valve, and a chord spacing of 5 mm
     assert abs(bare_edge(opened, ends[left]) - length / 2) < 10e-3
+
+
+def test_a_calcified_annulus_is_a_doubtful_finding_and_lowers_the_confidence_of_the_thickness():
+    """It was measured as thin tissue, 80 % sure."""
+    labels, at = funnel()
+    x, y, z = np.moveaxis(at, -1, 0)
+    lump = (np.hypot(np.hypot(x, y) - 15, z - 6) < 2.5) & (y < 0)
+    for seen, calcified in ((labels, False), (np.where(lump, 2, labels).astype(np.uint8), True)):
+        found = {one.name: one for one in imaging.leaflets_in(imaging.labels_of(image_of(seen), NAMES)).findings}
+        assert ("thick_tissue" in found) == calcified
+        assert (found["image_thickness"].confidence < 0.5) == calcified
+    share, most, taken = found["thick_tissue"].values
+    assert found["thick_tissue"].doubtful
+    true = (lump & (seen > 0)).sum() / (seen > 0).sum()
+    # balls of 5 mm in voxels of 0.7 mm
+    assert abs(share - true) < 0.15 and abs(most - 5e-3) < 0.7e-3 and taken < 3e-3

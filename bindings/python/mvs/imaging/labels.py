@@ -21,6 +21,7 @@ from .mesh import Sheet, areas, handles, in_largest_piece, is_crumpled, largest_
 from .names import ANTERIOR, POSTERIOR, UNKNOWN
 from .needs import need
 from .reading import LabelMap
+from .thick_tissue import report_thick
 from .tissue_sheet import LabelSettings, Tell, check_sheet, fitted_sheet, grid_step, silent, tissue_on_grid
 
 @dataclasses.dataclass(eq=False)
@@ -48,9 +49,17 @@ def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     _report_cut(mask, findings)
     check_sheet(mask, np.array(labels.image.GetSpacing()) * 1e-3)
     sheet, grid = _sheet_of(labels.image, mask, settings, findings, tell)
+    spacing = np.array(labels.image.GetSpacing()) * 1e-3
+    report_thick(mask, _places(labels.image, mask), spacing, sheet, findings)
     tell("leaflet of each triangle")
     leaflet = _leaflet_of_triangles(labels, segments, grid, sheet, findings)
     return Leaflets(sheet, leaflet, findings)
+
+
+def _places(image: Any, mask: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Centres (n, 3) of the voxels of a mask, m, LPS."""
+    index = np.argwhere(mask)[:, ::-1] * np.array(image.GetSpacing())
+    return np.asarray((index @ np.array(image.GetDirection()).reshape(3, 3).T + np.array(image.GetOrigin())) * 1e-3)
 
 
 MOST_FILLED = 0.5
