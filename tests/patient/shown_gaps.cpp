@@ -129,6 +129,20 @@ TEST_CASE("narrow_gaps_are_errors_of_a_surface_and_small_ones_show_nothing") {
   CHECK(!is_doubtful(findings[0]));
 }
 
+TEST_CASE("leaflets_that_touch_with_their_thickness_between_their_middles_are_no_gap") {
+  const Disc disc(0.2 * mm);
+  for (const double thickness : {0.6 * mm, 1 * mm, 2 * mm}) {
+    Valve valve = disc.model->valve;
+    for (double &t : valve.triangle_thickness.edit()) t = thickness;
+    const ModelPtr model = make_model(valve);
+    const ClosedSurface surface = parted(2.1 * mm);
+    const ShownGaps shown = shown_gaps(surface, *model, disc.x(), disc.g, usual_closed_error);
+    CAPTURE(thickness);
+    CHECK(shown.gaps.size() == (thickness < 2 * mm ? 1 : 0));
+    CHECK(shown.least_width == about(1.8 * mm + std::max(0.0, thickness - 1 * mm), 1e-12));
+  }
+}
+
 TEST_CASE("a_long_slit_as_wide_as_the_largest_of_ten_errors_is_no_gap") {
   // it ends 10 mm from the free edge on both sides
   const ShownGaps narrow = gaps_of(parted(1.6 * mm)), wide = gaps_of(parted(2.1 * mm));

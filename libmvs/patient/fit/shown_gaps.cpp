@@ -21,38 +21,31 @@ namespace {
 constexpr double annulus_band = 4e-3;
 // m, from the free edge of the valve at rest: 8 mm of leaflets that coapt normally overlap.
 constexpr double from_free_edge = 10e-3;
+constexpr double usual_thickness = 1e-3;  // m, of tissue
 // Effects of errors of the edges, by the standard deviation of places of the surface.
 struct EdgeErrors {
   // m, 95 % of the difference of two edges: 1.96 times 1.41 deviations.
   double width;
-  // m. Leaflets touch along 45 mm, and errors are alike over 5 mm, so that the widest place of a
-  // sealed valve is the largest of ten errors. In 95 % of such valves it is below 2.57 times 1.41
-  // deviations.
+  // m. The surface is the middle of the tissue, so that leaflets that touch are a thickness apart:
+  // least_widths is for usual ones, thicker ones are farther apart by the difference.
   double least_width;
   // m2: in labels of networks, whose deviation is the usual one, gaps of sealed phantoms span less
   // together. False gaps are as wide as the errors, and no longer if these are smaller.
   double least_area;
 
-  explicit EdgeErrors(double deviation)
+  EdgeErrors(double deviation, double thickness)
       : width(2.8 * deviation),
-        least_width(3.6 * deviation),
+        least_width(least_widths * deviation + std::max(0.0, thickness - usual_thickness)),
         least_area(12e-6 * deviation / usual_closed_error) {}
 };
 // A piece of the surface is one leaflet if so much of it is; a gap is between leaflets, and no hole
 // in one, if at least so much of it is nearer to another one.
 constexpr double share_of_piece = 0.8, share_of_other = 0.2;
-// A surface with less of a leaflet than this share of it in the fitted valve is one of the others.
-constexpr double least_of_leaflet = 0.6;
-// A valve closes gaps if it leaks less than this share of them, and leaks far more if they are less
-// than this share of its leak: intervals of fitted valves are about as wide.
-constexpr double share_of_shown = 0.5;
 // m: a gap does not count where leaflets with the tissue that is missing beside it would overlap by
 // so much. In labels of networks they would by 2.6 to 3.1 mm at false gaps of sealed phantoms, by
 // 0.6 mm and less at gaps of torn chordae. A leaflet is beside a gap if this share of it is nearest
 // to a rim of that leaflet.
 constexpr double closed_overlap = 1.5e-3, share_of_rim = 0.2;
-// Confidence of gaps that the valve shows as well, and of those that it closes, which is doubtful.
-constexpr double confidence_of_same = 0.7, confidence_of_other = 0.3;
 
 Vec3 middle_of(const std::vector<Vec3> &x, const Tri &t) {
   return (x[t[0]] + x[t[1]] + x[t[2]]) / 3;
@@ -132,17 +125,6 @@ std::string missing_leaflet(const LeafletTriangles &surface, const Model &model,
   return {};
 }
 
-bool would_close(const ShownGap &gap) {
-  return gap.missing - gap.width >= closed_overlap;
-}
-
-std::string words_of_narrow(const ShownGaps &shown) {
-  return format(
-      "; narrower gaps of %.1f mm2, up to %.1f mm wide, do not count: errors of %.2f mm "
-      "open as wide ones; give a smaller closed_error if the surface is better",
-      shown.narrow_area * 1e6, shown.narrow_width * 1e3, shown.error * 1e3);
-}
-
 std::string place_of(const OrificePart &part) {
   std::string place = part.anterior;
   if (!part.posterior.empty()) place += (place.empty() ? "" : " to ") + part.posterior;
@@ -215,6 +197,10 @@ std::vector<double> missing_beside(const Orifice &orifice, const OrificeParts &p
 
 }  // namespace
 
+bool would_close(const ShownGap &gap) {
+  return gap.missing - gap.width >= closed_overlap;
+}
+
 ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::vector<Vec3> &x,
                      const PatientGeometry &g, double error) {
   ShownGaps shown;
@@ -231,7 +217,8 @@ ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::
   const std::vector<double> missing =
       missing_beside(orifice, found, surface, missing_reach(surface, annulus_band, model, x, g),
                      model.valve.leaflets.size());
-  const EdgeErrors errors(error);
+  const EdgeErrors errors(error, median_of(model.valve.triangle_thickness.get()));
+  shown.least_width = errors.least_width;
   for (size_t k = 0; k < found.parts.size(); ++k) {
     const OrificePart &part = found.parts[k];
     const double width = around[k].width;
@@ -249,63 +236,6 @@ ShownGaps shown_gaps(const ClosedSurface &given, const Model &model, const std::
   }
   if (shown.area < errors.least_area) shown.least = shown.most = 0;
   return shown;
-}
-
-void report_closed_error(double error, Findings &findings) {
-  if (!(error > 0)) return;
-  findings.push_back({"closed_error",
-                      FindingSource::given,
-                      1,
-                      format("places of the closed surface have a standard deviation of %.2f mm, "
-                             "as given; gaps of it count from %.2f mm of width on",
-                             error * 1e3, EdgeErrors(error).least_width * 1e3),
-                      {error},
-                      "m"});
-}
-
-void report_shown_gaps(const ShownGaps &shown, double leak, Findings &findings) {
-  const bool closes = shown.most > 0 && leak < share_of_shown * shown.area;
-  const bool opens = shown.most > 0 && share_of_shown * leak > shown.most;
-  Finding finding{"shown_gaps",
-                  FindingSource::measured,
-                  closes || opens ? confidence_of_other : confidence_of_same,
-                  {},
-                  {shown.area},
-                  "m2"};
-  if (!shown.missing.empty()) {
-    finding.sentence = format(
-        "gaps of the closed surface are not measured: it has less than %.0f %% of leaflet %s",
-        100 * least_of_leaflet, shown.missing.c_str());
-    finding.value.clear();
-  } else if (shown.gaps.empty()) {
-    finding.sentence = format("the closed surface shows no gap wider than %.1f mm between leaflets",
-                              EdgeErrors(shown.error).least_width * 1e3);
-  } else {
-    finding.sentence =
-        format("the closed surface shows gaps of %.1f mm2 between leaflets", shown.area * 1e6);
-    for (const ShownGap &gap : shown.gaps) {
-      finding.sentence += format("; %.1f mm2, %.1f mm wide (%s)", gap.area * 1e6, gap.width * 1e3,
-                                 gap.place.c_str());
-      if (!would_close(gap)) continue;
-      finding.sentence += format(", which do not count: %.1f mm of tissue are missing beside it",
-                                 gap.missing * 1e3);
-    }
-    if (shown.most == 0 && shown.area > 0) finding.sentence += "; errors of a surface show as much";
-    const std::string has =
-        format("; the valve that was fitted to it leaks %.1f mm2: ", leak * 1e6);
-    if (closes) {
-      finding.sentence +=
-          has +
-          "its chordae and tissue there are not those of the patient, or the surface "
-          "lacks tissue there";
-    }
-    if (opens) {
-      finding.sentence +=
-          has + "its chordae, its tissue or its free edge are not those of the patient";
-    }
-  }
-  if (shown.narrow_area > 0) finding.sentence += words_of_narrow(shown);
-  findings.push_back(std::move(finding));
 }
 
 }  // namespace mvs::core

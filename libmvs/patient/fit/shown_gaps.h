@@ -11,7 +11,8 @@
 // leaflets meet, gaps of little area, holes in one leaflet, and gaps beside which leaflets end far
 // from where their free edges are (leaflet_reach.h). They do not count
 // (tests/validation/shown_gaps.py). Wide false gaps remain, which look like true ones. Narrow true
-// gaps are left out, and named; a surface that is known to be better shows these as well.
+// gaps are left out, and named; a surface that is known to be better shows these as well. Gaps are
+// between the middles of leaflets, and wider than the opening by their thickness.
 #pragma once
 
 #include <string>
@@ -37,8 +38,20 @@ struct ShownGaps {
   // errors of the surface show
   double least = 0, most = 0;
   double error = usual_closed_error;         // m, of places of the surface
+  double least_width = 0;                    // m, of gaps that count
   double narrow_area = 0, narrow_width = 0;  // m2, m: of gaps that errors of edges open as wide
 };
+
+// A surface with less of a leaflet than this share of it in the fitted valve lacks that leaflet.
+inline constexpr double least_of_leaflet = 0.6;
+
+// The least width of gaps that count, in standard deviations of the surface. Leaflets touch along
+// 45 mm, and errors are alike over 5 mm, so that the widest place of a sealed valve is the largest
+// of ten errors. In 95 % of such valves it is below 2.57 times 1.41 deviations.
+inline constexpr double least_widths = 3.6;
+
+// Whether leaflets with the tissue that is missing beside a gap would close it.
+bool would_close(const ShownGap &gap);
 
 // `error`: the standard deviation of places of the surface, m. `x`: the valve that was fitted to
 // the surface, closed; the nodes of the model begin with the vertices of the sheet of `g`.
