@@ -98,11 +98,7 @@ int32_t line_of_part(std::string_view text, std::string_view part) {
   PartSearch search(part);
   text = without_byte_order_mark(text);
   for (int32_t number = 1; !text.empty(); ++number) {
-    const size_t stop = std::min(text.find('\n'), text.size());
-    std::string_view content = text.substr(0, stop);
-    text.remove_prefix(std::min(stop + 1, text.size()));
-    if (content.ends_with('\r')) content.remove_suffix(1);
-    if (search.is_found(content, number)) return number;
+    if (search.is_found(take_line(text), number)) return number;
   }
   return search.line_of_index();
 }

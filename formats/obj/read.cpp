@@ -11,10 +11,7 @@ Loaded ObjReader::read(std::string_view text) {
   Line line;
   int32_t number = 0;
   while (!text.empty()) {
-    const size_t stop = std::min(text.find('\n'), text.size());
-    std::string_view content = text.substr(0, stop);
-    text.remove_prefix(std::min(stop + 1, text.size()));
-    if (content.ends_with('\r')) content.remove_suffix(1);
+    const std::string_view content = take_line(text);
     line = Line(content, ++number);
     if (content.size() > longest_line) {
       line.fail("the line has %zu bytes, the limit is %zu", content.size(), longest_line);

@@ -63,6 +63,14 @@ bool stands_for_itself(char c) {
 
 }  // namespace
 
+std::string_view take_line(std::string_view &text) {
+  const size_t stop = std::min(text.find('\n'), text.size());
+  std::string_view line = text.substr(0, stop);
+  text.remove_prefix(std::min(stop + 1, text.size()));
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
 bool parse_whole(std::string_view text, uint64_t &value) {
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && stop == text.data() + text.size();

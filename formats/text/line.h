@@ -18,6 +18,9 @@ std::string quoted(std::string_view word);
 // Parses a number of digits only; returns false for another text.
 bool parse_whole(std::string_view text, uint64_t &value);
 
+// Takes the first line off a text, without its end, "\n" or "\r\n".
+std::string_view take_line(std::string_view &text);
+
 class Line {
  public:
   Line() = default;

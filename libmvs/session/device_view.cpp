@@ -2,7 +2,6 @@
 #include "session/device_view.h"
 
 #include <cmath>
-#include <limits>
 
 #include "base/option_checks.h"
 #include "history/event_limits.h"
@@ -26,10 +25,7 @@ DeviceView DeviceView::read(const mvs_device_view &given) {
            given.origin[1], given.origin[2], limits::coordinate);
   const double *const q = given.rotation;
   Eigen::Quaterniond rotation(q[0], q[1], q[2], q[3]);
-  // numbers below the least normal one have too few digits for a length of 1
-  if (rotation.coeffs().cwiseAbs().maxCoeff() < std::numeric_limits<double>::min()) {
-    rotation.coeffs() *= 0x1p+200;
-  }
+  scale_up_denormal(rotation.coeffs());
   // the stable norm of a NaN beside numbers may be finite
   const double length = rotation.coeffs().stableNorm();
   MVS_MUST(rotation.coeffs().allFinite() && std::isfinite(length), MVS_E_ARGUMENT, "view.rotation",

@@ -2,7 +2,6 @@
 #include "session/tools.h"
 
 #include <cmath>
-#include <limits>
 
 #include "base/option_checks.h"
 #include "history/event_limits.h"
@@ -90,8 +89,7 @@ Vec3 read_place(const double given[3], const char *what) {
 
 Vec3 read_axis(const double given[3], const char *what) {
   Vec3 axis(given[0], given[1], given[2]);
-  // numbers below the least normal one have too few digits for a length of 1
-  if (axis.cwiseAbs().maxCoeff() < std::numeric_limits<double>::min()) axis *= 0x1p+200;
+  scale_up_denormal(axis);
   const double length = axis.stableNorm();
   MVS_MUST(std::isfinite(length) && length > 0, MVS_E_ARGUMENT, what,
            "%s is (%g, %g, %g): it has to be a direction", what, axis.x(), axis.y(), axis.z());

@@ -3,6 +3,7 @@
 
 #include <mvs/tool.h>
 
+#include <limits>
 #include <string>
 
 #include "session/simulator.h"
@@ -24,6 +25,13 @@ double read_reach(double given, double fallback, const std::string &of);
 // both throw MVS_E_ARGUMENT.
 Vec3 read_place(const double given[3], const char *what);
 Vec3 read_axis(const double given[3], const char *what);
+
+// Multiplies a direction below the least normal number, which has too few digits for a length of 1,
+// by a power of two.
+template <typename Direction>
+void scale_up_denormal(Direction &direction) {
+  if (direction.cwiseAbs().maxCoeff() < std::numeric_limits<double>::min()) direction *= 0x1p+200;
+}
 
 // Throws MVS_E_ARGUMENT if a tool that pushes is far from the valve: its position is in mm, or of
 // another frame.

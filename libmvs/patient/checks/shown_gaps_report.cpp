@@ -15,9 +15,8 @@ constexpr double confidence_of_same = 0.7, confidence_of_other = 0.3;
 
 std::string words_of_narrow(const ShownGaps &shown) {
   return format(
-      "; narrower gaps of %.1f mm2, up to %.1f mm wide, do not count: errors of %.2f mm open as "
-      "wide "
-      "ones; give a smaller closed_error if the surface is better",
+      "; narrower gaps of %.1f mm2, up to %.1f mm wide, do not count: errors of %.2f mm "
+      "open as wide ones; give a smaller closed_error if the surface is better",
       shown.narrow_area * 1e6, shown.narrow_width * 1e3, shown.error * 1e3);
 }
 
@@ -30,9 +29,9 @@ void report_closed_error(double error, Findings &findings) {
        FindingSource::given,
        1,
        format("places of the closed surface have a standard deviation of %.2f mm, "
-              "as given; gaps of it count from %.2f mm of width on, of tissue thicker than 1 mm "
+              "as given; gaps of it count from %.2f mm of width on, of tissue thicker than %.0f mm "
               "from as much more as it is thicker",
-              error * 1e3, least_widths * error * 1e3),
+              error * 1e3, least_widths * error * 1e3, usual_thickness * 1e3),
        {error},
        "m"});
 }

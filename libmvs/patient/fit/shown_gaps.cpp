@@ -21,7 +21,6 @@ namespace {
 constexpr double annulus_band = 4e-3;
 // m, from the free edge of the valve at rest: 8 mm of leaflets that coapt normally overlap.
 constexpr double from_free_edge = 10e-3;
-constexpr double usual_thickness = 1e-3;  // m, of tissue
 // Effects of errors of the edges, by the standard deviation of places of the surface.
 struct EdgeErrors {
   // m, 95 % of the difference of two edges: 1.96 times 1.41 deviations.

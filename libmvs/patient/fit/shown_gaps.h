@@ -49,6 +49,8 @@ inline constexpr double least_of_leaflet = 0.6;
 // 45 mm, and errors are alike over 5 mm, so that the widest place of a sealed valve is the largest
 // of ten errors. In 95 % of such valves it is below 2.57 times 1.41 deviations.
 inline constexpr double least_widths = 3.6;
+// m: gaps of thicker tissue count from as much more of width on as it is thicker.
+inline constexpr double usual_thickness = 1e-3;
 
 // Whether leaflets with the tissue that is missing beside a gap would close it.
 bool would_close(const ShownGap &gap);

@@ -34,16 +34,17 @@ def finding(name: str, source: mvs.FindingSource, confidence: float, sentence: s
                        np.asarray(values, float).ravel(), unit)
 
 
+def row_of(one: mvs.Finding) -> dict[str, Any]:
+    """A finding as an object of JSON, with its values in SI units."""
+    return {"name": one.name, "source": mvs.FindingSource(one.source).name.lower(), "confidence": float(one.confidence),
+            "sentence": one.sentence, "unit": one.unit, "values": [float(value) for value in one.values],
+            "doubtful": one.doubtful}
+
+
 def write_findings(path: Union[str, "os.PathLike[str]"], source: str,
                    findings: Iterable[mvs.Finding]) -> None:
     """Writes the file that `mvs import --with` reads, beside and then renamed."""
-    rows: list[dict[str, Any]] = [
-        {"name": one.name, "source": mvs.FindingSource(one.source).name.lower(),
-         "confidence": float(one.confidence), "sentence": one.sentence, "unit": one.unit,
-         "values": [float(value) for value in one.values], "unedited": _digest(one.values),
-         "doubtful": one.doubtful}
-        for one in findings
-    ]
+    rows = [{**row_of(one), "unedited": _digest(one.values)} for one in findings]
     text = json.dumps({"format": "libmvs import", "version": 1, "surface": source,
                        "findings": rows}, indent=2, ensure_ascii=False)
     beside = f"{os.fspath(path)}.part"

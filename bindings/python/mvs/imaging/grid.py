@@ -87,6 +87,12 @@ def box_of(mask: NDArray[np.bool_]) -> Optional[tuple[NDArray[np.int64], NDArray
     return np.array([a for a, _ in ends]), np.array([b for _, b in ends])
 
 
+def cut_out(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The box (z, y, x) of the true voxels, with one voxel of background around it; all of a mask without any."""
+    low, high = box_of(mask) or (np.zeros(3, np.int64), np.array(mask.shape[::-1]) - 1)
+    return np.pad(mask[tuple(slice(a, b + 1) for a, b in zip(low[::-1], high[::-1]))], 1)
+
+
 def crop(image: Any, mask: NDArray[np.bool_], margin: float) -> Any:
     """The part of an image that holds the mask and a margin (m) around it."""
     box = box_of(mask)

@@ -47,9 +47,9 @@ def leaflets_in(labels: LabelMap, chosen: Optional[Mapping[str, int]] = None,
     findings += report_segments(labels, segments, bool(chosen))
     mask = _without_islands(mask, settings.island, findings)
     _report_cut(mask, findings)
-    check_sheet(mask, np.array(labels.image.GetSpacing()) * 1e-3)
-    sheet, grid = _sheet_of(labels.image, mask, settings, findings, tell)
     spacing = np.array(labels.image.GetSpacing()) * 1e-3
+    check_sheet(mask, spacing)
+    sheet, grid = _sheet_of(labels.image, mask, settings, findings, tell)
     report_thick(mask, _places(labels.image, mask), spacing, sheet, findings)
     tell("leaflet of each triangle")
     leaflet = _leaflet_of_triangles(labels, segments, grid, sheet, findings)

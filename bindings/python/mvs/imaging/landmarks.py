@@ -26,6 +26,12 @@ def read_part(path: Union[str, "os.PathLike[str]"], part: str,
     frame: of a file that does not state its own, "LPS" or "RAS". ArgumentError without it: a frame
         that is taken for the other one mirrors the valve, and no check of the points would show it
     """
+    return named_part(path, part, frame)[0]
+
+
+def named_part(path: Union[str, "os.PathLike[str]"], part: str,
+               frame: Optional[str] = None) -> tuple[Points, tuple[str, ...]]:
+    """The points of read_part and their names; no names for a file without."""
     read = landmarks_in(path, "LPS")
     if read.file_frame is None and frame is None:
         raise mvs.ArgumentError(
@@ -36,7 +42,7 @@ def read_part(path: Union[str, "os.PathLike[str]"], part: str,
         points = points * [-1, -1, 1]
     if not len(points):
         raise mvs.ArgumentError(f"{os.fspath(path)}: has no points", part)
-    return points
+    return points, read.names
 
 
 def landmarks_in(path: Union[str, "os.PathLike[str]"], frame: Optional[PatientFrame] = None) -> mvs.Landmarks:

@@ -21,10 +21,10 @@ OTHER_PARTS = ("papill", "annul", "anneau", "muscl", "muskel", "pilier", "chord"
 OTHER_WORDS = ("lv", "rv", "la", "ra", "tv", "av", "pm", "apm", "ppm", "alpm", "pmpm")
 """Whole words: chambers, other valves, papillary muscles"""
 JOINED = re.compile(r"[+&]|\b(?:plus|and|with|without|incl|including|near|und|mit|ohne|et|avec|sans)\b", re.IGNORECASE)
-"""Before what a segment of a leaflet holds besides: "Anterior leaflet + septum\""""
+"""Words before the other contents of a leaflet's segment: "Anterior leaflet + septum\""""
 BY_PLACE = ((r"\baort\w* (?=(?:mitral\w* )?(?:leaflet|segel|feuillet)\b)|\baortique$", "anterior "),
             (r"\bmural\w* (?=(?:mitral\w* )?(?:leaflet|segel|feuillet)\b)|\bmural$", "posterior "))
-"""Leaflets by what they face: the aortic leaflet is the anterior one, the mural leaflet the posterior one"""
+"""Leaflets by the tissue that they face: the aortic leaflet is the anterior one, the mural leaflet the posterior one"""
 
 
 def leaflet_of(name: str) -> Optional[int]:

@@ -13,7 +13,7 @@ from .findings import CLOSED, LAW, LENGTHS, finding, keep_doubts, known_values, 
 from .grid import spacing_of
 from .labels import leaflets_in
 from .landmark_names import misnamed
-from .landmarks import anterior_on_label, check_counts, landmarks_in, read_part
+from .landmarks import anterior_on_label, check_counts, named_part, read_part
 from .leaflet_segments import choose_segments
 from .loaded import Motion, closed_surface, motion_of_landmarks
 from .mesh import Sheet
@@ -45,8 +45,7 @@ def misnamed_in_files(chosen: argparse.Namespace, findings: tuple[mvs.Finding, .
     for option in ("commissures", "tips"):
         path = getattr(chosen, option)
         if path:
-            names = landmarks_in(path).names
-            found += misnamed(path, read_part(path, PARTS[option], chosen.frame), names, findings)
+            found += misnamed(path, *named_part(path, PARTS[option], chosen.frame), findings)
     return found
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any, Optional
 
 import mvs
+from .findings import row_of
 
 
 def warn_of_contradictions(findings: Iterable[mvs.Finding]) -> None:
@@ -24,9 +25,7 @@ def print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None:
     opened, closed = made.opened, made.closed
     vertices = int((opened.node_kind <= mvs.NodeKind.ANNULUS).sum())
     leak = closed.measures.regurgitant_orifice_area * 1e6
-    rows = [{"name": f.name, "source": mvs.FindingSource(f.source).name.lower(), "confidence": f.confidence,
-             "sentence": f.sentence, "values": [float(value) for value in f.values], "unit": f.unit,
-             "doubtful": f.doubtful} for f in made.findings]
+    rows = [row_of(one) for one in made.findings]
     interval = interval_of(made.findings)
     if chosen.json:
         print(json.dumps({

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mvs import Finding, FindingSource
 from .findings import finding
-from .grid import Floats, Points
+from .grid import Floats, Points, cut_out
 from .mesh import Sheet
 from .needs import need
 
@@ -32,8 +32,7 @@ def report_thick(mask: NDArray[np.bool_], places: Points, spacing: Floats, sheet
     """
     image = need("scipy.ndimage")
     voxel = float(np.max(spacing))
-    # a border of background, at which distances end as well
-    padded = np.pad(mask, 1)
+    padded = cut_out(mask)
     radius = image.distance_transform_edt(padded, spacing[::-1])
     nearest = need("scipy.spatial").cKDTree(sheet.points).query(places)[1]
     taken = sheet.values["thickness"][nearest]
