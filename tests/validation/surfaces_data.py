@@ -55,7 +55,11 @@ def read_stl(path: Path) -> Surface:
 
 
 def moved(surface: Surface, seed: int) -> Surface:
-    """Rotated and displaced by a rigid motion, with its landmarks."""
+    """Rotated and displaced by a rigid motion, with its landmarks.
+
+    Rounded to 1 um: the last bits of NumPy's matrix products depend on the processor, and a valve may rest on one
+    side of a difference of 1e-16 m and flutter on the other.
+    """
     random = np.random.default_rng(seed)
     turn, upper = np.linalg.qr(random.normal(size=(3, 3)))
     turn *= np.sign(np.diag(upper))
@@ -65,7 +69,7 @@ def moved(surface: Surface, seed: int) -> Surface:
     found = dict(surface)
     for name in ("points", "papillary_tips", "annulus", "commissures", "anterior"):
         if name in found:
-            found[name] = found[name] @ turn.T + shift
+            found[name] = np.round(found[name] @ turn.T + shift, 6)
     return found
 
 
