@@ -113,8 +113,7 @@ enum mvs_sensitivity_notes_e {
   MVS_SENSITIVITY_NOTE_CHORD = 1 << 1, /* a chord is about to switch: see the arrays ABOVE, BELOW */
   MVS_SENSITIVITY_NOTE_SNAP = 1 << 2,  /* the smallest eigenvalue of the tangent is near zero */
   MVS_SENSITIVITY_NOTE_DIFFERENCES = 1 << 3, /* the measure is differenced along dx/dp */
-  MVS_SENSITIVITY_NOTE_RASTER = 1 << 4,      /* the same, and the measure moves in small steps: may
-                                                be several times off, see
+  MVS_SENSITIVITY_NOTE_RASTER = 1 << 4,      /* the same, of a measure on a raster: see
                                                 libmvs/measure/DEFINITIONS.md */
   MVS_SENSITIVITY_NOTE_EXTREME = 1 << 5,     /* a largest or smallest value: its derivative changes
                                                 where another place takes over */

@@ -22,7 +22,8 @@ bool is_named(const mvs_field_info &field, const char *name) {
 
 // Returns whether a measure is taken on a raster.
 bool is_on_raster(const mvs_field_info &field) {
-  return std::strncmp(field.name, "tenting_", 8) == 0 || is_named(field, "billow_volume");
+  return is_named(field, "tenting_volume") || is_named(field, "tenting_area") ||
+         is_named(field, "billow_volume");
 }
 
 // A gradient with respect to the end b of a chord; that of the end a is opposite.

@@ -1,10 +1,11 @@
 // Jumps of the regurgitant orifice along paths of smooth deformations: where a decision of the
 // method flips (another sample, another cut, the end of the relaxation), the area is not
-// continuous.
+// continuous. With --tenting those of the tenting height: where no ball rolls to the deepest place.
 //
 //   bench_jumps                      S and M, leaking and open, 6 paths of 40 steps of 1 um each
 //   bench_jumps --scenes S --states open --paths 1 --steps 20
-//   bench_jumps --csv FILE
+//   bench_jumps --tenting            sealed and leaking valves; steps of more than 1 um from the
+//   median bench_jumps --csv FILE
 //
 // All nodes move along a smooth wave with an amplitude of 1 um a step. The rise of a smooth area is
 // the same in all steps of a path, up to its curvature: a jump is the difference of a rise from the
@@ -25,6 +26,7 @@
 #include "measure/annulus/frame.h"
 #include "measure/orifice/orifice.h"
 #include "measure/orifice/samples.h"
+#include "measure/tenting/tenting_billow.h"
 #include "solve/static/mesh_hierarchy.h"
 #include "tests/bench/closing.h"
 #include "tests/bench/table.h"
@@ -38,6 +40,7 @@ constexpr double step_m = 1e-6;
 struct Options {
   std::vector<std::string> scenes = {"S", "M"}, states = {"leaking", "open"};
   int paths = 6, steps = 40;
+  bool tenting = false;
   std::string csv;
 };
 
@@ -53,7 +56,7 @@ Shape shape_of(const std::string &scene, const std::string &state) {
   desc.annulus_scale = state == "leaking" ? 1.4 : 1.0;
   const ModelPtr model = make_model(make_parametric_valve(desc));
   State at = initial_state(*model);
-  if (state == "leaking") {
+  if (state != "open") {
     at.load = {MVS_SYSTOLE_PA, 1};
     Solver solver(Backend::fastest);
     settle_with_mesh_hierarchy(solver, *model, at, {}, {});
@@ -132,6 +135,47 @@ void add_rows(const Options &options, const std::string &scene, const std::strin
   }
 }
 
+// Steps of a path whose rise of the tenting height is so far from the median of the path, m.
+constexpr double tenting_jump = 1e-6;
+
+void add_tenting_row(const Options &options, const std::string &scene, const std::string &state,
+                     bench::Table &table) {
+  const Shape shape = shape_of(scene, state);
+  const auto depth = [&](const std::vector<Vec3> &x) {
+    return measure_tenting_billow(*shape.model, x).tenting_height;
+  };
+  size_t count = 0, jumps = 0;
+  double most = 0;
+  for (int p = 0; p < options.paths; ++p) {
+    const std::vector<Vec3> moves = wave(shape.x, p);
+    std::vector<double> rises;
+    double last = depth(shape.x);
+    for (int s = 1; s <= options.steps; ++s) {
+      std::vector<Vec3> x = shape.x;
+      for (size_t i = 0; i < x.size(); ++i) x[i] += s * step_m * moves[i];
+      const double next = depth(x);
+      rises.push_back(next - last);
+      last = next;
+    }
+    const double usual = bench::median(rises);
+    for (const double rise : rises) {
+      ++count;
+      jumps += std::abs(rise - usual) > tenting_jump ? 1 : 0;
+      most = std::max(most, std::abs(rise - usual));
+    }
+  }
+  table.row({scene, state, count, 1e3 * depth(shape.x), jumps, 1e3 * most});
+}
+
+int run_tenting(const Options &options) {
+  bench::Table table({"scene ", "shape   ", "steps", "tenting mm", "jumps", "most mm"},
+                     options.csv);
+  for (const std::string &scene : options.scenes) {
+    for (const char *state : {"sealed", "leaking"}) add_tenting_row(options, scene, state, table);
+  }
+  return 0;
+}
+
 int run(int argc, char **argv) {
   Options options;
   CLI::App app("Jumps of the regurgitant orifice along smooth paths.", "bench_jumps");
@@ -143,8 +187,10 @@ int run(int argc, char **argv) {
       ->check(CLI::IsMember({"leaking", "open"}));
   app.add_option("--paths", options.paths, "paths of each")->check(CLI::PositiveNumber);
   app.add_option("--steps", options.steps, "steps of a path")->check(CLI::PositiveNumber);
+  app.add_flag("--tenting", options.tenting, "the tenting height instead of the orifice");
   app.add_option("--csv", options.csv, "file to write the table to");
   CLI11_PARSE(app, argc, argv);
+  if (options.tenting) return run_tenting(options);
   bench::Table table(
       {"scene ", "shape   ", "changed   ", "steps", "area mm2", "most mm2", "of area", "rms mm2"},
       options.csv);

@@ -1,51 +1,21 @@
 // Measures as functions of the positions: central differences over six decades of the step agree.
 // A yes-or-no test of a sample, or a count, would show as a jump in one of them.
 #include <doctest/doctest.h>
-#include <mvs/sim.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 
-#include "anatomy/parametric.h"
 #include "measure/annulus/annulus.h"
 #include "measure/coaptation/coaptation.h"
 #include "measure/tenting/tenting_billow.h"
-#include "solve/solver.h"
+#include "tests/measure/closed_valve.h"
 #include "tests/measure/shapes.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;
 
 namespace {
-
-struct Shape {
-  ModelPtr model;
-  std::vector<Vec3> x;
-};
-
-// A smooth field of vectors up to about 2, without any symmetry of the valve.
-Vec3 field(const Vec3 &p, double wave, int number) {
-  const double n = number;
-  const Vec3 q = wave * p + Vec3(0.3 * n, 0.7 * n, 1.1 * n);
-  return Vec3(std::sin(q[1] + 1.3 * n), std::sin(q[2] + 2.1 * n), std::sin(q[0] + 0.7 * n)) +
-         30 * Vec3(p[0] + 0.5 * p[1], p[1] - 0.3 * p[0], p[2] + 0.2 * p[0]);
-}
-
-// A closed valve, moved by up to 0.1 mm: the symmetry of the parametric one makes kinks, as both
-// halves are equally high.
-Shape closed_valve(double annulus_scale) {
-  mvs_parametric_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.annulus_scale = annulus_scale;
-  Shape shape;
-  shape.model = make_model(make_parametric_valve(desc));
-  State state = initial_state(*shape.model);
-  state.load = {120 * 133.322, 1};
-  Solver(Backend::fastest).settle(*shape.model, state, {}, nullptr);
-  shape.x = moved(state.x, [](const Vec3 &p) -> Vec3 { return p + 5e-5 * field(p, 150, 11); });
-  return shape;
-}
 
 // Six decades; and those below the distance of about 1 um between kinks of a largest or smallest
 // value (of 100 places, of 5 sections and their pieces) and of the ends of a line. Below 1e-12 m
@@ -79,7 +49,11 @@ Measured billow_of(const Model &model, const std::vector<Vec3> &x) {
 
 Measured tenting_of(const Model &model, const std::vector<Vec3> &x) {
   const TentingBillow t = measure_tenting_billow(model, x);
-  return {t.tenting_volume, t.billow_volume, t.tenting_area, t.tenting_height};
+  return {t.tenting_volume, t.billow_volume, t.tenting_area};
+}
+
+Measured tenting_height(const Model &model, const std::vector<Vec3> &x) {
+  return {measure_tenting_billow(model, x).tenting_height};
 }
 
 // Slopes below this share of a measure over 10 mm are judged by it: they are sums that cancel.
@@ -92,7 +66,7 @@ void check_differences(const Shape &shape, double wave, int number,
                        double smallest_slope = 0) {
   const auto at = [&](double h) {
     return of(*shape.model, moved(shape.x, [&](const Vec3 &p) -> Vec3 {
-      return p + h * field(p, wave, number);
+      return p + h * smooth_field(p, wave, number);
     }));
   };
   const Measured still = at(0);
@@ -124,6 +98,7 @@ TEST_CASE("differences_of_measures_agree_over_decades_of_the_step") {
     CHECK(measure_coaptation(*shape.model, shape.x).area > 10e-6);
     for (int k = 0; k < 3; ++k) {
       check_differences(shape, 60 + 30 * k, k, six_decades, coaptation_area);
+      check_differences(shape, 60 + 30 * k, k, between_kinks, tenting_height);
       check_differences(shape, 60 + 30 * k, k, between_kinks, lengths_of_coaptation);
     }
     for (int k = 0; k < 3; ++k) {
@@ -141,9 +116,10 @@ TEST_CASE("extremes_of_coaptation_are_continuous") {
     const Shape shape = closed_valve(annulus_scale);
     Measured last = lengths_of_coaptation(*shape.model, shape.x);
     for (int k = 1; k <= 60; ++k) {
-      const Measured next = lengths_of_coaptation(
-          *shape.model,
-          moved(shape.x, [&](const Vec3 &p) -> Vec3 { return p + 1e-6 * k * field(p, 100, 5); }));
+      const Measured next =
+          lengths_of_coaptation(*shape.model, moved(shape.x, [&](const Vec3 &p) -> Vec3 {
+            return p + 1e-6 * k * smooth_field(p, 100, 5);
+          }));
       for (size_t m = 0; m < next.size(); ++m) {
         CAPTURE(m);
         CHECK(std::abs(next[m] - last[m]) < 40e-6);  // nodes move by up to 2 um

@@ -50,6 +50,25 @@ def test_labels_and_values_match_differences(sim, closed):
     assert found["coaptation"][best] == pytest.approx(slope, rel=1e-3)
 
 
+def test_the_tenting_height_moves_as_through_settles():
+    with mvs.Simulator() as made:
+        made.generate(vertices=250, annulus_scale=1.05)
+        names = [row["name"] for row in made.snapshot().chords()]
+        made.apply("chord_length", chord=names[5], length=made.snapshot().chords()[5]["rest_length"] * 1.02)
+        made.set_load(mvs.SYSTOLE_PA)
+        assert made.settle(residual=TIGHT).converged
+        closed = made.snapshot()
+        found = closed.sensitivity("tenting_height", "chords")
+        best = int(np.argmax(np.abs(found.derivative[0])))
+        slopes = [
+            difference(made, closed, names[best], step, lambda s: s.measures.tenting_height) for step in (1e-7, 1e-6)
+        ]
+    assert abs(found.derivative[0, best]) > 0.1 and "raster" not in found.of_notes[0]
+    # curvature over 1 um of a chord against lengths of 10 mm; on a raster it was wrong by several times
+    assert found.derivative[0, best] == pytest.approx(slopes[0], rel=1e-3)
+    assert slopes[0] == pytest.approx(slopes[1], rel=1e-3)
+
+
 def test_sides_of_contact_that_is_about_to_switch():
     found = None
     for vertices in (230, 200, 330, 310, 290, 240):  # contact of one of these valves is about to switch

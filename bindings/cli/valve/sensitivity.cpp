@@ -161,7 +161,7 @@ std::vector<std::string> note_words(mvs_sensitivity_notes notes) {
       {MVS_SENSITIVITY_NOTE_CHORD, "chord about to switch"},
       {MVS_SENSITIVITY_NOTE_SNAP, "about to snap"},
       {MVS_SENSITIVITY_NOTE_DIFFERENCES, "by differences"},
-      {MVS_SENSITIVITY_NOTE_RASTER, "on a raster, of tenting height wrong by up to several times"},
+      {MVS_SENSITIVITY_NOTE_RASTER, "on a raster"},
       {MVS_SENSITIVITY_NOTE_EXTREME, "extreme value"},
       {MVS_SENSITIVITY_NOTE_ENVELOPE, "rim fixed in the tissue"},
       {MVS_SENSITIVITY_NOTE_CONTACT, "contact about to switch"},

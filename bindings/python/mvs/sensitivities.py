@@ -40,8 +40,7 @@ class Sensitivity:
         it only where a chord, a spring or contact is about to switch
     of_notes, to_notes: words about each row and column: "switch" (both sides differ within `slack`),
         "chord", "contact", "kink" (see above and below), "sides" (the forces confirm both), "snap",
-        "differences", "raster" (that of the tenting height may be wrong by several times: see
-        libmvs/measure/DEFINITIONS.md), "extreme", "tied" (two chordae share the largest value; the derivative is
+        "differences", "raster" (see libmvs/measure/DEFINITIONS.md), "extreme", "tied" (two chordae share the largest value; the derivative is
         that of one of them), "envelope" (mvs/sensitivity.h)
     motion: (p, n, 3) dx/dp of all nodes, or None
     weak_contacts: vertices whose contact is about to switch

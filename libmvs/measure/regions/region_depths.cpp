@@ -43,6 +43,7 @@ class DepthSearch {
         squares.push_back(square_of(column, row, largest_square));
       }
     }
+    for (const Vec3 &low : atrial_.lows) squares.push_back(square_of(low));
     sort_by_depth(squares);
     uint32_t hint = none;
     for (const Square &square : squares) {
@@ -56,23 +57,24 @@ class DepthSearch {
   }
 
  private:
-  double depth(size_t cell) const {
-    const double height = atrial_.heights[cell];
-    return std::isfinite(height) ? -atrial_.map->share(cell) * height : 0;
-  }
-
   Square square_of(int column, int row, int size) const {
     Square square{column, row, size, 0, {}};
     for (int r = row; r < row + size; ++r) {
       for (int c = column; c < column + size; ++c) {
         const size_t cell = AnnulusMap::at(c, r);
-        const double here = depth(cell);
+        const double here = atrial_.depth(cell);
         if (!(here > 0)) continue;
         square.depth = std::max(square.depth, here);
         square.box.add(Vec3(atrial_.map->u()[static_cast<size_t>(c)],
                             atrial_.map->v()[static_cast<size_t>(r)], atrial_.heights[cell]));
       }
     }
+    return square;
+  }
+  // A low counts as a cell.
+  static Square square_of(const Vec3 &low) {
+    Square square{0, 0, 1, std::max(0.0, -low[2]), {}};
+    square.box.add(low);
     return square;
   }
   // The deepest first: what they raise leaves less to look at.

@@ -79,7 +79,7 @@ void add_tenting_billow(const Model &model, const AtrialSurface &atrial, const R
   std::vector<double> deepest(map.size(), 0);
   for (size_t cell = 0; cell < tissue.size(); ++cell) {
     if (tissue[cell] == none) continue;
-    const double rise = atrial.rise(cell), depth = -atrial.map->share(cell) * atrial.heights[cell];
+    const double rise = atrial.rise(cell), depth = atrial.depth(cell);
     map.for_each(tissue[cell], [&](uint32_t region) {
       RegionMeasures &m = measures[region];
       deepest[region] = std::max(deepest[region], depth);

@@ -38,12 +38,9 @@ TentingBillow measure_tenting_billow(const AtrialSurface &atrial) {
       const double rise = atrial.rise(c), area = atrial.area(c);
       result.tenting_volume += area * std::max(0.0, -rise);
       result.billow_volume += area * std::max(0.0, rise);
-      if (std::isfinite(atrial.heights[c])) {
-        // in proportion on the rim, so that no cell enters with its whole depth
-        result.tenting_height = std::max(result.tenting_height, -map.share(c) * atrial.heights[c]);
-      }
     }
   }
+  result.tenting_height = atrial.depth();
   result.tenting_area = central_area_below(atrial);
   for (const double rise : atrial.node_rise) {
     if (rise > result.billow_height) result.billow_height = rise;  // false for NaN

@@ -779,10 +779,7 @@ export const SensitivityNotes = {
   note_snap: 4,
   /** the measure is differenced along dx/dp */
   note_differences: 8,
-  /**
-   * the same, and the measure moves in small steps: may be several times off, see
-   * libmvs/measure/DEFINITIONS.md
-   */
+  /** the same, of a measure on a raster: see libmvs/measure/DEFINITIONS.md */
   note_raster: 16,
   /** a largest or smallest value: its derivative changes where another place takes over */
   note_extreme: 32,
