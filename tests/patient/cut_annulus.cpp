@@ -118,6 +118,20 @@ TEST_CASE("a_wall_beside_a_part_of_the_annulus_is_cut_off") {
   }
 }
 
+// The wall's rim spans 2.7 times the area of the free edge. Where it ends in waves it is less like
+// an annulus than that edge, and the leaflets were cut off in place of the wall.
+TEST_CASE("a_wall_that_ends_in_waves_is_cut_off") {
+  WalledValve valve = with_wall(1600, 5, is_everywhere);
+  const size_t n = valve.annulus.size(), first = valve.surface.x.size() - 5 * n;
+  for (size_t i = 0; i < 5 * n; ++i) {
+    const double angle = 2 * pi * static_cast<double>(i % n) / static_cast<double>(n);
+    const double height = 0.65 + 0.35 * std::cos(12 * angle);
+    double &z = valve.surface.x[first + i].z();
+    z = valve.annulus[i % n].z() + height * (z - valve.annulus[i % n].z());
+  }
+  check_leaflets(cut(valve.surface, annulus_points(valve, 6, 0)), valve);
+}
+
 TEST_CASE("a_wall_with_veins_and_a_closed_atrium_are_cut_off") {
   WalledValve valve = with_wall(1600, 6, is_everywhere);
   const Surface open = valve.surface;

@@ -151,9 +151,10 @@ LeafletSide leaflet_side(const std::vector<RimLoop> &rims, const CurveLevel &at,
     }
     return {nearer > 0 ? plus : minus, nearer > 0 ? 1.0 : -1.0};
   }
-  const double a = annulus_likeness(minus->shape), b = annulus_likeness(plus->shape);
-  const double odds = std::max(a, b) / std::max(std::min(a, b), 1e-300);
-  return {a > b ? plus : minus, a > b ? 1.0 : -1.0, std::min(0.9, (odds - 1) / (odds + 1))};
+  const double of_minus = annulus_odds(minus->shape, plus->shape);
+  const double odds = std::max(of_minus, 1 / of_minus);
+  return {of_minus > 1 ? plus : minus, of_minus > 1 ? 1.0 : -1.0,
+          std::min(0.9, (odds - 1) / (odds + 1))};
 }
 
 // Makes the level negative in pieces beyond the curve that hardly reach there, that have the free

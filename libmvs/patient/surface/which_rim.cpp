@@ -27,14 +27,6 @@ constexpr double most_odds = 3;
 // less like an annulus by up to 40 %, and hardly change its area.
 constexpr double clearly_larger = 1.5, least_odds = 1.2;
 
-// How many times more like an annulus than the other rim it is.
-double odds_of(const LoopShape &rim, const LoopShape &other) {
-  const double odds = annulus_likeness(rim) / std::max(annulus_likeness(other), 1e-300);
-  const double areas = rim.area.norm() / std::max(other.area.norm(), 1e-300);
-  if (areas > clearly_larger) return std::max(odds, least_odds);
-  return areas < 1 / clearly_larger ? std::min(odds, 1 / least_odds) : odds;
-}
-
 // The mean distance of points from the curve of a rim.
 double mean_distance(const LeafletSheet &sheet, const RimLoop &rim,
                      const std::vector<Vec3> &points) {
@@ -54,7 +46,7 @@ double mean_distance(const LeafletSheet &sheet, const RimLoop &rim,
 // how many times more.
 double doubt_shape(const std::vector<RimLoop> &rims, size_t annulus, const char *remedy,
                    Finding &finding) {
-  const double odds = odds_of(rims[1 - annulus].shape, rims[annulus].shape);
+  const double odds = annulus_odds(rims[1 - annulus].shape, rims[annulus].shape);
   if (odds > 1) {
     finding.confidence /= odds;
     finding.sentence += format("; by its shape the other one is the annulus: %s", remedy);
@@ -142,7 +134,8 @@ bool first_by_tips(const std::vector<RimLoop> &rims, const std::vector<Vec3> &ti
 }
 
 bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
-  const double first = odds_of(rims[0].shape, rims[1].shape), odds = std::max(first, 1 / first);
+  const double first = annulus_odds(rims[0].shape, rims[1].shape),
+               odds = std::max(first, 1 / first);
   const LoopShape &annulus = rims[first >= 1 ? 0 : 1].shape;
   const LoopShape &edge = rims[first >= 1 ? 1 : 0].shape;
   const bool is_rough = annulus_likeness(annulus) < annulus_likeness(edge);
@@ -164,6 +157,13 @@ bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
 double annulus_likeness(const LoopShape &shape) {
   const double area = shape.area.norm();
   return area * area / (shape.length * shape.length * shape.turning * shape.turning);
+}
+
+double annulus_odds(const LoopShape &rim, const LoopShape &other) {
+  const double odds = annulus_likeness(rim) / std::max(annulus_likeness(other), 1e-300);
+  const double areas = rim.area.norm() / std::max(other.area.norm(), 1e-300);
+  if (areas > clearly_larger) return std::max(odds, least_odds);
+  return areas < 1 / clearly_larger ? std::min(odds, 1 / least_odds) : odds;
 }
 
 void order_rims(const LeafletSheet &sheet, const RimLandmarks &landmarks,

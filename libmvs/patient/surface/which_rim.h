@@ -15,6 +15,10 @@ namespace mvs::core {
 // plane than many a free edge.)
 double annulus_likeness(const LoopShape &shape);
 
+// How many times more like an annulus a rim is than the other one. A rim that spans more than 1.5
+// times as much area is never the less likely one.
+double annulus_odds(const LoopShape &rim, const LoopShape &other);
+
 // Puts the annulus first, and adds the finding of how that was decided.
 void order_rims(const LeafletSheet &sheet, const RimLandmarks &landmarks,
                 std::vector<RimLoop> &rims, Findings &findings);
