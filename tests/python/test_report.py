@@ -5,6 +5,7 @@ import io
 import re
 
 import mvs
+import numpy as np
 import pytest
 
 pytest.importorskip("pyvista")
@@ -101,3 +102,17 @@ def test_the_ensemble_has_a_picture_and_every_figure(case):
     assert "Thin &lt;valve&gt;" in text and "<valve>" not in text
     for row in table.ROWS:
         assert f"<tr><th>{row.label}</th><td>{table.value(row, case.closed.measures)}</td>" in text
+
+
+def test_a_view_from_the_ventricle_shows_papillary_muscles_whole(closed):
+    import matplotlib.image
+    from mvs.drawing.pictures import picture, view_from_ventricle, view_oblique, whole_valve
+
+    drawing = geometry.Drawing(closed)
+    for view in (view_from_ventricle(44), view_oblique(44)):
+        png = picture(drawing, view, closed=True)
+        red, green, _ = np.moveaxis(matplotlib.image.imread(io.BytesIO(png))[..., :3], 2, 0)
+        muscle = (red - green > 0.15) & (green < 0.42)  # darker than leaflets
+        assert muscle.sum() > 1000
+        assert not muscle[-1].any()
+    assert view_from_ventricle(90).around(whole_valve(drawing), 4) == view_from_ventricle(90)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from mvs import PartKind
 from .geometry import Drawing
-from .scene import ORIFICE_PARTS, Colours, Scene, View, orifice_colour
+from .scene import HEAD_LENGTH, ORIFICE_PARTS, Colours, Scene, View, orifice_colour
 
 if TYPE_CHECKING:
     from matplotlib.typing import RcKeyType
@@ -25,6 +25,8 @@ INK = "#222222"
 DPI = 110
 LABEL_STEP = 5.5
 """mm of the picture between labels of parts of the orifice."""
+MARGIN = 4.0
+"""mm around a whole valve: half the width of a papillary muscle, and a millimetre."""
 STYLE: dict[RcKeyType, Any] = {"font.family": "DejaVu Sans", "font.size": 11, "text.color": INK}
 """Settings of matplotlib within a drawing function; those of the user stay as they are."""
 
@@ -64,6 +66,11 @@ def view_oblique(width: float) -> View:
 def view_from_ventricle(width: float) -> View:
     """From the posterior side and below: chordae and papillary muscles."""
     return View(towards=(0.35, -1.0, -0.28), up=(0, 0, 1), width=width, centre=(0, 0, -14))
+
+
+def whole_valve(drawing: Drawing) -> NDArray[np.float64]:
+    """Nodes and the lower ends of the papillary muscles as drawn, mm."""
+    return np.concatenate([drawing.nodes, drawing.heads - [0, 0, HEAD_LENGTH]])
 
 
 def place_image(ax: Any, image: NDArray[np.uint8], view: View) -> None:
@@ -130,9 +137,12 @@ def picture(
     tension: Optional[float] = None,
     labels: bool = True,
 ) -> bytes:
-    """One view of a valve; `tension`: N, upper end of the colour scale of the chordae."""
+    """One view of a valve; `tension`: N, upper end of the colour scale of the chordae. A view from elsewhere than the atrium
+    is moved and widened where leaflets or papillary muscles would be cut off."""
     scene = Scene(drawing)
     from_atrium = view.towards == (0, 0, 1)
+    if not from_atrium:
+        view = view.around(whole_valve(drawing), MARGIN)
     scene.add_leaflets(opacity=0.55 if tension else 1.0)
     scene.add_rim()
     scene.add_annulus()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal, Optional
 
 import numpy as np
@@ -23,6 +23,8 @@ ORIFICE, SEWN = "#d7191c", "#2f5fa8"
 # of the parts of an orifice, the largest first; the last one for all others
 ORIFICE_PARTS = (ORIFICE, "#7b3294", "#b35806", "#1b7837", "#525252")
 PIXELS = 1100
+HEIGHT, HEAD_LENGTH = 0.8, 14.0
+"""of a picture over its width; mm, of a papillary muscle as drawn, below its tip"""
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,18 @@ class View:
     def project(self, points: Points) -> Points:
         """Points of the drawing in mm to the right of and above the centre of the picture."""
         return np.asarray((points - np.asarray(self.centre)) @ self.axes[:2].T)
+
+    def around(self, points: Points, margin: float) -> View:
+        """The same view; if a point lies beyond the picture or within `margin` mm of its border, moved to the
+        middle of the points, and wider if they need it."""
+        seen = self.project(points)
+        low, high = seen.min(axis=0) - margin, seen.max(axis=0) + margin
+        half = self.width / 2 * np.array([1, HEIGHT])
+        if (low >= -half).all() and (high <= half).all():
+            return self
+        centre = np.asarray(self.centre) + (low + high) / 2 @ self.axes[:2]
+        width = max(self.width, *((high - low) / [1, HEIGHT]))
+        return replace(self, width=float(width), centre=(float(centre[0]), float(centre[1]), float(centre[2])))
 
 
 @dataclass
@@ -77,7 +91,7 @@ def _polyline(points: Points, closed: bool) -> Any:
 class Scene:
     """Collects the parts of a valve and renders them."""
 
-    def __init__(self, drawing: Drawing, height: float = 0.8) -> None:
+    def __init__(self, drawing: Drawing, height: float = HEIGHT) -> None:
         self.drawing = drawing
         self.plotter = pyvista.Plotter(
             off_screen=True, window_size=[PIXELS, int(PIXELS * height)], lighting="none"
@@ -214,7 +228,7 @@ class Scene:
         """Adds one papillary muscle under each cluster of heads, and a tip at each head."""
         for cluster in _clusters(self.drawing.heads, 9.0):
             tip = cluster.mean(axis=0)
-            length, width = 14.0, max(3.0, 1.5 + np.linalg.norm(cluster - tip, axis=1).max())
+            length, width = HEAD_LENGTH, max(3.0, 1.5 + np.linalg.norm(cluster - tip, axis=1).max())
             body = pyvista.ParametricEllipsoid(width, width, length / 2)
             body = body.translate(tip - [0, 0, length / 2 - 0.4])
             self.plotter.add_mesh(body, color=HEAD, smooth_shading=True, ambient=0.2, specular=0.25)
