@@ -236,6 +236,38 @@ TEST_CASE("two_gaps_are_two_parts_whose_areas_add_up") {
   }
 }
 
+// A gap hardly wider than the contact thickness had three openings within 2 mm, and the jet of one,
+// a single triangle that hung on the others by a point, went into the ventricle.
+TEST_CASE("pieces_of_an_orifice_that_touch_in_a_point_are_one_opening_into_the_atrium") {
+  Sheet sheet = disc(16 * mm, 4 * mm, [](double, double) { return 0; });
+  const ModelPtr model = model_of(sheet);
+  Orifice orifice;
+  orifice.vertices = {{0, 0, 0},       {1 * mm, 0, 0},        {0, 1 * mm, 0},
+                      {-1 * mm, 0, 0}, {-1 * mm, -1 * mm, 0}, {2 * mm, 0.5 * mm, 0},
+                      {2 * mm, 0, 0}};
+  // two that face the atrium and touch in a point; a smaller one, at a point of theirs, that does
+  // not; none has an edge in common with another one
+  orifice.triangles = {{0, 1, 2}, {0, 3, 4}, {1, 5, 6}};
+  const RegionMap map(*model);
+  const OrificeParts found = find_orifice_parts(*model, model->valve.rest, map, orifice);
+  REQUIRE(found.parts.size() == 1);
+  CHECK(found.parts[0].triangles == 3);
+  CHECK(found.parts[0].direction[2] == about(1, 1e-12));
+}
+
+// Of leaflets that meet. Over a prolapsed leaflet a jet leaves along the other one, and may go
+// down.
+TEST_CASE("jets_of_dilated_valves_go_into_the_atrium") {
+  for (const double scale : {1.15, 1.2, 1.3}) {
+    const Closed closed = close_valve(scale, "");
+    const Measured m(closed.model, closed.x);
+    CHECK(!m.parts.parts.empty());
+    for (const OrificePart &part : m.parts.parts) {
+      CHECK((valve_frame(*closed.model, closed.x).axes * part.direction)[2] > 0);
+    }
+  }
+}
+
 TEST_CASE("a_dilated_annulus_leaks_in_the_middle_into_the_atrium") {
   const Measured m(dilated().model, dilated().x);
   REQUIRE(m.parts.parts.size() >= 1);

@@ -1,4 +1,4 @@
-// Parts of the orifice by breadth-first search over shared edges; the tissue beside each by the
+// Parts of the orifice by breadth-first search over shared points; the tissue beside each by the
 // nearest triangle of the sheet to samples of the orifice.
 #include "measure/regions/orifice_parts.h"
 
@@ -13,7 +13,6 @@
 #include "measure/annulus/landmarks.h"
 #include "measure/coaptation/coaptation_parts.h"
 #include "measure/regions/region_search.h"
-#include "model/sides.h"
 
 namespace mvs::core {
 namespace {
@@ -30,16 +29,13 @@ Vec3 area_vector(const Orifice &orifice, uint32_t t) {
   return 0.5 * (x[c[1]] - x[c[0]]).cross(x[c[2]] - x[c[0]]);
 }
 
-// Numbers the triangles connected over edges; returns how many parts there are.
-uint32_t number_parts(const std::vector<Tri> &triangles, std::vector<uint32_t> &part_of) {
-  std::vector<std::vector<uint32_t>> next(triangles.size());
-  const std::vector<Side> sides = sorted_sides(triangles);
-  for_each_edge(sides, [&](size_t first, size_t last) {
-    for (size_t k = first + 1; k < last; ++k) {
-      next[sides[k - 1].triangle].push_back(sides[k].triangle);
-      next[sides[k].triangle].push_back(sides[k - 1].triangle);
-    }
-  });
+// Numbers the triangles connected over points; returns how many parts there are.
+uint32_t number_parts(const Orifice &orifice, std::vector<uint32_t> &part_of) {
+  const std::vector<Tri> &triangles = orifice.triangles;
+  std::vector<std::vector<uint32_t>> around(orifice.vertices.size());
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    for (const uint32_t v : triangles[t]) around[v].push_back(t);
+  }
   part_of.assign(triangles.size(), none);
   uint32_t parts = 0;
   for (uint32_t start = 0; start < triangles.size(); ++start) {
@@ -47,10 +43,12 @@ uint32_t number_parts(const std::vector<Tri> &triangles, std::vector<uint32_t> &
     std::vector<uint32_t> queue = {start};
     part_of[start] = parts;
     for (size_t q = 0; q < queue.size(); ++q) {
-      for (const uint32_t t : next[queue[q]]) {
-        if (part_of[t] != none) continue;
-        part_of[t] = parts;
-        queue.push_back(t);
+      for (const uint32_t v : triangles[queue[q]]) {
+        for (const uint32_t t : around[v]) {
+          if (part_of[t] != none) continue;
+          part_of[t] = parts;
+          queue.push_back(t);
+        }
       }
     }
     ++parts;
@@ -236,7 +234,7 @@ OrificeParts find_orifice_parts(const Model &model, const std::vector<Vec3> &x,
                                 const RegionMap &map, const Orifice &orifice) {
   OrificeParts found;
   if (orifice.triangles.empty()) return found;
-  found.parts.resize(number_parts(orifice.triangles, found.of_triangle));
+  found.parts.resize(number_parts(orifice, found.of_triangle));
   add_triangles(orifice, found);
   sort_parts(found);
   OrificeSampling(model, x, map, orifice, found).run();

@@ -1,4 +1,6 @@
-// Connected parts of the regurgitant orifice, and the tissue beside each.
+// Connected parts of the regurgitant orifice, and the tissue beside each. Pieces that touch in a
+// point are one part: where a gap is hardly wider than the contact thickness, single triangles of
+// the cut hang on the others by a point, and may face any way.
 #pragma once
 
 #include <string>
