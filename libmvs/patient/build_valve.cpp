@@ -25,7 +25,7 @@ void report_leaflets(const PatientSurface &surface, const MidSheet &mid, Finding
   const LeafletArcs arcs =
       find_leaflets(mid.sheet, mid.rims, coordinates,
                     {surface.commissures, surface.anterior, surface.tips}, findings);
-  doubt_tall_leaflets(mid.rims, coordinates, arcs, findings);
+  doubt_tall_leaflets(mid.sheet, mid.rims, coordinates, arcs, surface.commissures, findings);
 }
 
 // The heads follow the annulus as a whole, unless they are given under load.

@@ -49,7 +49,7 @@ double farthest_of(const std::array<double, 2> &feet, const std::array<double, 2
 }  // namespace
 
 CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
-                       const std::vector<Vec3> &points) {
+                       const std::vector<Vec3> &points, bool given) {
   CommissureFeet found;
   auto &[feet, distance, other] = found;
   for (const Vec3 &p : points) {
@@ -68,8 +68,12 @@ CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordi
   const double apart = std::abs(around(feet[0], feet[1], coordinates.annulus_length));
   MVS_MUST(apart >= least_share * coordinates.annulus_length, MVS_E_OP, "commissures",
            "the commissures are %.1f mm apart along the annulus of %.0f mm, less than a fifth of "
-           "it: give one point for each commissure",
-           apart * 1e3, coordinates.annulus_length * 1e3);
+           "it: %s",
+           apart * 1e3, coordinates.annulus_length * 1e3,
+           given
+               ? "give one point for each commissure"
+               : "is wall of the atrium labelled as a leaflet? Give six points or more all around "
+                 "the annulus, along which it is cut off");
   return found;
 }
 

@@ -25,9 +25,10 @@ struct CommissureFeet {
   double mirrored = 0;
 };
 
-// Throws if a point is too far from the surface.
+// Throws if a point is too far from the surface, or both are at one place. `given`: by the caller,
+// not found.
 CommissureFeet feet_of(const LeafletSheet &sheet, const SheetCoordinates &coordinates,
-                       const std::vector<Vec3> &points);
+                       const std::vector<Vec3> &points, bool given);
 
 // Says how far given points are from the surface, with a doubt if that is far.
 void say_given(const CommissureFeet &found, Finding &finding);

@@ -239,7 +239,8 @@ LeafletArcs find_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
     findings[at].confidence *= orientation;  // the sides tell the two commissures apart
   }
   // found points take the same way as given ones, so that giving them changes no bit
-  const CommissureFeet placed = feet_of(sheet, coordinates, commissures);
+  const CommissureFeet placed =
+      feet_of(sheet, coordinates, commissures, !landmarks.commissures.empty());
   const std::array<double, 2> &feet = placed.feet;
   if (!landmarks.commissures.empty()) {
     say_given(placed, findings[at]);

@@ -7,9 +7,11 @@
 namespace mvs::core {
 
 // Where the annulus was not given: adds the finding "tall_leaflets" and halves the confidence in
-// the annulus if the leaflets are a third taller than the largest normal ones at both commissures,
-// or in the anterior leaflet. Wall beside P2 alone is not seen so.
-void doubt_tall_leaflets(const SheetRims &rims, const SheetCoordinates &coordinates,
-                         const LeafletArcs &arcs, Findings &findings);
+// the annulus if the leaflets are a third taller than the largest normal ones all around both
+// commissures, thick ones by twice that thickness more, or in the anterior leaflet, or if given
+// commissures lie below the annulus. Wall beside P2 alone is not seen so.
+void doubt_tall_leaflets(const LeafletSheet &sheet, const SheetRims &rims,
+                         const SheetCoordinates &coordinates, const LeafletArcs &arcs,
+                         const std::vector<Vec3> &commissures, Findings &findings);
 
 }  // namespace mvs::core

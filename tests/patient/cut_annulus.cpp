@@ -164,7 +164,7 @@ TEST_CASE("a_wall_without_annulus_points_is_doubted_as_tall_leaflets") {
     const SheetCoordinates coordinates = sheet_coordinates(sheet, rims);
     const double before = find(findings, "annulus")->confidence;
     const LeafletArcs arcs = find_leaflets(sheet, rims, coordinates, {}, findings);
-    doubt_tall_leaflets(rims, coordinates, arcs, findings);
+    doubt_tall_leaflets(sheet, rims, coordinates, arcs, {}, findings);
     const bool is_tall = find(findings, "tall_leaflets") != nullptr;
     CHECK(find(findings, "annulus")->confidence == (is_tall ? 0.5 * before : before));
     return is_tall;
