@@ -1,6 +1,7 @@
 """mvs.imaging: what the command prints of a valve, as text, as JSON and as warnings."""
 
 import argparse
+import dataclasses
 import json
 import types
 import warnings
@@ -47,6 +48,15 @@ def test_the_headline_names_gaps_of_the_loaded_leaflets_that_the_valve_lacks(cap
     assert verdict_of(made_with(gaps, leak=14)) == "at rest, leaks through 14.0 mm2"
     assert verdict_of(made_with(finding("shown_gaps", MEASURED, 0.9, "none", [0.0], "m2"))) == "at rest, sealed"
     assert verdict_of(made_with(gaps, converged=False)).startswith("NOT at rest")
+
+
+def test_the_headline_names_doubtful_findings(capsys):
+    interval = finding("leak_interval", MEASURED, 0.5, "said", [0, 3.3e-6], "m2")
+    fit = dataclasses.replace(finding("closed_fit", MEASURED, 0.1, "far", [3.5e-3], "m"), doubtful=True)
+    rest = dataclasses.replace(finding("leak_at_rest", MEASURED, 0.1, "few", [0.1]), doubtful=True)
+    said = "at rest, sealed; 0.0 to 3.3 mm2 over what is not sure"
+    assert f"{said}; doubtful: closed_fit, leak_at_rest\n" in printed(capsys, made_with(fit, interval, rest), False)
+    assert f"{said}\n" in printed(capsys, made_with(interval), False)
 
 
 @pytest.mark.parametrize("quiet", [False, True])

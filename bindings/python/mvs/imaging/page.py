@@ -16,7 +16,7 @@ from mvs.report.markup import cells, figure, heads, table
 from .mesh import Sheet
 from .needs import need
 from .repair import chapter
-from .result import verdict_of
+from .result import doubts_in, verdict_of
 from .valve import ImageValve, ScannedImage, leaflet_mesh
 
 PAGE = Template("""<!DOCTYPE html>
@@ -57,7 +57,7 @@ def write_page(path: Union[str, "os.PathLike[str]"], made: ImageValve, source: s
 
 
 def page_of(made: ImageValve, source: str) -> str:
-    verdict = f"Closed under 120 mmHg: {verdict_of(made)}."
+    verdict = f"Closed under 120 mmHg: {verdict_of(made)}{doubts_in(made.findings)}."
     said = {one.name: one.sentence for one in made.findings}
     interval = " ".join(f"{words}." for words in (
         said.get("leak"), "Interval: " + said["leak_interval"] if "leak_interval" in said else None)

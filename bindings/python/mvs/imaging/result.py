@@ -38,7 +38,8 @@ def print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None:
           f"chord segments, {len(opened.head_nodes)} papillary heads")
     print(f"{findings}: what was found, guessed and assumed; edit it and give it by --with")
     print(f"closed under 120 mmHg: {verdict_of(made)}"
-          + (f"; {interval[0]:.1f} to {interval[1]:.1f} mm2 over what is not sure" if interval else ""))
+          + (f"; {interval[0]:.1f} to {interval[1]:.1f} mm2 over what is not sure" if interval else "")
+          + doubts_in(made.findings))
     if made.repair:
         facts = _repair_facts(made)["repair"]
         print(f"after {facts['operations']} operations: "
@@ -60,6 +61,12 @@ def verdict_of(made: Any) -> str:
     if shown >= SEALED and leak < SHARE_OF_SHOWN * shown:
         shape += f", but the loaded leaflets show gaps of {shown:.1f} mm2"
     return f"at rest, {shape}"
+
+
+def doubts_in(findings: Iterable[mvs.Finding]) -> str:
+    """The names of the doubtful findings, on which the leak depends, to follow it; empty without any."""
+    names = [one.name for one in findings if one.doubtful]
+    return f"; doubtful: {', '.join(names)}" if names else ""
 
 
 SEALED, SHARE_OF_SHOWN = 0.05, 0.5
