@@ -18,6 +18,12 @@ namespace {
 // m: a point of the annulus moves at most so far to a rim of the leaflets: free edges, and the far
 // sides of gaps in a rim, are 8 mm away and more but beside the commissures.
 constexpr double farthest_rim = 6e-3;
+// m: where too little of the annulus lies within that, it is sought so far: in a beat an annulus
+// descends by up to 12 mm.
+constexpr double farthest_moved_rim = 12e-3;
+// m, RMS of what remains then: rims from images are right to a voxel. Parts of other rims that the
+// annulus meets by chance remain farther away.
+constexpr double rms_of_moved = 1e-3;
 // m, RMS: errors of rims from images make as much.
 constexpr double no_motion = 0.25e-3;
 // Norm of the stretch: normal annuli change their diameters by 5 to 15 % in a beat, and 0.4 is 28 %
@@ -29,7 +35,9 @@ constexpr double curve_spacing = 1e-3;  // m, of the points of a given curve
 // are one wave a lap, the height of the saddle is two, and a radial change of a D shape up to four.
 // Shorter ones would be errors that wrinkle the annulus and stretch the leaflets at it.
 constexpr size_t most_waves = 4;
-constexpr double confidence_of_rims = 0.6;
+// Of a motion that is found at once, and of one that is sought farther off: an image of another
+// place of the table, or another frame, looks the same.
+constexpr double confidence_of_rims = 0.6, confidence_of_far_rims = 0.3;
 
 // Sides that have one triangle.
 std::vector<CurveSide> rims_of(const ClosedSurface &closed) {
@@ -116,6 +124,26 @@ bool is_plausible(const Meeting &met) {
          met.motion.shift.norm() <= farthest_annulus;
 }
 
+// The meeting with rims of the closed surface, those at hand or others farther off.
+struct RimMeeting {
+  Meeting met;
+  bool is_far = false;
+};
+RimMeeting meet_rims(const std::vector<Vec3> &annulus, const Vec3 &centre,
+                     const std::vector<CurveSide> &rims) {
+  const Meeting near = meet(annulus, centre, rims, farthest_rim);
+  if (is_plausible(near)) return {near};
+  const Meeting far = meet(annulus, centre, rims, farthest_moved_rim);
+  return is_plausible(far) && far.rms <= rms_of_moved ? RimMeeting{far, true} : RimMeeting{near};
+}
+
+std::string far_words(const Meeting &met) {
+  return format(
+      "; the closed leaflets are displaced by %.1f mm as a whole: if the annulus does not move so "
+      "far, both surfaces do not lie in one frame, and have to be registered",
+      met.motion.shift.norm() * 1e3);
+}
+
 }  // namespace
 
 Vec3 AnnulusMotion::operator()(const Vec3 &p) const {
@@ -152,10 +180,10 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
            "all around it",
            given.size());
   const std::vector<CurveSide> sides = given.empty() ? rims_of(closed) : sides_of(through);
-  Meeting met;
-  if (!sides.empty()) {
-    met = meet(annulus, motion.centre_, sides, given.empty() ? farthest_rim : HUGE_VAL);
-  }
+  RimMeeting of_rims;
+  Meeting &met = of_rims.met;
+  if (!sides.empty() && given.empty()) of_rims = meet_rims(annulus, motion.centre_, sides);
+  if (!given.empty()) met = meet(annulus, motion.centre_, sides, HUGE_VAL);
   motion.moves_ = is_plausible(met);
   motion.stretch_ = met.motion.stretch;
   motion.shift_ = met.motion.shift;
@@ -179,8 +207,10 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
         "the annulus moves to rims of the closed surface, by " + words_of(annulus, motion) +
             format("; %.2f mm (RMS) remain on %.0f %% of it; give points along the loaded annulus "
                    "if they are known",
-                   met.rms * 1e3, 100 * met.seen),
+                   met.rms * 1e3, 100 * met.seen) +
+            (of_rims.is_far ? far_words(met) : ""),
         findings);
+    if (of_rims.is_far) findings.back().confidence = confidence_of_far_rims;
   }
   return motion;
 }
