@@ -137,7 +137,7 @@ MVS_API mvs_result mvs_build_valve(mvs_sim *sim, const mvs_surface_desc *surface
 /* Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other lengths
  * and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an error
  * of the thickness, if all of these are sealed. `errors` is nullable. `findings` gets "leak",
- * "leak_interval", without values if no closure came to rest, and "leak_limits", m2, as those of a
+ * "leak_interval", without values if too few came to rest, and "leak_limits", m2, as those of a
  * build; release it with mvs_findings_release. The simulator is unchanged. MVS_E_CANCELLED if the
  * progress callback of the simulator cancelled. */
 MVS_API mvs_result mvs_find_leak_interval(mvs_sim *sim, const mvs_leak_errors *errors,

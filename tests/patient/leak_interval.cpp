@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "patient/doubtful.h"
 #include "patient/findings.h"
 #include "patient/fit/leak_report.h"
 #include "tests/patient/patient_valve.h"
@@ -24,6 +25,16 @@ LeakInterval three_closures(uint32_t closed, bool diverged) {
   interval.rests = closed;
   if (closed > 0) interval.least = 0, interval.most = 5e-6;
   return interval;
+}
+
+// A valve of neo-Hookean leaflets; mu: Pa.
+Valve soft_valve(double mu) {
+  Valve valve = patient_valve(200);
+  for (Leaflet &leaflet : valve.leaflets) {
+    leaflet.law = LeafletLawId::neo_hookean;
+    leaflet.constants = {{mu}};
+  }
+  return valve;
 }
 
 }  // namespace
@@ -91,22 +102,101 @@ TEST_CASE("closures_that_creep_count_where_only_the_valve_as_it_is_comes_to_rest
   CHECK(range->sentence.find("each of these") == std::string::npos);
 }
 
+// Of 13 closures, one came to rest, and the interval was said as sure as if all had.
+TEST_CASE("an_interval_of_few_closures_at_rest_is_doubted_and_less_sure") {
+  LeakInterval interval = three_closures(3, false);
+  interval.closures = 13;
+  const auto said = [&](uint32_t rests) {
+    interval.rests = rests;
+    Findings findings;
+    report_leaks(interval, {}, 0, findings);
+    return findings;
+  };
+  const Findings few = said(1), most = said(12), all = said(13);
+  const Finding *doubt = find_finding(few, "leak_at_rest");
+  REQUIRE(doubt != nullptr);
+  CHECK(is_doubtful(*doubt));
+  CHECK(doubt->sentence.find("1 of 13 closures") == 0);
+  CHECK(find_finding(most, "leak_at_rest") == nullptr);
+  CHECK(find_finding(few, "leak_interval")->confidence < 0.05);
+  CHECK(find_finding(few, "leak")->confidence < 0.05);
+  CHECK(find_finding(most, "leak_interval")->confidence <
+        find_finding(all, "leak_interval")->confidence);
+  // an interval of no more than half of them that is not known
+  interval.least = interval.most = NAN;
+  const Findings unknown = said(3);
+  CHECK(find_finding(unknown, "leak_interval")->value.empty());
+  CHECK(find_finding(unknown, "leak_interval")
+            ->sentence.find("not determined: only 3 of 13 closures") == 0);
+}
+
+TEST_CASE("an_interval_is_no_surer_than_the_fit_to_the_closed_surface") {
+  Findings findings{{"closed_fit", FindingSource::measured, 0.1, "", {}, "m"}};
+  report_leaks(three_closures(3, false), {}, 0, findings);
+  CHECK(find_finding(findings, "leak_interval")->confidence == 0.1);
+  CHECK(find_finding(findings, "leak")->confidence == 0.1);
+}
+
+// "0.0 to 131.4 mm2 ...: each of these closures leaks less than 0.5 mm2".
+TEST_CASE("an_interval_says_where_each_of_its_ends_comes_from") {
+  LeakInterval interval = three_closures(3, false);
+  interval.of_closures = {0, 0.5e-6};
+  interval.with_shape = {0, 1.2e-6};
+  interval.shape.distance = 1e-3;
+  interval.shown = {21.8e-6, 131.4e-6};
+  interval.least = 0, interval.most = 131.4e-6;
+  const auto said = [&] {
+    Findings findings;
+    report_leaks(interval, {}, 0, findings);
+    return find_finding(findings, "leak_interval")->sentence;
+  };
+  const auto has = [](const std::string &text, const char *words) {
+    return text.find(words) != std::string::npos;
+  };
+  const std::string upper = said();
+  CHECK(upper.find("0.0 to 131.4 mm2; by closures alone 0.0 to 0.5 mm2 for") == 0);
+  CHECK(has(upper, "each of these closures leaks less than 0.5 mm2"));
+  CHECK(has(upper, "this widens the interval to 0.0 to 1.2 mm2"));
+  CHECK(has(upper, "has gaps of 21.8 to 131.4 mm2: the upper end of the interval is theirs"));
+  interval.of_closures = interval.with_shape = {40e-6, 60e-6};
+  interval.shown = {21.8e-6, 30e-6};
+  interval.least = 21.8e-6, interval.most = 60e-6;
+  const std::string lower = said();
+  CHECK(has(lower, "the lower end of the interval is theirs"));
+  CHECK(!has(lower, "this widens"));
+  interval.shown = {}, interval.shape = {};
+  interval.least = 40e-6;
+  const std::string alone = said();
+  CHECK(alone.find("40.0 to 60.0 mm2 for lengths") == 0);
+  CHECK(!has(alone, "theirs"));
+}
+
 // Tissue of a hundredth of the stiffness of a leaflet's cannot carry the pressure: closures end at
 // their last iteration, and what earlier fits leaked decides nothing.
 TEST_CASE("leaks_of_a_fit_do_not_stand_for_closures_that_do_not_come_to_rest") {
-  Valve valve = patient_valve(200);
-  for (Leaflet &leaflet : valve.leaflets) {
-    leaflet.law = LeafletLawId::neo_hookean;
-    leaflet.constants = {{2e3}};
-  }
   Findings findings;
-  const LeakInterval interval = leak_interval(make_model(valve), {}, {4e-6}, findings);
+  const LeakInterval interval = leak_interval(make_model(soft_valve(2e3)), {}, {4e-6}, findings);
   CHECK(interval.rests == 0);
   CHECK(interval.draws == 0);  // random lengths would not come to rest either
   for (const uint32_t iterations : interval.iterations) CHECK(iterations <= 400);
   CHECK_FALSE(interval.creeps);
   CHECK(std::isnan(interval.most));
   CHECK(find_finding(findings, "leak_interval")->value.empty());
+}
+
+// Of the closures of a soft valve only that with thicker leaflets comes to rest; those at rest made
+// an interval of 0.0 to 0.5 mm2, though the valve as it is has no shape.
+TEST_CASE("a_valve_that_does_not_come_to_rest_has_no_interval_by_others_that_do") {
+  LeakUnknowns unknowns;
+  unknowns.thickness_error = 0.3e-3;
+  Findings findings;
+  const LeakInterval interval = leak_interval(make_model(soft_valve(50e3)), unknowns, {}, findings);
+  CHECK(interval.rests == 1);
+  CHECK(interval.closures == 5);
+  CHECK(interval.draws == 0);
+  CHECK(std::isnan(interval.most));
+  CHECK(find_finding(findings, "leak_interval")->value.empty());
+  CHECK(is_doubtful(*find_finding(findings, "leak_at_rest")));
 }
 
 // A search prefers a valve at rest to one that lies nearer to the surface and is not.

@@ -79,6 +79,8 @@ struct FoundLeaks {
   void add(const std::vector<Closed> &closed) {
     for (const Closed &c : closed) add(c);
   }
+  // Whether the valve is sealed in all closures, of which one or more came to rest.
+  bool seal() const { return rests > 0 && all_seal(all); }
   // Of all closures that have a shape.
   std::vector<double> finite() const {
     std::vector<double> found;
@@ -87,6 +89,10 @@ struct FoundLeaks {
     return found;
   }
 };
+
+bool few_at_rest(size_t rests, size_t closures) {
+  return 2 * rests < closures;
+}
 
 // Closes a valve with each of the changes, on all workers.
 std::vector<Closed> close_all(const Valve &valve, const std::vector<ClosureChange> &changes,
@@ -151,12 +157,29 @@ std::vector<ClosureChange> random_changes(const Model &model, const LeakUnknowns
   return changes;
 }
 
+// The closures of single_changes, in the interval.
+void set_singles(const std::vector<Closed> &closed, const LeakUnknowns &unknowns,
+                 LeakInterval &interval) {
+  for (size_t k = 0; k < 3; ++k) {
+    interval.leak[k] = closed[k].leak;
+    interval.at_rest[k] = closed[k].at_rest;
+    interval.iterations[k] = closed[k].iterations;
+  }
+  for (size_t k = 0; unknowns.edge.geometry && k < 2; ++k) {
+    interval.edge_leak[k] = closed[3 + k].leak;
+  }
+  for (size_t k = 0; unknowns.thickness_error > 0 && k < 2; ++k) {
+    interval.tissue_leak[k] = closed[closed.size() - 2 + k].leak;
+  }
+}
+
 // From the leaks of closures at rest to a little beyond them, for the few that were tried.
 void set_range(LeakInterval &interval, const std::vector<double> &leaks, bool is_sealed) {
   const auto [least, most] = std::minmax_element(leaks.begin(), leaks.end());
   const double more = sealed_leak + (is_sealed ? 0 : widening * (*most - *least));
   interval.least = std::max(0.0, *least - more);
   interval.most = *most + more;
+  interval.of_closures = {interval.least, interval.most};
 }
 
 // Widens the interval of a fitted valve, closed at `x`, by the errors and gaps of its surface.
@@ -164,6 +187,7 @@ void reach_to_shape(const Model &model, const std::vector<Vec3> &x, const Fitted
                     LeakInterval &interval, Findings &findings) {
   interval.shape = leaks_of_shape(model, x, interval.leak[1], shape);
   add_shape_error(interval);
+  interval.with_shape = {interval.least, interval.most};
   const ShownGaps shown = shown_gaps(*shape.given, model, x, *shape.geometry, shape.error);
   report_shown_gaps(shown, interval.leak[1], findings);
   reach_to(shown, interval);
@@ -223,35 +247,30 @@ LeakInterval leak_interval(const ModelPtr &model, const LeakUnknowns &unknowns,
   const double singles_share = static_cast<double>(singles.size()) / most;
   std::vector<Closed> closed =
       close_all(valve, singles, edge, workers, tell_from(0, singles.size()));
-  if (std::none_of(closed.begin(), closed.end(), [](const Closed &c) { return c.at_rest; })) {
-    Closed longer = close_with(valve, {}, edge, tell_from(singles_share, draws), 0);
-    interval.creeps = longer.at_rest;
-    if (longer.at_rest) closed[1] = std::move(longer);
-  }
-  for (size_t k = 0; k < 3; ++k) {
-    interval.leak[k] = closed[k].leak;
-    interval.at_rest[k] = closed[k].at_rest;
-    interval.iterations[k] = closed[k].iterations;
-  }
-  for (size_t k = 0; edge.geometry && k < 2; ++k) interval.edge_leak[k] = closed[3 + k].leak;
-  for (size_t k = 0; unknowns.thickness_error > 0 && k < 2; ++k) {
-    interval.tissue_leak[k] = closed[singles.size() - 2 + k].leak;
-  }
-  const std::vector<Vec3> as_it_is = std::move(closed[1].x);
   FoundLeaks leaks{known, known};
   leaks.add(closed);
-  const bool is_sealed = leaks.rests > 0 && all_seal(leaks.all);
-  if (leaks.rests > 0 && !is_sealed && !interval.creeps) {
+  const bool few_rest = few_at_rest(leaks.rests, closed.size());
+  if (few_rest && !closed[1].at_rest && !leaks.seal()) {
+    Closed longer = close_with(valve, {}, edge, tell_from(singles_share, draws), 0);
+    if (longer.at_rest) closed[1] = std::move(longer);
+    leaks = {known, known};
+    leaks.add(closed);
+  }
+  set_singles(closed, unknowns, interval);
+  const bool is_sealed = leaks.seal();
+  if (!few_rest && !is_sealed) {
     interval.draws = draws;
     leaks.add(close_all(valve, random_changes(*model, unknowns), edge, workers,
                         tell_from(singles_share, draws)));
   }
   interval.closures = static_cast<uint32_t>(leaks.all.size() - known.size());
   interval.rests = leaks.rests;
-  if (interval.rests > 0) {
+  const bool few = few_at_rest(interval.rests, interval.closures);
+  interval.creeps = few && closed[1].at_rest;
+  if (!few || interval.creeps || is_sealed) {
     set_range(interval, interval.creeps ? leaks.finite() : leaks.at_rest, is_sealed);
-    if (unknowns.shape.given && !as_it_is.empty()) {
-      reach_to_shape(*model, as_it_is, unknowns.shape, interval, findings);
+    if (unknowns.shape.given && !closed[1].x.empty()) {
+      reach_to_shape(*model, closed[1].x, unknowns.shape, interval, findings);
     }
   }
   report_leaks(interval, edge, unknowns.thickness_error, findings);

@@ -13,11 +13,11 @@
 // of the leak of the valve as it is, in squares, as lengths and shape err independently; and the
 // interval reaches to what the gaps of the surface itself may leak (shown_gaps.h). Every
 // closure starts from the open shape, so that none depends on another; one that does not come to
-// rest within 400 iterations is left out, and the findings say so. If none does, the valve as it is
-// goes on; if it comes to rest, the others count with the shapes that they have reached, else the
-// interval is not known, and no random ones are closed in either case. A valve that still creeps
-// after the last iteration shows as well whether it leaks: if none does, no random ones are closed,
-// which creep as well and take most of the time of a build.
+// rest within 400 iterations is left out, and the findings say so. If fewer than half do, the valve
+// as it is goes on; if it comes to rest, the others count with the shapes that they have reached,
+// else the interval is not known, and no random ones are closed in either case. A valve that still
+// creeps after the last iteration shows as well whether it leaks: if none does, no random ones are
+// closed, which creep as well and take most of the time of a build.
 #pragma once
 
 #include <array>
@@ -55,11 +55,13 @@ struct LeakInterval {
   std::array<double, 2> tissue_leak = {};   // m2, thicker and thinner; unused if that is exact
   ShapeLeaks shape;                         // of the valve as it is, if it was fitted
   std::array<double, 2> shown = {};         // m2, through the gaps of that surface; 0: none
-  double least = NAN, most = NAN;           // m2, the interval; NaN: no closure came to rest
-  uint32_t closures = 0, rests = 0;         // of these, those that came to rest
-  uint32_t draws = 0;                       // closures with random lengths
-  bool creeps = false;  // only the valve as it is came to rest, after more iterations; the others
-                        // count with the shapes that they reached
+  double least = NAN, most = NAN;           // m2, the interval; NaN: too few closures came to rest
+  std::array<double, 2> of_closures = {NAN, NAN};  // m2, by the closures alone; NaN: the interval
+  std::array<double, 2> with_shape = {NAN, NAN};   // m2, by these and the shape alone; the same
+  uint32_t closures = 0, rests = 0;                // of these, those that came to rest
+  uint32_t draws = 0;                              // closures with random lengths
+  bool creeps = false;  // fewer than half came to rest, the valve as it is did; the others count
+                        // with the shapes that they reached
 };
 
 // The unknowns of a valve over which its leak is found.

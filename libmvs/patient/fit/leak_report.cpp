@@ -85,51 +85,117 @@ Finding leaks_by_length(const LeakInterval &interval, double confidence, bool at
   return finding;
 }
 
+// Whether two numbers differ where they are shown, with one decimal in mm2.
+bool differ(double a, double b) {
+  return std::abs(a - b) >= 0.05e-6;
+}
+
+// The closures beside the interval, if it reaches beyond them.
+std::string closures_words(const LeakInterval &interval) {
+  const auto [least, most] = interval.of_closures;
+  if (std::isnan(most)) return "";
+  if (!differ(least, interval.least) && !differ(most, interval.most)) return "";
+  return format("; by closures alone %.1f to %.1f mm2", least * 1e6, most * 1e6);
+}
+
+// The parts of the interval that the given closed surface makes.
+std::string surface_words(const LeakInterval &interval) {
+  std::string words;
+  if (interval.shape.distance > 0) words += shape_words(interval.shape);
+  const auto [least, most] = interval.with_shape;
+  if (differ(least, interval.of_closures[0]) || differ(most, interval.of_closures[1])) {
+    words += format(": this widens the interval to %.1f to %.1f mm2", least * 1e6, most * 1e6);
+  }
+  const auto [narrow, wide] = interval.shown;
+  if (wide > 0 && (narrow <= interval.least || wide >= interval.most)) {
+    const bool lower = narrow<least, upper = wide> most;
+    words += format("; that surface itself has gaps of %.1f to %.1f mm2", narrow * 1e6, wide * 1e6);
+    if (lower || upper) {
+      words += format(
+          ": %s the interval %s theirs",
+          lower && upper ? "both ends of" : (lower ? "the lower end of" : "the upper end of"),
+          lower && upper ? "are" : "is");
+    }
+  }
+  return words;
+}
+
+// The interval, with where each part of it comes from.
+std::string interval_words(const LeakInterval &interval, const std::string &ranges,
+                           const std::string &not_given) {
+  std::string words = format("%.1f to %.1f mm2%s for %s", interval.least * 1e6, interval.most * 1e6,
+                             closures_words(interval).c_str(), ranges.c_str());
+  const uint32_t moving = interval.closures - interval.rests;
+  if (interval.draws > 0) {
+    words += format("; %u closures with random ones are among them", interval.draws);
+  } else if (!interval.creeps) {
+    words += format(": each of these closures leaks less than %.1f mm2", sealed_leak * 1e6);
+  }
+  if (moving > 0) {
+    words +=
+        format("; %u of %u closures did not come to rest and %s", moving, interval.closures,
+               interval.creeps ? "count with the shapes that they have reached" : "are left out");
+  }
+  words += surface_words(interval);
+  if (!not_given.empty()) {
+    words += "; errors of the " + not_given + ", which were not given, are not in it";
+  }
+  return words;
+}
+
+std::string unknown_words(const LeakInterval &interval, const std::string &ranges) {
+  const std::string rest = interval.rests == 0 ? "none" : format("only %u", interval.rests);
+  return format(
+      "not determined: %s of %u closures came to rest, for %s; check the surface, the thickness, "
+      "the papillary tips, and that all lie in one frame",
+      rest.c_str(), interval.closures, ranges.c_str());
+}
+
+// Less sure the fewer closures came to rest, and no more than the fit to a closed surface is.
+double confidence_in(const LeakInterval &interval, const Findings &findings) {
+  if (std::isnan(interval.most)) return 0;
+  const double unsure = std::min(1.0, (interval.most - interval.least) / unknown_leak);
+  double confidence = same_leak_confidence * (1 - unsure);
+  if (interval.rests < interval.closures) {
+    confidence *= 0.5 * interval.rests / interval.closures;
+  }
+  const Finding *fit = find_finding(findings, "closed_fit");
+  return fit == nullptr ? confidence : std::min(confidence, fit->confidence);
+}
+
+// A finding where fewer than half of the closures came to rest.
+void report_moving(const LeakInterval &interval, Findings &findings) {
+  if (2 * interval.rests >= interval.closures) return;
+  const double share = static_cast<double>(interval.rests) / interval.closures;
+  findings.push_back(
+      {"leak_at_rest",
+       FindingSource::measured,
+       share,
+       format("%u of %u closures with other lengths, edges and thicknesses came to rest: the leak "
+              "of this valve is not sure; check the thickness, the papillary tips, and that the "
+              "open and the closed surface lie in one frame",
+              interval.rests, interval.closures),
+       {share},
+       ""});
+}
+
 }  // namespace
 
 void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
                   Findings &findings) {
-  const bool known = !std::isnan(interval.most);
-  const bool at_rest = interval.rests == interval.closures;
-  const double unsure =
-      known ? std::min(1.0, (interval.most - interval.least) / unknown_leak) : 1.0;
-  const double confidence = same_leak_confidence * (1 - unsure) * (at_rest ? 1 : 0.5);
-  findings.push_back(leaks_by_length(interval, confidence, at_rest));
+  const double confidence = confidence_in(interval, findings);
+  findings.push_back(leaks_by_length(interval, confidence, interval.rests == interval.closures));
   const std::string not_given = not_given_words(findings);
   const std::string ranges = ranges_of(interval, edge, thickness_error);
   Finding finding{"leak_interval", FindingSource::measured, confidence, {}, {}, "m2"};
-  if (known) {
-    finding.sentence = format("%.1f to %.1f mm2 for %s", interval.least * 1e6, interval.most * 1e6,
-                              ranges.c_str());
-    if (interval.draws > 0) {
-      finding.sentence += format("; %u closures with random ones are among them", interval.draws);
-    } else if (!interval.creeps) {
-      finding.sentence +=
-          format(": each of these closures leaks less than %.1f mm2", sealed_leak * 1e6);
-    }
-    if (!at_rest) {
-      finding.sentence +=
-          format("; %u of %u closures did not come to rest and %s",
-                 interval.closures - interval.rests, interval.closures,
-                 interval.creeps ? "count with the shapes that they have reached" : "are left out");
-    }
-    if (interval.shape.distance > 0) finding.sentence += shape_words(interval.shape);
-    const auto [narrow, wide] = interval.shown;
-    if (wide > 0 && (narrow <= interval.least || wide >= interval.most)) {
-      finding.sentence +=
-          format("; that surface itself has gaps of %.1f to %.1f mm2", narrow * 1e6, wide * 1e6);
-    }
-    if (!not_given.empty()) {
-      finding.sentence += "; errors of the " + not_given + ", which were not given, are not in it";
-    }
-    finding.value = {interval.least, interval.most};
+  if (std::isnan(interval.most)) {
+    finding.sentence = unknown_words(interval, ranges);
   } else {
-    finding.sentence = format(
-        "not determined: none of %u closures came to rest, for %s; check the surface, the "
-        "thickness and the papillary tips",
-        interval.closures, ranges.c_str());
+    finding.sentence = interval_words(interval, ranges, not_given);
+    finding.value = {interval.least, interval.most};
   }
   findings.push_back(finding);
+  report_moving(interval, findings);
   findings.push_back(
       {"leak_limits",
        FindingSource::assumed,

@@ -9,8 +9,9 @@ namespace mvs::core {
 inline constexpr double sealed_leak = 0.5e-6;
 
 // Adds the findings "leak", "leak_interval" and "leak_limits": by how much meshes of one valve
-// differ, and the width at which an interval says nothing. Without a closure at rest the second has
-// no values.
+// differ, and the width at which an interval says nothing. The second has no values if too few
+// closures came to rest (leak_interval.h), and "leak_at_rest" says so if fewer than half did. None
+// is surer than the fit to a closed surface.
 void report_leaks(const LeakInterval &interval, const EdgeRange &edge, double thickness_error,
                   Findings &findings);
 

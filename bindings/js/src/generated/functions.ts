@@ -1746,7 +1746,7 @@ export class Functions extends Calls {
    * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
    * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an
    * error of the thickness, if all of these are sealed. `errors` is nullable. `findings` gets
-   * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2, as
+   * "leak", "leak_interval", without values if too few came to rest, and "leak_limits", m2, as
    * those of a build; release it with mvs_findings_release. The simulator is unchanged.
    * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
    */
@@ -1758,7 +1758,7 @@ export class Functions extends Calls {
    * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
    * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an
    * error of the thickness, if all of these are sealed. `errors` is nullable. `findings` gets
-   * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2, as
+   * "leak", "leak_interval", without values if too few came to rest, and "leak_limits", m2, as
    * those of a build; release it with mvs_findings_release. The simulator is unchanged.
    * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
    */
@@ -1770,7 +1770,7 @@ export class Functions extends Calls {
    * Closes the valve of a simulator from its open shape under 120 mmHg with chordae of other
    * lengths and leaflets of other thicknesses, up to `errors`: up to 11 closures; 3, or 5 with an
    * error of the thickness, if all of these are sealed. `errors` is nullable. `findings` gets
-   * "leak", "leak_interval", without values if no closure came to rest, and "leak_limits", m2, as
+   * "leak", "leak_interval", without values if too few came to rest, and "leak_limits", m2, as
    * those of a build; release it with mvs_findings_release. The simulator is unchanged.
    * MVS_E_CANCELLED if the progress callback of the simulator cancelled.
    */

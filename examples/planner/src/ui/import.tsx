@@ -116,7 +116,7 @@ export function ImportPanel() {
 /** Confidence below which a finding is to be looked at, also where it was given. */
 const sure = 0.7;
 
-const ofLeak = /^leak(_interval)?$/;
+const ofLeak = /^leak(_interval|_at_rest)?$/;
 const ofMesh = /^(surface|mesh|crossings|\w*holes|cut_handles|pinched_gaps|leak_limits)$/;
 
 /** The findings by what is to be done about them, the least certain first; what was done to the mesh last. */

@@ -118,8 +118,8 @@ def with_chords(made: ImageValve, network: ChordNetwork, loaded: Optional[Loaded
     opened, closed, stats = closure
     console.stage("leak over the errors of the lengths")
     found += _leaks(opened, console, thickness_error)
-    assumed = ("chordae", "leak", "leak_interval", "leak_limits", "edge_error", "edge_lost", "thickness_error",
-               "papillary_tips")
+    assumed = ("chordae", "leak", "leak_interval", "leak_at_rest", "leak_limits", "edge_error", "edge_lost",
+               "thickness_error", "papillary_tips")
     kept = [one for one in made.findings if one.name not in assumed]
     return dataclasses.replace(made, opened=opened, closed=closed, converged=stats.converged,
                                findings=(*kept, *found))
