@@ -10,7 +10,7 @@
 namespace mvs::core {
 namespace {
 
-// Of lengths of `reach`: rounding of scalar products of unit vectors.
+// Rounding of scalar products of unit vectors with lengths of `reach`, as a share of these.
 constexpr double rounding_of_products = 1e-14;
 
 // The points (s, t) of a plane with a s + b t >= c.
@@ -23,7 +23,7 @@ struct Point2 {
 };
 
 // The point with the largest s on the border of half-plane `on`, within the first `count` others
-// and a square of 4 `reach`. False if there is none.
+// and a square of 4 `reach`. False if no point of the border is in all of them.
 bool furthest_on_line(const std::vector<HalfPlane> &planes, size_t on, double reach,
                       Point2 &point) {
   const HalfPlane &line = planes[on];

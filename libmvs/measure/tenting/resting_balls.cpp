@@ -11,17 +11,20 @@
 namespace mvs::core {
 namespace {
 
-// Of the radius, along each axis: limits of a step, which may be twice as long as the last one.
+// Limits of a step along each axis, as shares of the radius; a step may be twice as long as the
+// last.
 constexpr double longest_step = 0.5, shortest_limit = 0.05;
-// From the deepest cells of a raster it is about 7 steps, and more along a crevice that slopes.
+// A ball takes about 7 steps from the deepest cells of a raster, and more along a sloping crevice.
 constexpr int most_steps = 100;
-// m, of a step: above rounding of coordinates of 0.1 m, far below what differences over 1e-8 m see.
+// Descent of a step below which a ball rests, m: far below the resolution of differences over 1e-8
+// m.
 constexpr double at_rest = 1e-15;
-// Of the radius: a ball that touches tissue is free.
+// Share of the radius by which a free ball may overlap tissue: rounding where it touches.
 constexpr double touching = 1e-9;
 // Directions from a vertex in which a ball may pass it.
-constexpr int directions = 32;
-// Of the radius: how far around a low others are looked for, and how far apart two are at least.
+constexpr size_t directions = 32;
+// Shares of the radius: distances around a low at which others are sought, and the least distance
+// of two lows.
 constexpr double near = 0.6, far = 1.2, same = 0.02;
 // m: lows that are so much higher than the lowest are looked around, too; neighbours in one crevice
 // differ by up to 0.03 mm. At most so many.
@@ -46,9 +49,14 @@ class RollingBall {
     }
   }
 
-  // Moves the centre up until the ball is free.
+  // Moves the centre up until the ball is free, by ever longer steps: walls may be a thousand times
+  // as tall as the ball.
   void lift(Vec3 &centre) const {
-    while (centre[2] < highest_ + radius_ && !is_free(centre)) centre[2] += 0.25 * radius_;
+    double step = 0.25 * radius_;
+    while (centre[2] < highest_ + radius_ && !is_free(centre)) {
+      centre[2] += step;
+      step *= 1.5;
+    }
   }
   bool is_free(const Vec3 &centre) const {
     return !sheet_.tree.is_within(centre, (1 - touching) * radius_);
@@ -94,7 +102,7 @@ class RollingBall {
   }
 
  private:
-  // What is left to the centre beside triangles and sides of the annulus, the nearest first.
+  // Lists the half-spaces of triangles and sides of the annulus near the ball, the nearest first.
   void find_bounds(const Vec3 &centre, double limit) {
     bounds_.clear();
     // a step has at most the length of half a diagonal of the cube
@@ -128,7 +136,7 @@ class RollingBall {
     }
   }
 
-  // The squared horizontal distance of what is above the centre.
+  // The squared horizontal distance of the part of a triangle above the centre.
   double distance2_above(uint32_t triangle, const Vec3 &centre) const {
     // the triangle, cut at the height of the centre, seen from above
     std::array<Vec3, 4> part;
@@ -166,11 +174,9 @@ std::array<Vec3, directions> compass() {
   std::array<Vec3, directions> found;
   found[0] = Vec3(1, 0, 0);
   found[directions / 4] = Vec3(0, 1, 0);
-  for (int step = directions / 8; step > 0; step /= 2) {
-    for (int k = step; k < directions / 4; k += 2 * step) {
-      found[static_cast<size_t>(k)] =
-          (found[static_cast<size_t>(k - step)] + found[static_cast<size_t>(k + step)])
-              .normalized();
+  for (size_t step = directions / 8; step > 0; step /= 2) {
+    for (size_t k = step; k < directions / 4; k += 2 * step) {
+      found[k] = (found[k - step] + found[k + step]).normalized();
     }
   }
   for (size_t k = directions / 4; k < directions; ++k) {
@@ -192,7 +198,7 @@ void roll(RollingBall &ball, Vec3 centre, double radius, std::vector<Vec3> &lows
   }
 }
 
-// Rolls the ball also from places around the lowest lows, and around what is found there: a start
+// Rolls the ball also from places around the lowest lows, and around lows found there: a start
 // beside a saddle may roll to either side of it.
 void look_around(RollingBall &ball, double radius, std::vector<Vec3> &lows) {
   static const std::array<Vec3, directions> all = compass();
