@@ -226,7 +226,7 @@ typedef struct mvs_measures {
   double coaptation_length_max;    /* m */
   double coaptation_height;        /* m, extent along the valve axis, central AP plane */
   double coaptation_depth;         /* m, annulus plane to its upper end, central AP plane */
-  double tenting_height;           /* m, deepest leaflet point on the atrial side below the plane */
+  double tenting_height;           /* m, of a ball that rests on the leaflets below the plane */
   double tenting_area;             /* m2, below the annulus surface, central AP plane */
   double tenting_volume;           /* m3, below the annulus surface */
   double billow_height;            /* m, highest leaflet point above the annulus surface */

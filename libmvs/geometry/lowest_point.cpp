@@ -59,10 +59,13 @@ class OnPlane {
   bool find(const std::vector<HalfSpace> &spaces, size_t on, double reach, Vec3 &point) {
     const HalfSpace &plane = spaces[on];
     const Vec3 foot = plane.offset * plane.normal;
-    const Vec3 down = Vec3(0, 0, -1) + plane.normal[2] * plane.normal;
-    const double steep = down.norm();
+    // downwards on the plane, without cancellation where it is almost horizontal
+    const Vec3 &n = plane.normal;
+    const double steep = std::sqrt(n[0] * n[0] + n[1] * n[1]);
     // any direction of a horizontal plane: all its points are as low
-    const Vec3 along = steep > rounding_of_products ? Vec3(down / steep) : Vec3(1, 0, 0);
+    const Vec3 along = steep > rounding_of_products
+                           ? Vec3(n[2] * n[0] / steep, n[2] * n[1] / steep, -steep)
+                           : Vec3(1, 0, 0);
     const Vec3 across = plane.normal.cross(along);
     planes_.clear();
     const auto add = [&](const Vec3 &normal, double offset) {

@@ -237,7 +237,7 @@ double measure_difference(const Model &model, const State &state, const Quantity
   double fastest = 0;
   for (const Vec3 &v : motion) fastest = std::max(fastest, v.norm());
   if (fastest == 0) return 0;
-  const double h = (is_on_raster(field) ? set::raster_step : set::measure_step) / fastest;
+  const double h = set::measure_step / fastest;
   const auto at = [&](double by) {
     const ParameterStep step{&parameter, by};
     std::vector<Vec3> x = state.x;

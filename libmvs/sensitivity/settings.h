@@ -27,9 +27,8 @@ inline constexpr double eigenvalue_error = 0.1;
 inline constexpr unsigned eigenvalue_iterations = 60;
 
 // m, displacement of the fastest node in a difference of a measure: between the rounding of the
-// measures and the distance of their kinks; and of those that are measured on a raster, as
-// libmvs/measure/DEFINITIONS.md states.
-inline constexpr double measure_step = 1e-8, raster_step = 1e-4;
+// measures and the distance of their kinks (libmvs/measure/DEFINITIONS.md).
+inline constexpr double measure_step = 1e-8;
 
 // Errors of a derivative at a distance `slack`, relative to the fastest node: the mean of both
 // sides, which only a switch makes, and half of their difference, which curvature makes as well.

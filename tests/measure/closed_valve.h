@@ -26,10 +26,13 @@ inline Vec3 smooth_field(const Vec3 &p, double wave, int number) {
 
 // A closed valve, moved by up to 0.1 mm: the symmetry of the parametric one makes kinks, as both
 // halves are equally high.
-inline Shape closed_valve(double annulus_scale) {
+inline Shape closed_valve(double annulus_scale, uint32_t vertices = 0,
+                          mvs_shape valve_shape = MVS_SHAPE_HEALTHY) {
   mvs_parametric_desc desc{};
   desc.struct_size = sizeof desc;
   desc.annulus_scale = annulus_scale;
+  desc.vertices = vertices;
+  desc.shape = valve_shape;
   Shape shape;
   shape.model = make_model(make_parametric_valve(desc));
   State state = initial_state(*shape.model);

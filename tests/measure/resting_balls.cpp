@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "measure/tenting/tenting_billow.h"
@@ -48,8 +49,8 @@ TEST_CASE("a_ball_rests_in_a_pyramid_above_its_apex") {
     const std::vector<Vec3> rim(x.begin() + 1, x.end());
     const TriangleBvh tree(triangles, x);
     const std::vector<Vec3> lows =
-        lows_of_ball({tree, x, {}, rim, [](const Vec3 &) { return false; }},
-                     {x[0] + Vec3(1.1e-3, -0.7e-3, 4 * side)}, radius);
+        lows_of_ball({tree, x, {}, rim, aabb_of(x), [](const Vec3 &) { return false; }},
+                     {{x[0] + Vec3(1.1e-3, -0.7e-3, 4 * side)}, {}}, radius);
     REQUIRE(!lows.empty());
     const Vec3 expected = x[0] + Vec3(0, 0, radius * (std::sqrt(1 + slope * slope) - 1));
     CHECK((lows.front() - expected).norm() < 1e-15);  // rounding of 10 mm
@@ -86,6 +87,62 @@ TEST_CASE("no_ball_on_a_lattice_is_lower_than_the_lowest_found") {
     if (annulus_scale > 1) continue;
     CHECK(std::abs(std::sqrt(tree.closest(low + Vec3(0, 0, radius)).distance2) - radius) < 1e-13);
     CHECK(lowest < deepest + 20e-6);  // walls of a slope up to 10, 1 um from the lowest place
+  }
+}
+
+// Balls that start all over the annulus, each let down from above, come to no other lowest place
+// than those from the raster. Sealed and leaking valves; of some every low of the raster is an
+// opening, through which balls fall.
+TEST_CASE("balls_from_everywhere_come_to_the_same_lowest_place") {
+  struct Case {
+    uint32_t vertices, shape;
+    double annulus_scale;
+  };
+  for (const Case &c : {Case{200, MVS_SHAPE_HEALTHY, 1.12}, Case{200, MVS_SHAPE_FOUNDING, 1.15},
+                        Case{425, MVS_SHAPE_FOUNDING, 1.16}, Case{425, MVS_SHAPE_HEALTHY, 1.0},
+                        Case{425, MVS_SHAPE_HEALTHY, 1.3}}) {
+    const Shape shape = closed_valve(c.annulus_scale, c.vertices, c.shape);
+    const AtrialSurface atrial = atrial_surface(*shape.model, shape.x);
+    const std::vector<Tri> &triangles = shape.model->valve.triangles;
+    const TriangleBvh tree(triangles, atrial.local);
+    Aabb box;
+    for (const Tri &t : triangles) box.add(aabb_of(atrial.local, t));
+    BallStarts starts;
+    for (int column = 0; column < AnnulusMap::across; column += 6) {
+      for (int row = 0; row < AnnulusMap::across; row += 6) {
+        if (atrial.map->share(AnnulusMap::at(column, row)) < 1) continue;
+        const double u = atrial.map->u()[static_cast<size_t>(column)],
+                     v = atrial.map->v()[static_cast<size_t>(row)];
+        const double height = centre_at(tree, u, v, box.high[2] + 2 * radius, box.low[2] - radius);
+        if (std::isfinite(height)) starts.lowest.emplace_back(u, v, height);
+      }
+    }
+    std::vector<Vec3> rim;
+    for (const uint32_t node : shape.model->valve.annulus) rim.push_back(atrial.local[node]);
+    const std::vector<Vec3> lows =
+        lows_of_ball({tree, atrial.local, shape.model->topology.free_edges, rim, box,
+                      [](const Vec3 &) { return true; }},
+                     starts, radius);
+    CAPTURE(c.vertices);
+    CAPTURE(c.annulus_scale);
+    CHECK(atrial.depth() > 5e-3);
+    CHECK(atrial.depth() == about(-lows.front()[2], 1e-9));
+  }
+}
+
+// The plane of a floor has a normal that is vertical up to rounding, another one in each frame.
+TEST_CASE("a_ball_does_not_sink_into_a_floor") {
+  const double depth = 6e-3;
+  const Sheet cup = disc(18e-3, 0.01e-3, [&](double x, double y) {
+    return -std::min(depth, 2 * (18e-3 - std::sqrt(x * x + y * y)));
+  });
+  const ModelPtr model = model_of(cup);
+  for (int k = 0; k < 8; ++k) {
+    const Mat3 turn = Eigen::AngleAxisd(0.7 * k, Vec3(1, k, 2).normalized()).toRotationMatrix();
+    const double found = depth_of({model, {}}, moved(model->valve.rest, [&](const Vec3 &p) -> Vec3 {
+                                    return turn * p + Vec3(0.01 * k, 0.02, -0.03);
+                                  }));
+    CHECK(found == about(depth, 1e-5));  // it sinks 0.1 um into the pinhole
   }
 }
 

@@ -38,7 +38,7 @@ class Measures:
         float, "m", "annulus plane to the highest coapted tissue, central AP plane"
     ]
     tenting_height: Annotated[
-        float, "m", "deepest leaflet point on the atrial side below the annulus plane"
+        float, "m", "how deep a ball of the contact thickness that rests on the leaflets comes below the annulus plane"
     ]
     tenting_area: Annotated[
         float, "m2", "below the surface spanning the annulus, central AP plane"

@@ -57,49 +57,67 @@ std::vector<double> node_rises(const Model &model, const std::vector<Vec3> &loca
   return rises;
 }
 
-// Balls start in the lowest cells of squares of so many cells, as far as these are at most so much
-// higher than the lowest cell of all: the raster can be wrong by 0.4 mm in a steep crevice.
+// Balls start in the lowest cells of squares of so many cells.
 constexpr size_t cells_of_square = 8;
-constexpr double above_lowest = 0.5e-3;
 static_assert(AnnulusMap::across % cells_of_square == 0);
 
-// The centres of a ball on the raster from which balls roll down, the lowest first.
-std::vector<Vec3> starts_of_balls(const AnnulusMap &map, const std::vector<double> &centres) {
-  constexpr size_t squares = AnnulusMap::across / cells_of_square;
-  std::vector<Vec3> starts;
-  for (size_t band = 0; band < squares; ++band) {
-    std::array<Vec3, squares> lowest;
-    lowest.fill(Vec3(0, 0, std::numeric_limits<double>::infinity()));
-    for (size_t row = band * cells_of_square; row < (band + 1) * cells_of_square; ++row) {
+// The lowest centres of a ball on the raster, one in each square; infinite where there is none.
+// Cells without tissue do not count: a ball falls there, or rests on the tissue beside them.
+struct LowestOfSquares {
+  static constexpr size_t across = AnnulusMap::across / cells_of_square;
+  std::array<Vec3, across * across> centre;
+
+  LowestOfSquares(const AnnulusMap &map, const std::vector<double> &covered,
+                  const std::vector<double> &centres) {
+    centre.fill(Vec3(0, 0, std::numeric_limits<double>::infinity()));
+    for (size_t row = 0; row < AnnulusMap::across; ++row) {
       for (size_t column = map.first_inside(row); column < map.end_inside(row); ++column) {
         const size_t cell = row * AnnulusMap::across + column;
-        Vec3 &found = lowest[column / cells_of_square];
-        if (!(centres[cell] < found[2]) || map.share(cell) < 1) continue;
+        Vec3 &found = centre[row / cells_of_square * across + column / cells_of_square];
+        if (!(centres[cell] < found[2]) || map.share(cell) < 1 || covered[cell] == 0) continue;
         found = {map.u()[column], map.v()[row], centres[cell]};
       }
     }
-    for (const Vec3 &found : lowest) {
-      if (std::isfinite(found[2])) starts.push_back(found);
-    }
   }
-  std::stable_sort(starts.begin(), starts.end(),
-                   [](const Vec3 &a, const Vec3 &b) { return a[2] < b[2]; });
-  const auto is_too_high = [&](const Vec3 &start) {
-    return start[2] > starts.front()[2] + above_lowest;
-  };
-  starts.erase(std::find_if(starts.begin(), starts.end(), is_too_high), starts.end());
+  bool is_lowest_around(size_t square) const {
+    const size_t row = square / across, column = square % across;
+    for (size_t r = row > 0 ? row - 1 : 0; r <= std::min(row + 1, across - 1); ++r) {
+      for (size_t c = column > 0 ? column - 1 : 0; c <= std::min(column + 1, across - 1); ++c) {
+        if (centre[r * across + c][2] < centre[square][2]) return false;
+      }
+    }
+    return true;
+  }
+};
+
+// The centres from which balls roll down: first those that are lower than those around them, then
+// the others, both the lowest first.
+BallStarts starts_of_balls(const AnnulusMap &map, const std::vector<double> &covered,
+                           const std::vector<double> &centres) {
+  const LowestOfSquares squares(map, covered, centres);
+  BallStarts starts;
+  for (size_t k = 0; k < squares.centre.size(); ++k) {
+    if (!std::isfinite(squares.centre[k][2])) continue;
+    (squares.is_lowest_around(k) ? starts.lowest : starts.others).push_back(squares.centre[k]);
+  }
+  for (std::vector<Vec3> *some : {&starts.lowest, &starts.others}) {
+    std::stable_sort(some->begin(), some->end(),
+                     [](const Vec3 &a, const Vec3 &b) { return a[2] < b[2]; });
+  }
   return starts;
 }
 
-// Whether the cell of a place is inside the annulus and no tissue is seen in it.
-bool is_open(const AnnulusMap &map, const std::vector<double> &covered, const Vec3 &place) {
+// False where a cell inside the annulus is all below tissue that is higher than a place: then a
+// ball, if it is larger than the cell, cannot be let down there.
+bool is_open(const AnnulusMap &map, const std::vector<double> &covered,
+             const std::vector<double> &heights, const Vec3 &place) {
   const double column = std::floor((place[0] - map.low_u()) / map.width());
   const double row = std::floor((place[1] - map.low_v()) / map.depth());
   if (!(column >= 0 && column < AnnulusMap::across && row >= 0 && row < AnnulusMap::across)) {
     return false;
   }
   const size_t cell = AnnulusMap::at(static_cast<int>(column), static_cast<int>(row));
-  return map.share(cell) == 1 && covered[cell] == 0;
+  return map.share(cell) == 1 && (1 - covered[cell] > rounding || heights[cell] < place[2]);
 }
 
 }  // namespace
@@ -113,15 +131,16 @@ AtrialSurface atrial_surface(const Model &model, const std::vector<Vec3> &x) {
   const double radius = 0.5 * model.valve.contact_thickness;
   const double most = most_of_thickness * model.valve.contact_thickness;
   VisibleTissue seen = visible_tissue(map, model.valve.triangles, surface.local, most);
-  surface.heights = mean_heights(map, seen);
-  const std::vector<double> centres = roll_ball(map, surface.heights, radius, 1);
+  const std::vector<double> means = mean_heights(map, seen);
+  const std::vector<double> centres = roll_ball(map, means, radius, 1);
   surface.heights = roll_ball(map, centres, radius, -1);
   const TriangleBvh tree(model.valve.triangles, surface.local, *sheet_topology(model));
   const std::vector<Vec3> rim = Loop(model.valve.annulus, surface.local).points();
-  surface.lows =
-      lows_of_ball({tree, surface.local, model.topology.free_edges, rim,
-                    [&](const Vec3 &place) { return is_open(map, seen.covered, place); }},
-                   starts_of_balls(map, centres), radius);
+  Aabb box;
+  for (const Tri &t : model.valve.triangles) box.add(aabb_of(surface.local, t));
+  const auto may_pass = [&](const Vec3 &place) { return is_open(map, seen.covered, means, place); };
+  surface.lows = lows_of_ball({tree, surface.local, model.topology.free_edges, rim, box, may_pass},
+                              starts_of_balls(map, seen.covered, centres), radius);
   surface.node_rise = node_rises(model, surface.local, map.surface());
   return surface;
 }

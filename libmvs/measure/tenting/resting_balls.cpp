@@ -1,4 +1,4 @@
-// Sequential linear programming of a ball under gravity; openings by the vertices beside them.
+// Sequential linear programming of a ball under gravity; openings by the corners of free edges.
 #include "measure/tenting/resting_balls.h"
 
 #include <algorithm>
@@ -7,6 +7,8 @@
 
 #include "geometry/lowest_point.h"
 #include "measure/annulus/frame.h"
+#include "measure/tenting/axis_point.h"
+#include "measure/tenting/edge_corners.h"
 
 namespace mvs::core {
 namespace {
@@ -21,8 +23,8 @@ constexpr int most_steps = 100;
 constexpr double at_rest = 1e-15;
 // Share of the radius by which a free ball may overlap tissue: rounding where it touches.
 constexpr double touching = 1e-9;
-// Directions from a vertex in which a ball may pass it.
-constexpr size_t directions = 32;
+// Directions in which other lows are sought around one.
+constexpr size_t directions = 8;
 // Shares of the radius: distances around a low at which others are sought, and the least distance
 // of two lows.
 constexpr double near = 0.6, far = 1.2, same = 0.02;
@@ -30,11 +32,17 @@ constexpr double near = 0.6, far = 1.2, same = 0.02;
 // differ by up to 0.03 mm. At most so many.
 constexpr double slightly_higher = 0.05e-3;
 constexpr size_t most_around = 8;
-// The largest ball that passes beside a vertex, as a share of the radius: up to which it does not
-// count, and from which it does. A ball of the whole radius does not touch a vertex of a concave
-// edge: where it turns by 30 degrees, and the directions are 6 off, 0.93 is left.
-constexpr double closed = 0.8, open = 0.92;
+// The largest ball that passes beside a free edge, as a share of the radius: up to which a ball
+// that is put there is not looked at, and from which it counts as passing, with its whole depth
+// at 1.
+constexpr double narrow = 0.8, passing = 0.99;
 
+// m: starts that are so much higher or lower than the lowest low may roll to a lower one, as a
+// raster of 0.13 mm can be wrong by that in a steep crevice.
+constexpr double near_lowest = 0.5e-3;
+
+// A ball with all that is above it, a capsule without an upper end: so it is let down from above at
+// each place, and does not get under tissue.
 class RollingBall {
  public:
   RollingBall(const SheetFromAbove &sheet, double radius) : sheet_(sheet), radius_(radius) {
@@ -43,23 +51,17 @@ class RollingBall {
       twice_area += cross_in_plane(sheet.rim[k], sheet.rim[(k + 1) % sheet.rim.size()]);
     }
     inwards_ = twice_area > 0 ? 1 : -1;
-    for (const Vec3 &p : sheet.x) {
-      lowest_ = std::min(lowest_, p[2]);
-      highest_ = std::max(highest_, p[2]);
-    }
   }
 
-  // Moves the centre up until the ball is free, by ever longer steps: walls may be a thousand times
-  // as tall as the ball.
+  // Moves the centre up until the capsule is free, by ever longer steps: walls may be a thousand
+  // times as tall as the ball.
   void lift(Vec3 &centre) const {
     double step = 0.25 * radius_;
-    while (centre[2] < highest_ + radius_ && !is_free(centre)) {
+    while (centre[2] < sheet_.box.high[2] + radius_ &&
+           clearance(centre) < (1 - touching) * radius_) {
       centre[2] += step;
       step *= 1.5;
     }
-  }
-  bool is_free(const Vec3 &centre) const {
-    return !sheet_.tree.is_within(centre, (1 - touching) * radius_);
   }
   enum class End { rest, known, fallen };
   // `lows`: where balls rest already; one that comes near such a place would rest there.
@@ -67,56 +69,71 @@ class RollingBall {
     double limit = longest_step * radius_;
     for (int k = 0; k < most_steps; ++k) {
       find_bounds(centre, limit);
-      if (bounds_.empty()) {
-        // nothing is near: straight down to the height at which something may be
-        centre[2] -= std::sqrt(sheet_.tree.closest(centre).distance2) - radius_;
-      } else {
-        const Vec3 step = lowest_point(bounds_, limit);
-        if (!(step[2] < -at_rest)) return End::rest;
-        centre += step;
-        limit = radius_ *
-                std::clamp(2 * step.cwiseAbs().maxCoeff() / radius_, shortest_limit, longest_step);
-      }
-      if (centre[2] < lowest_ - radius_) return End::fallen;
+      const Vec3 step = lowest_point(bounds_, limit);
+      if (!(step[2] < -at_rest)) return End::rest;
+      centre += step;
+      const bool falls = step[2] < -(1 - touching) * limit;
+      if (falls && !has_tissue_below(centre)) return End::fallen;
+      limit = radius_ *
+              std::clamp(2 * step.cwiseAbs().maxCoeff() / radius_, shortest_limit, longest_step);
       const Vec3 low = centre - Vec3(0, 0, radius_);
       for (const Vec3 &known : lows) {
         if ((known - low).squaredNorm() < same * same * radius_ * radius_) return End::known;
       }
     }
-    return End::rest;
+    return End::fallen;
   }
-  // The radius of the largest ball, up to this one, that can be let down to a place from above; not
-  // exact below `closed`.
+  // Whether a place lies inside the annulus, seen from above: the number of its sides that a line
+  // in one direction crosses.
+  bool is_in_annulus(const Vec3 &p) const {
+    bool inside = false;
+    for (size_t k = 0; k < sheet_.rim.size(); ++k) {
+      const Vec3 &a = sheet_.rim[k], &b = sheet_.rim[(k + 1) % sheet_.rim.size()];
+      if ((a[1] > p[1]) == (b[1] > p[1])) continue;
+      if (p[0] < a[0] + (p[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0])) inside = !inside;
+    }
+    return inside;
+  }
+  // The radius of the largest capsule, up to that of the ball, that is free there; not exact below
+  // `narrow`.
   double clearance(const Vec3 &centre) const {
-    Aabb column;
-    column.add(centre - Vec3::Constant(radius_));
-    column.add(Vec3(centre[0] + radius_, centre[1] + radius_, highest_));
     double least2 = radius_ * radius_;
-    const double narrow2 = closed * closed * least2;
-    sheet_.tree.for_overlapping(column, [&](uint32_t triangle) {
-      if (least2 < narrow2) return;
-      least2 = std::min({least2, sheet_.tree.closest_on(triangle, centre).distance2,
-                         distance2_above(triangle, centre)});
+    const double narrow2 = narrow * narrow * least2;
+    sheet_.tree.for_overlapping(column_of(centre, radius_), [&](uint32_t triangle) {
+      if (least2 >= narrow2)
+        least2 = std::min(least2, closest_to_axis(corners(triangle), centre).distance2);
     });
     return std::sqrt(least2);
   }
 
  private:
-  // Lists the half-spaces of triangles and sides of the annulus near the ball, the nearest first.
+  // Whether tissue below may stop a ball that falls: no further than its radius beside its way.
+  bool has_tissue_below(const Vec3 &centre) const {
+    Aabb way;
+    way.add(centre - Vec3(radius_, radius_, 0));
+    way.add(Vec3(centre[0] + radius_, centre[1] + radius_, sheet_.box.low[2]));
+    bool stops = false;
+    sheet_.tree.for_overlapping(way, [&](uint32_t triangle) {
+      std::array<Vec3, 3> flat = corners(triangle);
+      for (Vec3 &p : flat) p[2] = centre[2];
+      stops = stops ||
+              closest_on_triangle(centre, flat[0], flat[1], flat[2]).distance2 < radius_ * radius_;
+    });
+    return stops;
+  }
+
+  // Lists the half-spaces of triangles and sides of the annulus near the capsule, the nearest
+  // first.
   void find_bounds(const Vec3 &centre, double limit) {
     bounds_.clear();
     // a step has at most the length of half a diagonal of the cube
     const double reach = radius_ + limit * std::sqrt(3.0);
-    Aabb box;
-    box.add(centre - Vec3::Constant(reach));
-    box.add(centre + Vec3::Constant(reach));
-    sheet_.tree.for_overlapping(box, [&](uint32_t triangle) {
-      if (sheet_.tree.box_of(triangle).distance2(centre) > reach * reach) return;
-      const TrianglePoint closest = sheet_.tree.closest_on(triangle, centre);
-      const double distance = std::sqrt(closest.distance2);
-      if (distance > reach || distance == 0) return;
-      const Vec3 away = (centre - sheet_.tree.point_at(triangle, closest.weight)) / distance;
-      bounds_.push_back({away, std::min(0.0, radius_ - distance)});
+    sheet_.tree.for_overlapping(column_of(centre, reach), [&](uint32_t triangle) {
+      const AxisPoint closest = closest_to_axis(corners(triangle), centre);
+      if (!(closest.distance2 <= reach * reach) || closest.distance2 == 0) return;
+      // a unit vector: the distance has another rounding
+      bounds_.push_back(
+          {closest.away.normalized(), std::min(0.0, radius_ - std::sqrt(closest.distance2))});
     });
     add_sides(centre, limit);
     std::stable_sort(bounds_.begin(), bounds_.end(),
@@ -132,58 +149,33 @@ class RollingBall {
       if (closest_on_segment(centre, a, b).distance2 > 2 * limit * limit) continue;
       const Vec3 inside = inwards_ / length * Vec3(a[1] - b[1], b[0] - a[0], 0);
       const double room = inside.dot(centre - a);
-      if (room >= 0) bounds_.push_back({inside, -room});
+      // a ball at a side may be beyond it by rounding; far beyond are sides of a concave annulus
+      if (room > -touching * radius_) bounds_.push_back({inside, std::min(0.0, -room)});
     }
   }
 
-  // The squared horizontal distance of the part of a triangle above the centre.
-  double distance2_above(uint32_t triangle, const Vec3 &centre) const {
-    // the triangle, cut at the height of the centre, seen from above
-    std::array<Vec3, 4> part;
-    size_t count = 0;
-    const auto add = [&](Vec3 p) {
-      p[2] = 0;
-      part[count++] = p;
-    };
-    for (size_t k = 0; k < 3; ++k) {
-      const Vec3 a = corner(triangle, k), b = corner(triangle, (k + 1) % 3);
-      const double from = a[2] - centre[2], to = b[2] - centre[2];
-      if (from > 0) add(a);
-      if ((from > 0) != (to > 0)) add(a + from / (from - to) * (b - a));
-    }
-    const Vec3 at(centre[0], centre[1], 0);
-    double least2 = HUGE_VAL;
-    for (size_t k = 2; k < count; ++k) {
-      least2 = std::min(least2, closest_on_triangle(at, part[0], part[k - 1], part[k]).distance2);
-    }
-    return least2;
+  std::array<Vec3, 3> corners(uint32_t triangle) const {
+    return {sheet_.tree.point_at(triangle, {1, 0, 0}), sheet_.tree.point_at(triangle, {0, 1, 0}),
+            sheet_.tree.point_at(triangle, {0, 0, 1})};
   }
-  Vec3 corner(uint32_t triangle, size_t k) const {
-    std::array<double, 3> weight = {0, 0, 0};
-    weight[k] = 1;
-    return sheet_.tree.point_at(triangle, weight);
+  // The box around the capsule.
+  Aabb column_of(const Vec3 &centre, double reach) const {
+    Aabb column;
+    column.add(centre - Vec3::Constant(reach));
+    column.add(Vec3(centre[0] + reach, centre[1] + reach, std::max(sheet_.box.high[2], centre[2])));
+    return column;
   }
 
   const SheetFromAbove &sheet_;
-  double radius_, inwards_ = 1, lowest_ = HUGE_VAL, highest_ = -HUGE_VAL;
+  double radius_, inwards_ = 1;
   std::vector<HalfSpace> bounds_;
 };
 
-// Unit vectors at equal angles, from the square root of 1/2 by halving: no libm but sqrt.
+// Unit vectors at equal angles.
 std::array<Vec3, directions> compass() {
-  std::array<Vec3, directions> found;
-  found[0] = Vec3(1, 0, 0);
-  found[directions / 4] = Vec3(0, 1, 0);
-  for (size_t step = directions / 8; step > 0; step /= 2) {
-    for (size_t k = step; k < directions / 4; k += 2 * step) {
-      found[k] = (found[k - step] + found[k + step]).normalized();
-    }
-  }
-  for (size_t k = directions / 4; k < directions; ++k) {
-    const Vec3 &before = found[k - directions / 4];
-    found[k] = Vec3(-before[1], before[0], 0);
-  }
-  return found;
+  const double half = std::sqrt(0.5);
+  return {Vec3(1, 0, 0),  Vec3(half, half, 0),   Vec3(0, 1, 0),  Vec3(-half, half, 0),
+          Vec3(-1, 0, 0), Vec3(-half, -half, 0), Vec3(0, -1, 0), Vec3(half, -half, 0)};
 }
 
 bool is_lower(const Vec3 &a, const Vec3 &b) {
@@ -192,6 +184,7 @@ bool is_lower(const Vec3 &a, const Vec3 &b) {
 
 // Adds the low of a ball that is put on the leaflets at a place, if it is a new one.
 void roll(RollingBall &ball, Vec3 centre, double radius, std::vector<Vec3> &lows) {
+  if (!ball.is_in_annulus(centre)) return;
   ball.lift(centre);
   if (ball.roll_down(centre, lows) == RollingBall::End::rest) {
     lows.emplace_back(centre - Vec3(0, 0, radius));
@@ -209,50 +202,74 @@ void look_around(RollingBall &ball, double radius, std::vector<Vec3> &lows) {
       continue;
     }
     ++looked;
-    for (size_t d = 0; d < directions; d += directions / 8) {
+    for (size_t d = 0; d < directions; ++d) {
       // every second one far, the others near
-      const double away = (d % (directions / 4) == 0 ? far : near) * radius;
+      const double away = (d % 2 == 0 ? far : near) * radius;
       roll(ball, low + Vec3(0, 0, radius) + away * all[d], radius, lows);
     }
   }
 }
 
-// Adds the vertices of free edges beside which a ball passes through an opening, as deep as if it
-// touched them when it leaves the tissue.
-void add_passed_vertices(const RollingBall &ball, const SheetFromAbove &sheet, double radius,
-                         std::vector<Vec3> &lows) {
-  static const std::array<Vec3, directions> all = compass();
-  double deepest = 0;
-  for (const Vec3 &low : lows) deepest = std::min(deepest, low[2]);
+// The centres of balls that touch free edges at their vertices, the lowest first.
+std::vector<Vec3> centres_beside_edges(const SheetFromAbove &sheet, double radius) {
+  std::vector<Vec3> centres;
   for (const std::vector<uint32_t> &edge : sheet.free_edges) {
-    for (const uint32_t node : edge) {
-      const double low = sheet.x[node][2] - radius;
-      if (low >= deepest) continue;
-      double widest = 0;
-      for (const Vec3 &direction : all) {
-        const Vec3 centre = sheet.x[node] + radius * direction;
-        if (!sheet.is_open(centre)) continue;
-        widest = std::max(widest, ball.clearance(centre) / radius);
+    for (size_t k = 0; k < edge.size(); ++k) {
+      const Vec3 &before = sheet.x[edge[(k + edge.size() - 1) % edge.size()]];
+      const Vec3 &at = sheet.x[edge[k]], &after = sheet.x[edge[(k + 1) % edge.size()]];
+      for (const double side : {1.0, -1.0}) {
+        const Corner corner = corner_of(before, at, after, side, radius);
+        centres.insert(centres.end(), corner.centre.begin(), corner.centre.begin() + corner.count);
       }
-      const double share = std::clamp((widest - closed) / (open - closed), 0.0, 1.0);
-      if (share * low >= deepest) continue;
-      deepest = share * low;
-      lows.emplace_back(sheet.x[node][0], sheet.x[node][1], deepest);
     }
   }
+  std::stable_sort(centres.begin(), centres.end(), is_lower);
+  return centres;
+}
+
+// Adds places beside free edges where a ball passes through an opening, as low as it is when it
+// leaves them; and those where it rests below, or hardly does not pass.
+void add_openings(RollingBall &ball, const SheetFromAbove &sheet, double radius,
+                  std::vector<Vec3> &lows) {
+  double deepest = lows.empty() ? 0 : std::min(0.0, lows.front()[2]);
+  std::vector<Vec3> passed;
+  for (const Vec3 &centre : centres_beside_edges(sheet, radius)) {
+    if (!(centre[2] < radius) || !sheet.is_open(centre)) continue;
+    const double widest = ball.clearance(centre) / radius;
+    if (widest < narrow) continue;
+    const double share = std::clamp((widest - passing) / (1 - touching - passing), 0.0, 1.0);
+    const double low = centre[2] - radius;
+    if (share > 0) passed.emplace_back(centre[0], centre[1], share * low);
+    if (low < deepest) {
+      const size_t before = lows.size();
+      roll(ball, centre + Vec3(0, 0, share < 1 ? radius : 0), radius, lows);
+      if (lows.size() > before) deepest = std::min(deepest, lows.back()[2]);
+    }
+    deepest = std::min(deepest, share * low);
+  }
+  lows.insert(lows.end(), passed.begin(), passed.end());
 }
 
 }  // namespace
 
-std::vector<Vec3> lows_of_ball(const SheetFromAbove &sheet, const std::vector<Vec3> &starts,
+std::vector<Vec3> lows_of_ball(const SheetFromAbove &sheet, const BallStarts &starts,
                                double radius) {
   RollingBall ball(sheet, radius);
   std::vector<Vec3> lows;
-  for (const Vec3 &centre : starts) roll(ball, centre, radius, lows);
-  std::stable_sort(lows.begin(), lows.end(), is_lower);
+  const auto sort = [&] { std::stable_sort(lows.begin(), lows.end(), is_lower); };
+  for (const Vec3 &centre : starts.lowest) roll(ball, centre, radius, lows);
+  sort();
+  add_openings(ball, sheet, radius, lows);
+  sort();
+  // the others may be too high by the error of a raster; those far below fall beside an opening
+  for (const Vec3 &centre : starts.others) {
+    if (lows.empty()) break;
+    const double above = centre[2] - radius - lows.front()[2];
+    if (std::abs(above) < near_lowest) roll(ball, centre, radius, lows);
+  }
+  sort();
   look_around(ball, radius, lows);
-  add_passed_vertices(ball, sheet, radius, lows);
-  std::stable_sort(lows.begin(), lows.end(), is_lower);
+  sort();
   return lows;
 }
 

@@ -462,7 +462,7 @@ export interface Measures {
   coaptation_height: number;
   /** m, annulus plane to its upper end, central AP plane */
   coaptation_depth: number;
-  /** m, deepest leaflet point on the atrial side below the plane */
+  /** m, of a ball that rests on the leaflets below the plane */
   tenting_height: number;
   /** m2, below the annulus surface, central AP plane */
   tenting_area: number;
