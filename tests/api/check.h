@@ -69,9 +69,9 @@ static inline int same_hash(hash128 a, hash128 b) {
   return a.word[0] == b.word[0] && a.word[1] == b.word[1];
 }
 
-/* Whether two blocks of memory hold the same bits: -0.0 differs from 0.0. */
+/* Whether two blocks hold the same bits: -0.0 differs from 0.0. Empty ones may be null. */
 static inline int same_bits(const void *a, const void *b, size_t size) {
-  return memcmp(a, b, size) == 0;
+  return size == 0 || memcmp(a, b, size) == 0;
 }
 
 #endif

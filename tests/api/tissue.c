@@ -50,12 +50,16 @@ static void a_constant_may_be_zero(void) {
   tissue.law = MVS_LEAFLET_LAW_MAY_NEWMAN_YIN;
   tissue.constants[2] = -0.0;
   MUST(mvs_set_leaflet(sim, 0, &tissue));
-  const double *constants = data_of(present(), MVS_ARRAY_LEAFLET_CONSTANTS);
+  const mvs_snapshot *zero = present();
+  const double *constants = data_of(zero, MVS_ARRAY_LEAFLET_CONSTANTS);
   CHECK(constants[1] == 399 && constants[3] == 0 && !signbit(constants[3]));
+  mvs_snapshot_release(zero);
   tissue.constants[2] = 0;
   MUST(mvs_set_leaflet(sim, 0, &tissue));
-  constants = data_of(present(), MVS_ARRAY_LEAFLET_CONSTANTS);
+  const mvs_snapshot *published = present();
+  constants = data_of(published, MVS_ARRAY_LEAFLET_CONSTANTS);
   CHECK(constants[3] == 1446.5);
+  mvs_snapshot_release(published);
 }
 
 static void one_leaflet_changes_and_the_other_stays(void) {
