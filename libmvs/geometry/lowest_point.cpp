@@ -22,8 +22,8 @@ struct Point2 {
   double s, t;
 };
 
-// The point with the largest s on the border of half-plane `on`, within the first `count` others
-// and a square of 4 `reach`. False if no point of the border is in all of them.
+// The point with the largest s on the border of half-plane `on`, within those before it. False if
+// no point of the border is in all of them.
 bool furthest_on_line(const std::vector<HalfPlane> &planes, size_t on, double reach,
                       Point2 &point) {
   const HalfPlane &line = planes[on];
@@ -54,53 +54,49 @@ bool furthest_on_line(const std::vector<HalfPlane> &planes, size_t on, double re
 }
 
 // The lowest point on the border of half-space `on` within those before it and a cube.
-class OnPlane {
- public:
-  bool find(const std::vector<HalfSpace> &spaces, size_t on, double reach, Vec3 &point) {
-    const HalfSpace &plane = spaces[on];
-    const Vec3 foot = plane.offset * plane.normal;
-    // downwards on the plane, without cancellation where it is almost horizontal
-    const Vec3 &n = plane.normal;
-    const double steep = std::sqrt(n[0] * n[0] + n[1] * n[1]);
-    // any direction of a horizontal plane: all its points are as low
-    const Vec3 along = steep > rounding_of_products
-                           ? Vec3(n[2] * n[0] / steep, n[2] * n[1] / steep, -steep)
-                           : Vec3(1, 0, 0);
-    const Vec3 across = plane.normal.cross(along);
-    planes_.clear();
-    const auto add = [&](const Vec3 &normal, double offset) {
-      planes_.push_back({normal.dot(along), normal.dot(across), offset - normal.dot(foot)});
-    };
-    for (int axis = 0; axis < 3; ++axis) {
-      add(Vec3::Unit(axis), -reach);
-      add(-Vec3::Unit(axis), -reach);
-    }
-    for (size_t k = 0; k < on; ++k) add(spaces[k].normal, spaces[k].offset);
-    Point2 best{steep > rounding_of_products ? 4 * reach : 0, 0};
-    for (size_t k = 0; k < planes_.size(); ++k) {
-      const HalfPlane &h = planes_[k];
-      const double lack = h.c - (h.a * best.s + h.b * best.t);
-      if (lack <= rounding_of_products * reach) continue;
-      if (h.a * h.a + h.b * h.b <= rounding_of_products * rounding_of_products) return false;
-      if (!furthest_on_line(planes_, k, reach, best)) return false;
-    }
-    point = foot + best.s * along + best.t * across;
-    return true;
+// `planes` is overwritten.
+bool find_on_plane(const std::vector<HalfSpace> &spaces, size_t on, double reach,
+                   std::vector<HalfPlane> &planes, Vec3 &point) {
+  const HalfSpace &plane = spaces[on];
+  const Vec3 foot = plane.offset * plane.normal;
+  // downwards on the plane, without cancellation where it is almost horizontal
+  const Vec3 &n = plane.normal;
+  const double steep = std::sqrt(n[0] * n[0] + n[1] * n[1]);
+  // any direction of a horizontal plane: all its points are as low
+  const Vec3 along = steep > rounding_of_products
+                         ? Vec3(n[2] * n[0] / steep, n[2] * n[1] / steep, -steep)
+                         : Vec3(1, 0, 0);
+  const Vec3 across = plane.normal.cross(along);
+  planes.clear();
+  const auto add = [&](const Vec3 &normal, double offset) {
+    planes.push_back({normal.dot(along), normal.dot(across), offset - normal.dot(foot)});
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    add(Vec3::Unit(axis), -reach);
+    add(-Vec3::Unit(axis), -reach);
   }
-
- private:
-  std::vector<HalfPlane> planes_;
-};
+  for (size_t k = 0; k < on; ++k) add(spaces[k].normal, spaces[k].offset);
+  Point2 best{steep > rounding_of_products ? 4 * reach : 0, 0};
+  for (size_t k = 0; k < planes.size(); ++k) {
+    const HalfPlane &h = planes[k];
+    const double lack = h.c - (h.a * best.s + h.b * best.t);
+    if (lack <= rounding_of_products * reach) continue;
+    if (h.a * h.a + h.b * h.b <= rounding_of_products * rounding_of_products) return false;
+    if (!furthest_on_line(planes, k, reach, best)) return false;
+  }
+  point = foot + best.s * along + best.t * across;
+  return true;
+}
 
 }  // namespace
 
 Vec3 lowest_point(const std::vector<HalfSpace> &half_spaces, double reach) {
   Vec3 point(0, 0, -reach);
-  OnPlane on_plane;
+  std::vector<HalfPlane> planes;
   for (size_t k = 0; k < half_spaces.size(); ++k) {
     const HalfSpace &h = half_spaces[k];
     if (h.normal.dot(point) >= h.offset - rounding_of_products * reach) continue;
-    if (!on_plane.find(half_spaces, k, reach, point)) return Vec3::Zero();
+    if (!find_on_plane(half_spaces, k, reach, planes, point)) return Vec3::Zero();
   }
   return point;
 }

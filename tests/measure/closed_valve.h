@@ -24,10 +24,8 @@ inline Vec3 smooth_field(const Vec3 &p, double wave, int number) {
          30 * Vec3(p[0] + 0.5 * p[1], p[1] - 0.3 * p[0], p[2] + 0.2 * p[0]);
 }
 
-// A closed valve, moved by up to 0.1 mm: the symmetry of the parametric one makes kinks, as both
-// halves are equally high.
-inline Shape closed_valve(double annulus_scale, uint32_t vertices = 0,
-                          mvs_shape valve_shape = MVS_SHAPE_HEALTHY) {
+// A parametric valve closed under 120 mmHg; 0 vertices: the default.
+inline Shape settled_valve(double annulus_scale, uint32_t vertices, mvs_shape valve_shape) {
   mvs_parametric_desc desc{};
   desc.struct_size = sizeof desc;
   desc.annulus_scale = annulus_scale;
@@ -38,8 +36,17 @@ inline Shape closed_valve(double annulus_scale, uint32_t vertices = 0,
   State state = initial_state(*shape.model);
   state.load = {120 * 133.322, 1};
   Solver(Backend::fastest).settle(*shape.model, state, {}, nullptr);
+  shape.x = state.x;
+  return shape;
+}
+
+// The same, moved by up to 0.1 mm: the symmetry of the parametric valve makes kinks, as both halves
+// are equally high.
+inline Shape closed_valve(double annulus_scale, uint32_t vertices = 0,
+                          mvs_shape valve_shape = MVS_SHAPE_HEALTHY) {
+  Shape shape = settled_valve(annulus_scale, vertices, valve_shape);
   shape.x =
-      moved(state.x, [](const Vec3 &p) -> Vec3 { return p + 5e-5 * smooth_field(p, 150, 11); });
+      moved(shape.x, [](const Vec3 &p) -> Vec3 { return p + 5e-5 * smooth_field(p, 150, 11); });
   return shape;
 }
 

@@ -2,38 +2,20 @@
 #include "measure/orifice/seal.h"
 
 #include <doctest/doctest.h>
-#include <mvs/sim.h>
 
 #include <cmath>
 
-#include "anatomy/parametric.h"
 #include "measure/orifice/orifice.h"
 #include "measure/orifice/sheet_lattice.h"
-#include "solve/solver.h"
-#include "tests/measure/shapes.h"
+#include "tests/measure/closed_valve.h"
 
 using namespace mvs::core;
 using namespace mvs::core::test;
 
 namespace {
 
-struct Closed {
-  ModelPtr model;
-  std::vector<Vec3> x;
-};
-
-Closed close_valve(double annulus_scale) {
-  mvs_parametric_desc desc{};
-  desc.struct_size = sizeof desc;
-  desc.shape = MVS_SHAPE_FOUNDING;
-  desc.annulus_scale = annulus_scale;
-  Closed closed;
-  closed.model = make_model(make_parametric_valve(desc));
-  State state = initial_state(*closed.model);
-  state.load = {120 * 133.322, 1};
-  Solver(Backend::fastest).settle(*closed.model, state, {}, nullptr);
-  closed.x = state.x;
-  return closed;
+Shape close_valve(double annulus_scale) {
+  return settled_valve(annulus_scale, 0, MVS_SHAPE_FOUNDING);
 }
 
 // Smooth waves of up to `size` m, other ones for each number.
@@ -51,7 +33,7 @@ std::vector<Vec3> waved(const std::vector<Vec3> &x, double size, int number) {
 TEST_CASE("a_valve_proven_to_be_sealed_has_no_minimum_cut") {
   int sealed = 0, open = 0;
   for (const double scale : {1.0, 1.15}) {
-    const Closed closed = close_valve(scale);
+    const Shape closed = close_valve(scale);
     for (int k = 0; k < 30; ++k) {
       const std::vector<Vec3> x = waved(closed.x, 0.1e-3 * k, k);
       const bool zipped = orifice::is_zipped(*closed.model, x);
@@ -67,7 +49,7 @@ TEST_CASE("a_valve_proven_to_be_sealed_has_no_minimum_cut") {
 }
 
 TEST_CASE("the_founding_valve_is_proven_to_be_sealed_in_any_position_and_numbering") {
-  const Closed closed = close_valve(1);
+  const Shape closed = close_valve(1);
   CHECK(orifice::is_zipped(*closed.model, closed.x));
   CHECK(orifice::is_zipped(*closed.model, moved(closed.x, some_rigid_motion())));
   const Renumbered other = renumbered(closed.model->valve);
@@ -87,7 +69,7 @@ TEST_CASE("a_sheet_with_a_hole_is_not_proven") {
 }
 
 TEST_CASE("steps_on_the_lattice_are_short_and_lead_back") {
-  const Closed closed = close_valve(1);
+  const Shape closed = close_valve(1);
   const orifice::SheetLattice lattice(*closed.model, closed.x, 0.5e-3);
   for (uint32_t v = 0; v < lattice.size(); v += 7) {
     if (closed.model->topology.node_triangles.start.size() > v + 1 &&

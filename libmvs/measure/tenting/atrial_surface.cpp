@@ -61,8 +61,9 @@ std::vector<double> node_rises(const Model &model, const std::vector<Vec3> &loca
 constexpr size_t cells_of_square = 8;
 static_assert(AnnulusMap::across % cells_of_square == 0);
 
-// The lowest centres of a ball on the raster, one in each square; infinite where there is none.
-// Cells without tissue do not count: a ball falls there, or rests on the tissue beside them.
+// The lowest centres of a ball on the raster, one in each square; infinite in squares without
+// tissue. Cells without tissue do not count: a ball falls there, or rests on the tissue beside
+// them.
 struct LowestOfSquares {
   static constexpr size_t across = AnnulusMap::across / cells_of_square;
   std::array<Vec3, across * across> centre;
@@ -90,8 +91,7 @@ struct LowestOfSquares {
   }
 };
 
-// The centres from which balls roll down: first those that are lower than those around them, then
-// the others, both the lowest first.
+// The centres from which balls roll down, of each square the lowest.
 BallStarts starts_of_balls(const AnnulusMap &map, const std::vector<double> &covered,
                            const std::vector<double> &centres) {
   const LowestOfSquares squares(map, covered, centres);
@@ -99,10 +99,6 @@ BallStarts starts_of_balls(const AnnulusMap &map, const std::vector<double> &cov
   for (size_t k = 0; k < squares.centre.size(); ++k) {
     if (!std::isfinite(squares.centre[k][2])) continue;
     (squares.is_lowest_around(k) ? starts.lowest : starts.others).push_back(squares.centre[k]);
-  }
-  for (std::vector<Vec3> *some : {&starts.lowest, &starts.others}) {
-    std::stable_sort(some->begin(), some->end(),
-                     [](const Vec3 &a, const Vec3 &b) { return a[2] < b[2]; });
   }
   return starts;
 }

@@ -53,6 +53,7 @@ class RollingBall {
     inwards_ = twice_area > 0 ? 1 : -1;
   }
 
+  double radius() const { return radius_; }
   // Moves the centre up until the capsule is free, by ever longer steps: walls may be a thousand
   // times as tall as the ball.
   void lift(Vec3 &centre) const {
@@ -183,17 +184,17 @@ bool is_lower(const Vec3 &a, const Vec3 &b) {
 }
 
 // Adds the low of a ball that is put on the leaflets at a place, if it is a new one.
-void roll(RollingBall &ball, Vec3 centre, double radius, std::vector<Vec3> &lows) {
+void roll(RollingBall &ball, Vec3 centre, std::vector<Vec3> &lows) {
   if (!ball.is_in_annulus(centre)) return;
   ball.lift(centre);
   if (ball.roll_down(centre, lows) == RollingBall::End::rest) {
-    lows.emplace_back(centre - Vec3(0, 0, radius));
+    lows.emplace_back(centre - Vec3(0, 0, ball.radius()));
   }
 }
 
 // Rolls the ball also from places around the lowest lows, and around lows found there: a start
 // beside a saddle may roll to either side of it.
-void look_around(RollingBall &ball, double radius, std::vector<Vec3> &lows) {
+void look_around(RollingBall &ball, std::vector<Vec3> &lows) {
   static const std::array<Vec3, directions> all = compass();
   size_t looked = 0;
   for (size_t k = 0; k < lows.size() && looked < most_around; ++k) {
@@ -204,8 +205,8 @@ void look_around(RollingBall &ball, double radius, std::vector<Vec3> &lows) {
     ++looked;
     for (size_t d = 0; d < directions; ++d) {
       // every second one far, the others near
-      const double away = (d % 2 == 0 ? far : near) * radius;
-      roll(ball, low + Vec3(0, 0, radius) + away * all[d], radius, lows);
+      const double away = (d % 2 == 0 ? far : near) * ball.radius();
+      roll(ball, low + Vec3(0, 0, ball.radius()) + away * all[d], lows);
     }
   }
 }
@@ -228,9 +229,9 @@ std::vector<Vec3> centres_beside_edges(const SheetFromAbove &sheet, double radiu
 }
 
 // Adds places beside free edges where a ball passes through an opening, as low as it is when it
-// leaves them; and those where it rests below, or hardly does not pass.
-void add_openings(RollingBall &ball, const SheetFromAbove &sheet, double radius,
-                  std::vector<Vec3> &lows) {
+// leaves them; and places where it rests below, or in an opening that is a little too narrow.
+void add_openings(RollingBall &ball, const SheetFromAbove &sheet, std::vector<Vec3> &lows) {
+  const double radius = ball.radius();
   double deepest = lows.empty() ? 0 : std::min(0.0, lows.front()[2]);
   std::vector<Vec3> passed;
   for (const Vec3 &centre : centres_beside_edges(sheet, radius)) {
@@ -242,7 +243,7 @@ void add_openings(RollingBall &ball, const SheetFromAbove &sheet, double radius,
     if (share > 0) passed.emplace_back(centre[0], centre[1], share * low);
     if (low < deepest) {
       const size_t before = lows.size();
-      roll(ball, centre + Vec3(0, 0, share < 1 ? radius : 0), radius, lows);
+      roll(ball, centre + Vec3(0, 0, share < 1 ? radius : 0), lows);
       if (lows.size() > before) deepest = std::min(deepest, lows.back()[2]);
     }
     deepest = std::min(deepest, share * low);
@@ -252,24 +253,27 @@ void add_openings(RollingBall &ball, const SheetFromAbove &sheet, double radius,
 
 }  // namespace
 
-std::vector<Vec3> lows_of_ball(const SheetFromAbove &sheet, const BallStarts &starts,
-                               double radius) {
+std::vector<Vec3> lows_of_ball(const SheetFromAbove &sheet, BallStarts starts, double radius) {
   RollingBall ball(sheet, radius);
   std::vector<Vec3> lows;
-  const auto sort = [&] { std::stable_sort(lows.begin(), lows.end(), is_lower); };
-  for (const Vec3 &centre : starts.lowest) roll(ball, centre, radius, lows);
-  sort();
-  add_openings(ball, sheet, radius, lows);
-  sort();
+  const auto sort = [](std::vector<Vec3> &places) {
+    std::stable_sort(places.begin(), places.end(), is_lower);
+  };
+  sort(starts.lowest);
+  for (const Vec3 &centre : starts.lowest) roll(ball, centre, lows);
+  sort(lows);
+  add_openings(ball, sheet, lows);
+  sort(lows);
   // the others may be too high by the error of a raster; those far below fall beside an opening
+  sort(starts.others);
   for (const Vec3 &centre : starts.others) {
     if (lows.empty()) break;
     const double above = centre[2] - radius - lows.front()[2];
-    if (std::abs(above) < near_lowest) roll(ball, centre, radius, lows);
+    if (std::abs(above) < near_lowest) roll(ball, centre, lows);
   }
-  sort();
-  look_around(ball, radius, lows);
-  sort();
+  sort(lows);
+  look_around(ball, lows);
+  sort(lows);
   return lows;
 }
 

@@ -19,8 +19,7 @@ struct SheetFromAbove {
   std::function<bool(const Vec3 &)> is_open;
 };
 
-// Centres from which balls roll down: those that are lower than others around them, and the others;
-// both the lowest first.
+// Centres from which balls roll down: those that are lower than others around them, and the others.
 struct BallStarts {
   std::vector<Vec3> lowest, others;
 };
@@ -37,7 +36,6 @@ struct BallStarts {
 //
 // A ball that falls through an opening does not count, but places of free edges beside which it
 // passes do: a radius below them, as is the ball when it leaves the tissue.
-std::vector<Vec3> lows_of_ball(const SheetFromAbove &sheet, const BallStarts &starts,
-                               double radius);
+std::vector<Vec3> lows_of_ball(const SheetFromAbove &sheet, BallStarts starts, double radius);
 
 }  // namespace mvs::core

@@ -35,8 +35,8 @@ constexpr double curve_spacing = 1e-3;  // m, of the points of a given curve
 // are one wave a lap, the height of the saddle is two, and a radial change of a D shape up to four.
 // Shorter ones would be errors that wrinkle the annulus and stretch the leaflets at it.
 constexpr size_t most_waves = 4;
-// Of a motion that is found at once, and of one that is sought farther off: an image of another
-// place of the table, or another frame, looks the same.
+// Confidence of a motion that is found at once, and of one that is sought farther off: an image of
+// another place of the table, or another frame, looks the same.
 constexpr double confidence_of_rims = 0.6, confidence_of_far_rims = 0.3;
 
 // Sides that have one triangle.

@@ -81,7 +81,7 @@ struct FoundLeaks {
   }
   // Whether the valve is sealed in all closures, of which one or more came to rest.
   bool seal() const { return rests > 0 && all_seal(all); }
-  // Of all closures that have a shape.
+  // The leaks of all closures that have a shape.
   std::vector<double> finite() const {
     std::vector<double> found;
     std::copy_if(all.begin(), all.end(), std::back_inserter(found),

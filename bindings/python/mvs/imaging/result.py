@@ -52,7 +52,7 @@ def print_result(chosen: argparse.Namespace, made: Any, findings: Path) -> None:
 
 
 def verdict_of(made: Any) -> str:
-    """Whether the closed valve rests, what it leaks, and gaps of the loaded leaflets that it does not show."""
+    """The state of the closed valve, its leak, and gaps of the loaded leaflets that it does not have."""
     if not made.converged:
         return "NOT at rest: no figure of this shape holds"
     leak = made.closed.measures.regurgitant_orifice_area * 1e6
@@ -74,7 +74,7 @@ SEALED, SHARE_OF_SHOWN = 0.05, 0.5
 
 
 def interval_of(findings: Iterable[mvs.Finding]) -> Optional[list[float]]:
-    """The least and the largest leak over what is not sure, mm2; None where no finding states it."""
+    """The ends of the interval of leaks, mm2; None without this finding."""
     found = next((one.values for one in findings if one.name == "leak_interval" and len(one.values) == 2), None)
     return None if found is None else [float(value) * 1e6 for value in found]
 
