@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "geometry/distance.h"
 
@@ -19,8 +20,12 @@ inline AxisPoint closest_to_axis(const std::array<Vec3, 3> &corner, const Vec3 &
                         const Vec3 &c) {
     return Vec3(weight[0] * a + weight[1] * b + weight[2] * c);
   };
-  const TrianglePoint closest = closest_on_triangle(from, corner[0], corner[1], corner[2]);
-  AxisPoint found{closest.distance2, from - point(closest.weight, corner[0], corner[1], corner[2])};
+  AxisPoint found{std::numeric_limits<double>::infinity(), Vec3::Zero()};
+  // seen from above, a triangle that is all above is nearer, or as near
+  if (!(corner[0][2] > from[2] && corner[1][2] > from[2] && corner[2][2] > from[2])) {
+    const TrianglePoint closest = closest_on_triangle(from, corner[0], corner[1], corner[2]);
+    found = {closest.distance2, from - point(closest.weight, corner[0], corner[1], corner[2])};
+  }
   // the part of the triangle above, seen from above
   std::array<Vec3, 4> part;
   size_t count = 0;

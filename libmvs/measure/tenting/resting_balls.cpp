@@ -50,7 +50,14 @@ class RollingBall {
     for (size_t k = 0; k < sheet.rim.size(); ++k) {
       twice_area += cross_in_plane(sheet.rim[k], sheet.rim[(k + 1) % sheet.rim.size()]);
     }
-    inwards_ = twice_area > 0 ? 1 : -1;
+    const double inwards = twice_area > 0 ? 1 : -1;
+    for (size_t k = 0; k < sheet.rim.size(); ++k) {
+      Vec3 a = sheet.rim[k], b = sheet.rim[(k + 1) % sheet.rim.size()];
+      a[2] = b[2] = 0;
+      const double length = (b - a).norm();
+      if (length == 0) continue;
+      sides_.push_back({a, b, inwards / length * Vec3(a[1] - b[1], b[0] - a[0], 0)});
+    }
   }
 
   double radius() const { return radius_; }
@@ -142,16 +149,14 @@ class RollingBall {
   }
 
   void add_sides(const Vec3 &centre, double limit) {
-    for (size_t k = 0; k < sheet_.rim.size(); ++k) {
-      Vec3 a = sheet_.rim[k], b = sheet_.rim[(k + 1) % sheet_.rim.size()];
-      a[2] = b[2] = centre[2];
-      const double length = (b - a).norm();
-      if (length == 0) continue;
-      if (closest_on_segment(centre, a, b).distance2 > 2 * limit * limit) continue;
-      const Vec3 inside = inwards_ / length * Vec3(a[1] - b[1], b[0] - a[0], 0);
-      const double room = inside.dot(centre - a);
+    const Vec3 flat(centre[0], centre[1], 0);
+    const double reach2 = 2 * limit * limit;
+    for (const Side &side : sides_) {
+      const double room = side.inside.dot(flat - side.from);
+      if (room * room > reach2) continue;
+      if (closest_on_segment(flat, side.from, side.to).distance2 > reach2) continue;
       // a ball at a side may be beyond it by rounding; far beyond are sides of a concave annulus
-      if (room > -touching * radius_) bounds_.push_back({inside, std::min(0.0, -room)});
+      if (room > -touching * radius_) bounds_.push_back({side.inside, std::min(0.0, -room)});
     }
   }
 
@@ -168,7 +173,12 @@ class RollingBall {
   }
 
   const SheetFromAbove &sheet_;
-  double radius_, inwards_ = 1;
+  double radius_;
+  // A side of the annulus, seen from above; `inside` is a unit vector at right angles to it.
+  struct Side {
+    Vec3 from, to, inside;
+  };
+  std::vector<Side> sides_;
   std::vector<HalfSpace> bounds_;
 };
 
