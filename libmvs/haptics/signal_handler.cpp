@@ -8,7 +8,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstring>
 #include <mutex>
 #include <utility>
 
@@ -101,7 +100,6 @@ constexpr std::array<Handler, sizeof...(numbers)> handlers_of(std::index_sequenc
 }
 constexpr auto handlers = handlers_of(std::make_index_sequence<most_replaced>());
 
-// Zero where the system writes nothing, so that actions compare by their bytes.
 struct sigaction present_action(int signal) {
   struct sigaction now = {};
   sigaction(signal, nullptr, &now);
@@ -115,9 +113,13 @@ size_t number_of(const struct sigaction &action) {
   return k;
 }
 
+// Signal by signal: glibc leaves the bytes of a mask that the system does not write undefined.
 bool is_same(const struct sigaction &a, const struct sigaction &b) {
-  return a.sa_sigaction == b.sa_sigaction && a.sa_flags == b.sa_flags &&
-         std::memcmp(&a.sa_mask, &b.sa_mask, sizeof a.sa_mask) == 0;
+  bool same = a.sa_sigaction == b.sa_sigaction && a.sa_flags == b.sa_flags;
+  for (int k = 1; k < NSIG; ++k) {
+    same = same && sigismember(&a.sa_mask, k) == sigismember(&b.sa_mask, k);
+  }
+  return same;
 }
 
 // The place of an action among those replaced, the next free one if it is new.

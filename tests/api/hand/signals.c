@@ -27,6 +27,13 @@ static void (*handler_of(int number))(int) {
   return now.sa_handler;
 }
 
+/* Writes to the stack below the caller: the C library copies bytes of a mask from there that the
+ * system did not write. */
+static void dirty_stack(int value) {
+  volatile char room[1 << 14];
+  for (size_t k = 0; k < sizeof room; ++k) room[k] = (char)value;
+}
+
 /* As signal() does where it is not of System V. */
 static void set_handler(int number, void (*handler)(int)) {
   struct sigaction action;
@@ -84,7 +91,9 @@ static void install_over_a_newer_one(void) {
   MUST(mvs_device_handle_signals(0));
   CHECK(handler_of(SIGTERM) == newer_handler);
   for (int k = 0; k < 100; ++k) {
+    dirty_stack(2 * k);
     MUST(mvs_device_handle_signals(1));
+    dirty_stack(2 * k + 1);
     MUST(mvs_device_handle_signals(0));
   }
   raise(SIGTERM);
