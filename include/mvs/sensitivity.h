@@ -101,6 +101,10 @@ typedef struct mvs_sensitivity_options {
                    this near to the kink of their law and contact this near to
                    its begin or to another closest feature are about to switch;
                    1e-9 to 1e-3 */
+  /* As in mvs_sim_desc; the force is that of the snapshot. Called after each parameter and each
+   * quantity of each part of the work. Nullable. */
+  int32_t (*progress)(void *user, double share, double residual);
+  void *user;
 } mvs_sensitivity_options;
 
 /* Flags of a quantity or a parameter. CHORD, CONTACT and KINK are given where the step of the test
@@ -141,7 +145,7 @@ typedef struct mvs_sensitivity mvs_sensitivity;
  * in mvs_valve_desc. The snapshot does not change. `options` is nullable. `sensitivity`: release it
  * with mvs_sensitivity_release. From any thread. MVS_E_STATE if the snapshot is not at rest, or its
  * equilibrium is unstable; MVS_E_ARGUMENT for a quantity or parameter that the valve does not have,
- * or that has no derivative. */
+ * or that has no derivative; MVS_E_CANCELLED if the progress callback cancelled. */
 MVS_API mvs_result mvs_sensitivity_run(const mvs_snapshot *snapshot, const mvs_quantity *quantities,
                                        uint32_t quantity_count, uint32_t quantity_stride,
                                        const mvs_parameter *parameters, uint32_t parameter_count,

@@ -30,6 +30,11 @@ SensitivityOptions read_options(const mvs_sensitivity_options *options) {
   read.direct = (given.flags & MVS_SENSITIVITY_DIRECT) != 0;
   read.tests = (given.flags & MVS_SENSITIVITY_NO_TEST) == 0;
   read.with_margin = (given.flags & MVS_SENSITIVITY_NO_MARGIN) == 0;
+  if (given.progress) {
+    read.progress = [given](double share, double residual) {
+      return given.progress(given.user, share, residual) == 0;
+    };
+  }
   read.slack = or_default(given.slack, read.slack, 1e-9, 1e-3, "options.slack");
   return read;
 }

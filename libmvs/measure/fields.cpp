@@ -57,9 +57,9 @@ void fill_group(const Strain &measured, mvs_measures &m) {
   m.leaflet_stress_p99 = stress.p99;
 }
 
-double measure_field(const Model &model, const std::vector<Vec3> &x, const mvs_field_info &field) {
-  mvs_measures m = {};
-  switch (field.group) {
+void measure_group(const Model &model, const std::vector<Vec3> &x, uint32_t group,
+                   mvs_measures &m) {
+  switch (group) {
     case MVS_MEASURE_GROUP_ORIFICE:
       fill_group(measure_orifice(model, x), m);
       break;
@@ -79,8 +79,13 @@ double measure_field(const Model &model, const std::vector<Vec3> &x, const mvs_f
       fill_group(measure_strain(model, x), m);
       break;
     default:
-      return 0;
+      break;
   }
+}
+
+double measure_field(const Model &model, const std::vector<Vec3> &x, const mvs_field_info &field) {
+  mvs_measures m = {};
+  measure_group(model, x, field.group, m);
   return read_field(&m, field);
 }
 

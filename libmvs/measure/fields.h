@@ -14,6 +14,9 @@ void fill_group(const AnnulusMeasures &annulus, mvs_measures &m);
 void fill_group(const ChordMeasures &chords, mvs_measures &m);
 void fill_group(const Strain &strain, mvs_measures &m);
 
+// Measures a group at x and fills its fields; no group: none. The crossings are not filled.
+void measure_group(const Model &model, const std::vector<Vec3> &x, uint32_t group, mvs_measures &m);
+
 // Measures the group of a field at x and returns the field; 0 for a field without a group or of the
 // crossings.
 double measure_field(const Model &model, const std::vector<Vec3> &x, const mvs_field_info &field);

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "sensitivity/measure_differences.h"
 
 namespace mvs::core {
 
@@ -58,25 +61,34 @@ NodeField LinearResponse::motion_of(std::span<const ParameterStep> steps) {
   return b;
 }
 
-double LinearResponse::direct_row(size_t q, size_t p) const {
+void LinearResponse::fill_rows(size_t p) {
   const auto &[model, state, quantities, parameters] = request_;
-  const QuantityGradient &g = gradients_[q];
-  if (g.by_differences) {
-    return measure_difference(model, state, quantities[q], parameters[p], motions_[p]);
+  const Parameter &parameter = parameters[p];
+  const NodeField &motion = motions_[p];
+  std::optional<MeasureDifferences> differences;
+  for (size_t q = 0; q < gradients_.size(); ++q) {
+    const QuantityGradient &g = gradients_[q];
+    double &row = rows_[q * parameters.size() + p];
+    if (g.by_differences) {
+      if (!differences) differences.emplace(model, state, parameter, motion);
+      row = differences->of(*quantities[q].measure);
+    } else {
+      row = dot_of(g.by_position, motion) + explicit_derivative(model, state.x, g, parameter);
+    }
   }
-  return dot_of(g.by_position, motions_[p]) + explicit_derivative(model, state.x, g, parameters[p]);
 }
 
-void LinearResponse::solve_directly(size_t tests) {
+void LinearResponse::solve_directly(size_t tests, const std::function<void()> &after_one) {
   tangent_.expect_solutions((1 + tests) * parameters());
   for (size_t p = 0; p < parameters(); ++p) {
     const ParameterStep step = {&request_.parameters[p], 1};
     motions_.push_back(motion_of({&step, 1}));
-    for (size_t q = 0; q < gradients_.size(); ++q) rows_[q * parameters() + p] = direct_row(q, p);
+    fill_rows(p);
+    after_one();
   }
 }
 
-void LinearResponse::solve_adjoint() {
+void LinearResponse::solve_adjoint(const std::function<void()> &after_one) {
   const bool moves = std::any_of(loads_.begin(), loads_.end(),
                                  [](const ParameterLoad &l) { return !l.motion.empty(); });
   NodeField pulled;
@@ -94,6 +106,7 @@ void LinearResponse::solve_adjoint() {
         row += sparse_dot(g.by_position, loads_[p].motion) - sparse_dot(pulled, loads_[p].motion);
       }
     }
+    after_one();
   }
 }
 

@@ -2,6 +2,7 @@
 // and tests.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "sensitivity/quantities.h"
@@ -23,10 +24,11 @@ class LinearResponse {
   LinearResponse(const SensitivityRequest &request, std::vector<QuantityGradient> gradients,
                  EquilibriumTangent &tangent);
 
-  // One solution for each parameter; `tests` more are expected for each.
-  void solve_directly(size_t tests);
+  // One solution for each parameter; `tests` more are expected for each. `after_one` is called
+  // after each solution.
+  void solve_directly(size_t tests, const std::function<void()> &after_one);
   // One solution for each gradient; none of them may be by differences.
-  void solve_adjoint();
+  void solve_adjoint(const std::function<void()> &after_one);
   // dx for a change of parameters of the request, by one direct solution.
   NodeField motion_of(std::span<const ParameterStep> steps);
 
@@ -40,7 +42,7 @@ class LinearResponse {
   uint32_t direct_solves() const { return direct_solves_; }
 
  private:
-  double direct_row(size_t q, size_t p) const;
+  void fill_rows(size_t p);
 
   const SensitivityRequest &request_;
   EquilibriumTangent &tangent_;

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
+#include "sensitivity/measure_differences.h"
 #include "sensitivity/settings.h"
 #include "sensitivity/side_test.h"
 
@@ -61,16 +64,24 @@ NodeField OneSides::motion_of(size_t p, const std::vector<double> &forces) const
   return motion;
 }
 
-double OneSides::change_of(size_t q, size_t p, const std::vector<double> &forces) const {
-  const QuantityGradient &g = response_.gradient(q);
-  if (g.by_differences) {
-    return measure_difference(request_.model, request_.state, request_.quantities[q],
-                              request_.parameters[p], motion_of(p, forces)) -
-           response_.row(q, p);
+std::vector<double> OneSides::changes_of(size_t p, const std::vector<double> &forces) const {
+  const auto &[model, state, quantities, parameters] = request_;
+  if (forces.empty()) {
+    return std::vector<double>(quantities.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  double sum = 0;
-  for (size_t j = 0; j < forces.size(); ++j) sum += change_by(q, j) * forces[j];
-  return sum;
+  std::optional<MeasureDifferences> differences;
+  std::vector<double> changes;
+  for (size_t q = 0; q < quantities.size(); ++q) {
+    double change = 0;
+    if (response_.gradient(q).by_differences) {
+      if (!differences) differences.emplace(model, state, parameters[p], motion_of(p, forces));
+      change = differences->of(*quantities[q].measure) - response_.row(q, p);
+    } else {
+      for (size_t j = 0; j < forces.size(); ++j) change += change_by(q, j) * forces[j];
+    }
+    changes.push_back(change);
+  }
+  return changes;
 }
 
 double OneSides::change_by(size_t q, size_t j) const {

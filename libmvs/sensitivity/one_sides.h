@@ -30,8 +30,9 @@ class OneSides {
   mvs_sensitivity_notes notes_along(std::span<const ParameterStep> steps,
                                     const NodeField &motion) const;
 
-  // The change of the derivative of quantity q by parameter p that extra forces make.
-  double change_of(size_t q, size_t p, const std::vector<double> &forces) const;
+  // The change of the derivative of each quantity by parameter p that extra forces make; NaN
+  // without forces: no consistent state is known.
+  std::vector<double> changes_of(size_t p, const std::vector<double> &forces) const;
   // dx/dp with extra forces, if response has that of the tangent.
   NodeField motion_of(size_t p, const std::vector<double> &forces) const;
   // Rates of the switches with extra forces.

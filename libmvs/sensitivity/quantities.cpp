@@ -230,21 +230,4 @@ double explicit_derivative(const Model &model, const std::vector<Vec3> &x,
   return sum;
 }
 
-double measure_difference(const Model &model, const State &state, const Quantity &quantity,
-                          const Parameter &parameter, const NodeField &motion) {
-  namespace set = settings::sensitivity;
-  const mvs_field_info &field = *quantity.measure;
-  double fastest = 0;
-  for (const Vec3 &v : motion) fastest = std::max(fastest, v.norm());
-  if (fastest == 0) return 0;
-  const double h = set::measure_step / fastest;
-  const auto at = [&](double by) {
-    const ParameterStep step{&parameter, by};
-    std::vector<Vec3> x = state.x;
-    for (size_t i = 0; i < x.size(); ++i) x[i] += by * motion[i];
-    return measure_field(changed_model(model, {&step, 1}), x, field);
-  };
-  return (at(h) - at(-h)) / (2 * h);
-}
-
 }  // namespace mvs::core

@@ -55,7 +55,7 @@ struct ChordEnd {
 // dq = by_position dx + sum of factors times the changes of tension and strain at fixed positions.
 struct QuantityGradient {
   double value = 0;
-  bool by_differences = false;  // the gradient is not known: see measure_difference()
+  bool by_differences = false;  // the gradient is not known: see MeasureDifferences
   NodeField by_position;
   std::vector<ChordShare> tension, strain;
   std::vector<ChordEnd> by_end;  // part of by_position, for ends that leave their nodes
@@ -69,10 +69,5 @@ QuantityGradient quantity_gradient(const Model &model, const State &state, const
 // The derivative of a quantity at fixed positions.
 double explicit_derivative(const Model &model, const std::vector<Vec3> &x,
                            const QuantityGradient &gradient, const Parameter &parameter);
-
-// The derivative of a measure along dx/dp, by a central difference of the measure of the moved
-// shape; `motion` is dx/dp.
-double measure_difference(const Model &model, const State &state, const Quantity &quantity,
-                          const Parameter &parameter, const NodeField &motion);
 
 }  // namespace mvs::core

@@ -29,6 +29,7 @@ class Differentiation {
   Sensitivity run();
 
  private:
+  void tell_progress();
   void find_margin();
   std::vector<QuantityGradient> gradients();
   void note_everywhere(mvs_sensitivity_notes note);
@@ -47,8 +48,16 @@ class Differentiation {
   std::unique_ptr<OneSides> one_sides_;  // where something is about to switch
   bool snaps_ = false;                   // a fold is about to snap
   uint32_t solves_ = 0;
+  size_t units_ = 1, units_done_ = 0;  // of work, of which progress is told
   Sensitivity result_;
 };
+
+void Differentiation::tell_progress() {
+  ++units_done_;
+  const double share = static_cast<double>(units_done_) / static_cast<double>(units_);
+  MVS_MUST(!options_.progress || options_.progress(std::min(share, 1.0), result_.residual),
+           MVS_E_CANCELLED, "sensitivity", "cancelled by the progress callback");
+}
 
 void Differentiation::find_margin() {
   const double rate = must_be_stable(request_.model, request_.state, tangent_);
@@ -115,14 +124,16 @@ void Differentiation::add_one_sides(const LinearResponse &response) {
   const OneSides &one_sides = *one_sides_;
   solves_ += static_cast<uint32_t>(switches_.size());
   for (size_t p = 0; p < request_.parameters.size(); ++p) {
+    tell_progress();
     const OneSides::Sides sides = one_sides.sides_of(p);
     const mvs_sensitivity_notes notes = one_sides.notes_of_parameter(p, sides);
     if (notes == 0) continue;
     result_.parameter_notes[p] |= notes;
+    const std::vector<double> above = one_sides.changes_of(p, sides.up);
+    const std::vector<double> below = one_sides.changes_of(p, sides.down);
     for (size_t q = 0; q < count; ++q) {
-      result_.above[at(q, p)] += sides.up.empty() ? unknown : one_sides.change_of(q, p, sides.up);
-      result_.below[at(q, p)] +=
-          sides.down.empty() ? unknown : one_sides.change_of(q, p, sides.down);
+      result_.above[at(q, p)] += above[q];
+      result_.below[at(q, p)] += below[q];
       // with tests: along the gradient
       if (!options_.tests) {
         result_.quantity_notes[q] |= one_sides.notes_of_quantity(q, p, sides);
@@ -153,6 +164,7 @@ bool Differentiation::holds(std::span<const ParameterStep> steps, const NodeFiel
 
 void Differentiation::test_parameters(const LinearResponse &response) {
   for (size_t p = 0; p < request_.parameters.size(); ++p) {
+    tell_progress();
     const ParameterStep step = {&request_.parameters[p], 1};
     if (!holds({&step, 1}, response.motion(p))) {
       result_.parameter_notes[p] |= MVS_SENSITIVITY_NOTE_SWITCH;
@@ -163,6 +175,7 @@ void Differentiation::test_parameters(const LinearResponse &response) {
 // Along the gradient of each quantity, with parameters scaled to each other.
 void Differentiation::test_quantities(LinearResponse &response) {
   for (size_t q = 0; q < request_.quantities.size(); ++q) {
+    tell_progress();
     std::vector<ParameterStep> steps;
     for (size_t p = 0; p < request_.parameters.size(); ++p) {
       const Parameter &parameter = request_.parameters[p];
@@ -181,11 +194,17 @@ Sensitivity Differentiation::run() {
   find_margin();
   std::vector<QuantityGradient> list = gradients();
   const bool adjoint = is_adjoint(list, request_.parameters.size(), options_);
+  const size_t list_size = list.size();
   LinearResponse response(request_, std::move(list), tangent_);
+  const size_t columns = request_.parameters.size();
+  const size_t tested = (adjoint ? 0 : columns) + request_.quantities.size();
+  units_ = (adjoint ? list_size : columns) + (switches_.empty() ? 0 : columns) +
+           (options_.tests ? tested : 0);
+  const auto after_one = [&] { tell_progress(); };
   if (adjoint) {
-    response.solve_adjoint();
+    response.solve_adjoint(after_one);
   } else {
-    response.solve_directly(options_.tests ? 2 : 0);
+    response.solve_directly(options_.tests ? 2 : 0, after_one);
   }
   add_one_sides(response);
   if (options_.tests) {

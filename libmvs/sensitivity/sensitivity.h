@@ -4,12 +4,14 @@
 #pragma once
 
 #include "sensitivity/quantities.h"
+#include "solve/solver.h"
 
 namespace mvs::core {
 
 struct SensitivityOptions {
   bool with_motion = false, direct = false, tests = true, with_margin = true;
   double slack = 1e-7;  // m
+  Progress progress;    // may be empty
 };
 
 struct Sensitivity {
@@ -26,7 +28,7 @@ struct Sensitivity {
 };
 
 // Throws MVS_E_STATE if the state is not at rest or not stable, MVS_E_ARGUMENT for parameters and
-// quantities that the valve does not have.
+// quantities that the valve does not have, MVS_E_CANCELLED if progress cancels.
 Sensitivity differentiate(const Model &model, const State &state,
                           const std::vector<Quantity> &quantities,
                           const std::vector<Parameter> &parameters,

@@ -184,6 +184,55 @@ static void contact_about_to_switch_has_two_sides(void) {
   CHECK(switches > 0);
 }
 
+struct told {
+  double share, force;
+  int calls, cancel_at, falls;
+};
+
+static int32_t tell(void *user, double share, double residual) {
+  struct told *told = (struct told *)user;
+  told->falls += share < told->share;
+  told->share = share;
+  told->force = residual;
+  return ++told->calls == told->cancel_at;
+}
+
+/* With measures by differences (direct solutions) and without them (adjoint ones). */
+static void progress_rises_to_1_and_cancels(void) {
+  mvs_sim *sim = closed_valve();
+  const mvs_snapshot *closed = snapshot_of(sim);
+  const mvs_parameter to[] = {{.kind = MVS_PARAMETER_PRESSURE},
+                              {.kind = MVS_PARAMETER_CHORD_REST_LENGTH, .index = 1}};
+  for (int k = 0; k < 2; ++k) {
+    const mvs_quantity of = {.kind = MVS_QUANTITY_MEASURE,
+                             .measure = k ? "tenting_volume" : "coaptation_area"};
+    struct told told = {0};
+    const mvs_sensitivity_options options = {
+        .struct_size = sizeof options, .progress = tell, .user = &told};
+    mvs_sensitivity *plain = NULL, *found = NULL;
+    mvs_sensitivity_summary summary = {.struct_size = sizeof summary};
+    MUST(mvs_sensitivity_run(closed, &of, 1, sizeof of, to, SIZES(to), NULL, &plain));
+    MUST(mvs_sensitivity_run(closed, &of, 1, sizeof of, to, SIZES(to), &options, &found));
+    MUST(mvs_sensitivity_get_summary(found, &summary));
+    CHECK(told.calls >= 2 && told.falls == 0 && told.share == 1);
+    CHECK(told.force == summary.residual);
+    CHECK(memcmp(numbers(plain, MVS_SENSITIVITY_ARRAY_DERIVATIVE),
+                 numbers(found, MVS_SENSITIVITY_ARRAY_DERIVATIVE), 2 * sizeof(double)) == 0);
+    mvs_sensitivity_release(plain);
+    mvs_sensitivity_release(found);
+    const int calls = told.calls;
+    for (int call = 1; call <= calls; call += calls - 1) {
+      told = (struct told){.cancel_at = call};
+      found = NULL;
+      MUST_FAIL(mvs_sensitivity_run(closed, &of, 1, sizeof of, to, SIZES(to), &options, &found),
+                MVS_E_CANCELLED, "cancelled");
+      CHECK(found == NULL && told.calls == call);
+    }
+  }
+  mvs_snapshot_release(closed);
+  mvs_destroy(sim);
+}
+
 static void bad_input_is_refused(void) {
   mvs_sim *sim = closed_valve();
   const mvs_snapshot *closed = snapshot_of(sim);
@@ -247,6 +296,7 @@ int main(void) {
   a_rest_length_moves_what_it_says();
   adjoint_and_direct_agree_and_say_what_they_did();
   contact_about_to_switch_has_two_sides();
+  progress_rises_to_1_and_cancels();
   bad_input_is_refused();
   return finish("derivatives");
 }

@@ -63,6 +63,11 @@ def test_ctrl_c_stops_an_ensemble(opened):
         opened.ensemble(mvs.SYSTOLE_PA, members=1000)
 
 
+def test_ctrl_c_stops_a_sensitivity(closed):
+    with interrupted_after(0.1):
+        closed.sensitivity("measures", ["chords", "annulus"])
+
+
 def test_ctrl_c_stops_the_virtual_clock_of_a_device():
     with mvs.Device("template", clock="virtual") as device:
         device.start()

@@ -258,9 +258,15 @@ class Snapshot:
         slack: Optional[float] = None,
         motion: bool = False,
         test: bool = True,
+        progress: _Progress = None,
     ) -> Sensitivity: ...
     def _sensitivity(
-        self, of: list[Any], to: list[Any], flags: int, slack: Optional[float]
+        self,
+        of: list[Any],
+        to: list[Any],
+        flags: int,
+        slack: Optional[float],
+        progress: _Progress = None,
     ) -> dict[str, Any]: ...
     def save(self, path: _Path, *, format: _Format = "auto") -> None: ...
     def to_bytes(self, *, format: _Format = "obj") -> bytes: ...

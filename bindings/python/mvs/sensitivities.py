@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable
-from typing import Any, Optional, Union
+from typing import Any, Callable, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -128,6 +128,7 @@ def sensitivity(
     slack: Optional[float] = None,
     motion: bool = False,
     test: bool = True,
+    progress: Optional[Callable[[float, float], object]] = None,
 ) -> Sensitivity:
     """Derivatives of a valve at rest (mvs.Sensitivity): how it answers to each of its parameters.
 
@@ -150,13 +151,14 @@ def sensitivity(
     slack: m, the distance at which both sides are tested [1e-7]
     motion: also dx/dp of all nodes
     test: False: no test of both sides, no margin; faster
+    progress: as for Simulator.settle
 
     StateError if the valve is not at rest or not stable.
     """
     rows = rows_of(of, lambda item: quantities(self, item))
     columns = rows_of(to, lambda item: parameters(self, item))
     flags = (MOTION if motion else 0) | (0 if test else NO_TEST)
-    found = self._sensitivity([r[2] for r in rows], [c[2] for c in columns], flags, slack)
+    found = self._sensitivity([r[2] for r in rows], [c[2] for c in columns], flags, slack, progress)
     moved = found.pop("motion")
     nodes = len(self.node_position)
     of_notes, to_notes = (

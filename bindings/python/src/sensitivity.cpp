@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "arrays.h"
+#include "progress.h"
 
 namespace mvs_python {
 namespace {
@@ -89,15 +90,18 @@ py::dict arrays_of(const std::shared_ptr<mvs_sensitivity> &found) {
 }
 
 py::dict sensitivity(const Snapshot &self, const py::list &of, const py::list &to, uint32_t flags,
-                     std::optional<double> slack) {
+                     std::optional<double> slack, py::object progress) {
   Kept kept;
   const std::vector<mvs_quantity> quantities = quantities_of(of, kept);
   const std::vector<mvs_parameter> parameters = parameters_of(to, kept);
   auto options = sized<mvs_sensitivity_options>();
   options.flags = flags;
   options.slack = given_or_default(slack, "slack");
+  ProgressCall call(std::move(progress));
+  options.progress = &ProgressCall::callback;
+  options.user = &call;
   mvs_sensitivity *made = nullptr;
-  release_and([&] {
+  call.run([&] {
     return mvs_sensitivity_run(self.get(), quantities.data(),
                                static_cast<uint32_t>(quantities.size()), sizeof(mvs_quantity),
                                parameters.data(), static_cast<uint32_t>(parameters.size()),
@@ -119,7 +123,8 @@ py::dict sensitivity(const Snapshot &self, const py::list &of, const py::list &t
 }  // namespace
 
 void bind_sensitivity(py::class_<Snapshot> &type) {
-  type.def("_sensitivity", &sensitivity, "of"_a, "to"_a, "flags"_a, "slack"_a);
+  type.def("_sensitivity", &sensitivity, "of"_a, "to"_a, "flags"_a, "slack"_a,
+           "progress"_a = py::none());
 }
 
 }  // namespace mvs_python

@@ -1670,7 +1670,7 @@ export class Functions extends Calls {
    * as in mvs_valve_desc. The snapshot does not change. `options` is nullable. `sensitivity`:
    * release it with mvs_sensitivity_release. From any thread. MVS_E_STATE if the snapshot is not at
    * rest, or its equilibrium is unstable; MVS_E_ARGUMENT for a quantity or parameter that the valve
-   * does not have, or that has no derivative.
+   * does not have, or that has no derivative; MVS_E_CANCELLED if the progress callback cancelled.
    */
   mvs_sensitivity_run(snapshot: SnapshotHandle, quantities: readonly Quantity[], parameters: readonly Parameter[], options?: SensitivityOptions | null): SensitivityHandle {
     return this.invoke(signatures.mvs_sensitivity_run!, [snapshot, quantities, parameters, options]) as never;

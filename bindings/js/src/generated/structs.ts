@@ -1215,6 +1215,11 @@ export interface SensitivityOptions {
    * its begin or to another closest feature are about to switch; 1e-9 to 1e-3
    */
   slack?: number;
+  /**
+   * As in mvs_sim_desc; the force is that of the snapshot. Called after each parameter and each
+   * quantity of each part of the work. Nullable.
+   */
+  progress?: ProgressCallback | null;
 }
 
 /** Summary of a result. */
@@ -2409,11 +2414,12 @@ export const layouts: Record<string, Layout> = {
     ],
   },
   mvs_sensitivity_options: {
-    size: 16,
+    size: 24,
     sized: true,
     fields: [
       { name: "flags", kind: "u32", of: "mvs_sensitivity_flags", at: 4 },
       { name: "slack", kind: "f64", at: 8, zero: "default" },
+      { name: "progress", kind: "callback", of: "progress", at: 16, user: 20 },
     ],
   },
   mvs_sensitivity_summary: {
