@@ -4,6 +4,7 @@
 
 #include "geometry/intersect.h"
 #include "geometry/triangle_bvh.h"
+#include "patient/surface/crossing_flips.h"
 #include "tests/patient/sheets.h"
 
 using namespace mvs::core;
@@ -123,6 +124,28 @@ TEST_CASE("crossings_that_are_left_are_counted") {
   CHECK(report.before > 0);
   CHECK(report.after > 0);
   CHECK(report.after == find_intersections(flat.sheet.x, flat.sheet.triangles).size());
+}
+
+TEST_CASE("flips_return_the_crossings_that_are_left_until_no_flip_removes_one") {
+  LeafletSheet sheet = parametric_sheet(1600).sheet;
+  const double edge = mean_edge(sheet);
+  uint32_t seed = 1;
+  for (Vec3 &x : sheet.x) {
+    for (int k = 0; k < 3; ++k) {
+      seed = 1664525u * seed + 1013904223u;
+      x[k] += 1.6 * edge * (seed / 4294967296.0 - 0.5);
+    }
+  }
+  const std::vector<Edge> before = find_intersections(sheet.x, sheet.triangles);
+  const std::vector<Tri> given = sheet.triangles;
+  const std::vector<Edge> left = flip_crossings(sheet, before);
+  CHECK(before.size() > 100);
+  CHECK(left.size() < before.size());
+  CHECK(left == find_intersections(sheet.x, sheet.triangles));
+  CHECK(sheet.triangles != given);
+  const std::vector<Tri> flipped = sheet.triangles;
+  CHECK(flip_crossings(sheet, left) == left);
+  CHECK(sheet.triangles == flipped);
 }
 
 TEST_CASE("the_crossings_of_the_real_sheet_are_removed") {

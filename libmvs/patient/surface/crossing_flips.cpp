@@ -1,4 +1,5 @@
-// Greedy flips, each tested against the triangles near it.
+// Greedy flips. Each is tested against the triangles near it, and so are the pairs that it changes:
+// a scan with noise has thousands of them.
 #include "patient/surface/crossing_flips.h"
 
 #include <Eigen/Geometry>
@@ -13,6 +14,14 @@
 
 namespace mvs::core {
 namespace {
+
+// The surface while it is flipped.
+struct FlippedSheet {
+  LeafletSheet &sheet;
+  TriangleGrid grid;
+  std::vector<std::vector<uint32_t>> stars;          // the triangles at each vertex
+  std::vector<std::array<uint8_t, 3>> is_refused{};  // sides whose flip is known to remove nothing
+};
 
 // Number of pairs of one or both of two triangles, given as they would be, with all others.
 size_t crossings_of(const LeafletSheet &sheet, const TriangleGrid &grid, const Edge &id,
@@ -39,8 +48,52 @@ double worst_of(const LeafletSheet &sheet, const std::array<Tri, 2> &shape) {
   return std::max(cosine(shape[0]), cosine(shape[1]));
 }
 
+// Puts two triangles in the place of those of a pair. Sides that were refused near them are to be
+// tried again.
+void replace(FlippedSheet &flipped, const Edge &pair, const std::array<Tri, 2> &shape) {
+  LeafletSheet &sheet = flipped.sheet;
+  Aabb changed;
+  for (size_t l = 0; l < 2; ++l) {
+    Tri &tri = sheet.triangles[pair[l]];
+    changed.add(aabb_of(sheet.x, tri));
+    for (const uint32_t v : tri) std::erase(flipped.stars[v], pair[l]);
+    tri = shape[l];
+    for (const uint32_t v : tri) flipped.stars[v].push_back(pair[l]);
+    flipped.grid.remove(pair[l]);
+    flipped.grid.insert(pair[l], aabb_of(sheet.x, tri));
+  }
+  // a flip depends on what is near the triangle and its neighbour
+  flipped.grid.any_near(changed, [&](uint32_t near, const Aabb &) {
+    for (const uint32_t v : sheet.triangles[near]) {
+      for (const uint32_t t : flipped.stars[v]) flipped.is_refused[t] = {};
+    }
+    return false;
+  });
+}
+
+// The pairs of two triangles anew, all sorted as by find_intersections().
+void renew_pairs(const FlippedSheet &flipped, const Edge &changed, std::vector<Edge> &pairs) {
+  const LeafletSheet &sheet = flipped.sheet;
+  const auto is_changed = [&](uint32_t t) { return t == changed[0] || t == changed[1]; };
+  std::erase_if(pairs,
+                [&](const Edge &pair) { return is_changed(pair[0]) || is_changed(pair[1]); });
+  for (const uint32_t t : changed) {
+    const Tri &mine = sheet.triangles[t];
+    flipped.grid.any_near(aabb_of(sheet.x, mine), [&](uint32_t other, const Aabb &) {
+      const bool is_first = !is_changed(other) || t < other;  // a pair of both once
+      if (other != t && is_first && mesh_triangles_cross(sheet.x, mine, sheet.triangles[other])) {
+        pairs.push_back({std::min(t, other), std::max(t, other)});
+      }
+      return false;
+    });
+  }
+  std::sort(pairs.begin(), pairs.end());
+}
+
 // Flips side k of triangle t if that removes a crossing.
-bool flip_side(LeafletSheet &sheet, TriangleGrid &grid, const Rows &stars, uint32_t t, size_t k) {
+bool flip_side(FlippedSheet &flipped, uint32_t t, size_t k, std::vector<Edge> &pairs) {
+  LeafletSheet &sheet = flipped.sheet;
+  const std::vector<std::vector<uint32_t>> &stars = flipped.stars;
   const Tri tri = sheet.triangles[t];
   const uint32_t a = tri[k], b = tri[(k + 1) % 3], c = tri[(k + 2) % 3];
   uint32_t u = none, d = none;
@@ -64,13 +117,12 @@ bool flip_side(LeafletSheet &sheet, TriangleGrid &grid, const Rows &stars, uint3
   if (n0.dot(n1) <= 0 || n0.dot(whole) <= 0 || n1.dot(whole) <= 0) return false;
   if (worst_of(sheet, after) > worst_of(sheet, before)) return false;
   const Edge pair = {t, u};
-  if (crossings_of(sheet, grid, pair, after) >= crossings_of(sheet, grid, pair, before))
+  if (crossings_of(sheet, flipped.grid, pair, after) >=
+      crossings_of(sheet, flipped.grid, pair, before)) {
     return false;
-  for (size_t l = 0; l < 2; ++l) {
-    sheet.triangles[pair[l]] = after[l];
-    grid.remove(pair[l]);
-    grid.insert(pair[l], aabb_of(sheet.x, after[l]));
   }
+  replace(flipped, pair, after);
+  renew_pairs(flipped, pair, pairs);
   return true;
 }
 
@@ -79,20 +131,28 @@ bool flip_side(LeafletSheet &sheet, TriangleGrid &grid, const Rows &stars, uint3
 std::vector<Edge> flip_crossings(LeafletSheet &sheet, std::vector<Edge> pairs) {
   const double side = std::sqrt(surface_area(sheet.x, sheet.triangles) /
                                 static_cast<double>(sheet.triangles.size()));
-  TriangleGrid grid(sheet.x, sheet.triangles, 2 * side);
+  FlippedSheet flipped{sheet, TriangleGrid(sheet.x, sheet.triangles, 2 * side),
+                       std::vector<std::vector<uint32_t>>(sheet.x.size())};
+  flipped.is_refused.resize(sheet.triangles.size());
+  for (uint32_t t = 0; t < sheet.triangles.size(); ++t) {
+    for (const uint32_t v : sheet.triangles[t]) flipped.stars[v].push_back(t);
+  }
   const auto flip_one = [&] {
-    const Rows stars = rows_of(sheet.x.size(), sheet.triangles);
     for (const Edge &pair : pairs) {
       for (const uint32_t t : pair) {
         for (size_t k = 0; k < 3; ++k) {
-          if (flip_side(sheet, grid, stars, t, k)) return true;
+          uint8_t &is_refused = flipped.is_refused[t][k];
+          if (is_refused) continue;
+          if (flip_side(flipped, t, k, pairs)) return true;
+          is_refused = 1;
         }
       }
     }
     return false;
   };
   // each flip lowers the number of pairs, so this ends
-  while (!pairs.empty() && flip_one()) pairs = find_intersections(sheet.x, sheet.triangles);
+  while (flip_one()) {
+  }
   return pairs;
 }
 
