@@ -151,6 +151,24 @@ TEST_CASE("find_rims_takes_the_boundary_near_given_annulus_points") {
   CHECK_THROWS_WITH_AS(rims_of(s, landmarks, other), doctest::Contains("LPS or RAS"), Error);
 }
 
+TEST_CASE("steps_of_voxels_do_not_lengthen_the_chords_of_a_rim") {
+  // a circle of 20 mm whose vertices lie 0.35 mm in and out in turns, 0.3 mm apart along it
+  LeafletSheet sheet;
+  std::vector<uint32_t> loop;
+  constexpr uint32_t count = 420;
+  for (uint32_t k = 0; k < count; ++k) {
+    const double angle = 2 * std::numbers::pi * k / count, r = 20e-3 + (k % 2 ? 0.35e-3 : -0.35e-3);
+    sheet.x.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
+    loop.push_back(k);
+  }
+  const LoopShape shape = shape_of(sheet, loop);
+  const double circle = 2 * std::numbers::pi * 20e-3;
+  CHECK(shape.length > 2 * circle);
+  // chords may begin in and end out, by half a step of 0.7 mm in 2.6 mm at most
+  CHECK(shape.chord_length == doctest::Approx(circle).epsilon(0.04));
+  CHECK(shape.turning < 1.5);
+}
+
 TEST_CASE("find_rims_does_not_believe_tips_in_the_atrium") {
   const ParametricSheet p = parametric_sheet(430);
   RimLandmarks landmarks;

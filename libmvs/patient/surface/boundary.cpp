@@ -27,6 +27,15 @@ double turning_of(const Loop &curve) {
   return sum / full_turn;
 }
 
+// The length of chords of 2 to 3 mm, which skip the steps of voxels.
+double chord_length_of(const Loop &curve) {
+  constexpr int steps = 48;
+  const double step = curve.length() / steps;
+  double sum = 0;
+  for (int k = 0; k < steps; ++k) sum += (curve.at((k + 1) * step) - curve.at(k * step)).norm();
+  return sum;
+}
+
 }  // namespace
 
 std::vector<std::vector<uint32_t>> boundary_loops(const LeafletSheet &sheet) {
@@ -68,6 +77,7 @@ LoopShape shape_of(const LeafletSheet &sheet, const std::vector<uint32_t> &loop)
     const Vec3 a = curve.point(k) - shape.centre, b = curve.point(k + 1) - shape.centre;
     shape.area += 0.5 * a.cross(b);
   }
+  shape.chord_length = chord_length_of(curve);
   shape.turning = turning_of(curve);
   return shape;
 }

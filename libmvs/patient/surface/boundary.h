@@ -17,6 +17,7 @@ struct LoopShape {
   double length = 0;           // m
   Vec3 centre = Vec3::Zero();  // centroid by length
   Vec3 area = Vec3::Zero();    // m2, along the normal around which the loop runs counter-clockwise
+  double chord_length = 0;     // m, of 48 equal steps around it
   double turning = 0;          // total change of direction in turns, of 24 equal steps around it
 };
 LoopShape shape_of(const LeafletSheet &sheet, const std::vector<uint32_t> &loop);

@@ -147,8 +147,8 @@ bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
       "%.1f turns; give points of the annulus if this is wrong",
       is_rough ? "spans more, though for its length the other one is rounder and smoother"
                : "is larger, rounder and smoother",
-      annulus.length * 1e3, annulus.area.norm() * 1e6, annulus.turning, edge.length * 1e3,
-      edge.area.norm() * 1e6, edge.turning);
+      annulus.chord_length * 1e3, annulus.area.norm() * 1e6, annulus.turning,
+      edge.chord_length * 1e3, edge.area.norm() * 1e6, edge.turning);
   return first >= 1;
 }
 
@@ -156,7 +156,8 @@ bool first_by_shape(const std::vector<RimLoop> &rims, Finding &finding) {
 
 double annulus_likeness(const LoopShape &shape) {
   const double area = shape.area.norm();
-  return area * area / (shape.length * shape.length * shape.turning * shape.turning);
+  const double length = shape.chord_length;
+  return area * area / (length * length * shape.turning * shape.turning);
 }
 
 double annulus_odds(const LoopShape &rim, const LoopShape &other) {

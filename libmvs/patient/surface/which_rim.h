@@ -9,10 +9,10 @@
 namespace mvs::core {
 
 // How much a rim looks like an annulus: its spanned area, times its roundness (area /
-// length^2) over the square of its turning, as the free edge has scallops. Annulus over free
-// edge: 2.2 for a parametric valve with a saddle of 9 mm, 3.1 for its default, 28 for a real valve
-// by ultrasound, 37 and more for designed ones. (Deviations from a plane mislead: a saddle is less
-// plane than many a free edge.)
+// length^2, the length of chords, which the steps of voxels do not lengthen) over the square of its
+// turning, as the free edge has scallops. Annulus over free edge: 2.2 for a parametric valve with a
+// saddle of 9 mm, 3.1 for its default, 28 for a real valve by ultrasound, 37 and more for designed
+// ones. (Deviations from a plane mislead: a saddle is less plane than many a free edge.)
 double annulus_likeness(const LoopShape &shape);
 
 // How many times more like an annulus a rim is than the other one. A rim that spans more than 1.5
