@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "model/sides.h"
 #include "patient/checks/input_arrays.h"
 #include "patient/findings.h"
 #include "patient/fit/edge_range.h"
@@ -12,6 +13,7 @@
 #include "patient/fit/thickness_range.h"
 #include "patient/fitted_valve.h"
 #include "patient/patient_valve.h"
+#include "patient/skin/closed_skin.h"
 #include "patient/tall_leaflets.h"
 
 namespace mvs::core {
@@ -26,6 +28,14 @@ void report_leaflets(const PatientSurface &surface, const MidSheet &mid, Finding
       find_leaflets(mid.sheet, mid.rims, coordinates,
                     {surface.commissures, surface.anterior, surface.tips}, findings);
   doubt_tall_leaflets(mid.sheet, mid.rims, coordinates, arcs, surface.commissures, findings);
+}
+
+// Along the axis of the valve: the area vector of leaflets whose normals point into the atrium,
+// which is that of the annulus without the open orifice.
+Vec3 into_atrium(const LeafletSheet &sheet) {
+  Vec3 sum = Vec3::Zero();
+  for (const Tri &t : sheet.triangles) sum += area_normal(sheet.x, t);
+  return sum.normalized();
 }
 
 // The heads follow the annulus as a whole, unless they are given under load.
@@ -58,7 +68,8 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
   begin_stage(settings, "remesh");
   PatientGeometry g = patient_geometry(
       mid, settings.edge > 0 ? settings.edge : edge_for(mid.sheet, default_vertices), findings);
-  const ClosedSurface closed{surface.closed_points, surface.closed_triangles};
+  const ClosedSurface closed = mid_of_closed({surface.closed_points, surface.closed_triangles},
+                                             into_atrium(mid.sheet), findings);
   const Boundary boundary = boundary_of(surface, g, closed, findings);
   LeakUnknowns unknowns;
   unknowns.thickness_error = settings.thickness_error;

@@ -9,6 +9,7 @@
 #include "geometry/aabb.h"
 #include "geometry/triangle_bvh.h"
 #include "model/sides.h"
+#include "patient/skin/skin_pieces.h"
 #include "patient/surface/manifold.h"
 
 namespace mvs::core {
@@ -16,8 +17,6 @@ namespace {
 
 // m: longest rays. Myxomatous leaflets are up to 6 mm thick.
 constexpr double longest_ray = 12e-3;
-// Thickness of a side over the median: beyond, the ray runs along the leaflet.
-constexpr double thickest = 3;
 // Cosine of the angle between neighbours beyond which their edge is a ridge between the sides of a
 // thin rim.
 constexpr double ridge = 0.3;
@@ -25,17 +24,6 @@ constexpr double ridge = 0.3;
 Vec3 unit_normal(const LeafletSheet &sheet, uint32_t t) {
   const Tri &tri = sheet.triangles[t];
   return (sheet.x[tri[1]] - sheet.x[tri[0]]).cross(sheet.x[tri[2]] - sheet.x[tri[0]]).normalized();
-}
-
-// Distance along a ray to a triangle (Moeller & Trumbore 1997); negative if it passes by.
-double ray_distance(const Vec3 &from, const Vec3 &way, const Vec3 &a, const Vec3 &b,
-                    const Vec3 &c) {
-  const Vec3 ab = b - a, ac = c - a, p = way.cross(ac);
-  const double det = ab.dot(p);
-  if (det == 0) return -1;
-  const Vec3 s = from - a, q = s.cross(ab);
-  const double u = s.dot(p) / det, v = way.dot(q) / det;
-  return u >= 0 && v >= 0 && u + v <= 1 ? ac.dot(q) / det : -1;
 }
 
 // The sides of a skin as components of the triangles with a mark, connected across edges that are
@@ -73,29 +61,6 @@ Split largest_components(const LeafletSheet &skin, const std::vector<uint32_t> &
     piece[t] = marks[t] == 0 || (!first && !second) ? none : (first ? 0 : 1);
   }
   return split;
-}
-
-// Takes the marks of triangles beside others without a mark.
-std::vector<uint8_t> eroded(const std::vector<uint32_t> &smooth,
-                            const std::vector<uint8_t> &marks) {
-  std::vector<uint8_t> out = marks;
-  for (uint32_t half_edge = 0; half_edge < smooth.size(); ++half_edge) {
-    if (smooth[half_edge] == none || marks[smooth[half_edge] / 3] == 0) out[half_edge / 3] = 0;
-  }
-  return out;
-}
-
-// Gives triangles with a mark the side of a neighbour, ring by ring.
-void grow_back(const std::vector<uint32_t> &smooth, const std::vector<uint8_t> &marks, int rounds,
-               std::vector<uint32_t> &side_of) {
-  for (int round = 0; round < rounds; ++round) {
-    const std::vector<uint32_t> before = side_of;
-    for (uint32_t half_edge = 0; half_edge < smooth.size(); ++half_edge) {
-      const uint32_t t = half_edge / 3;
-      if (smooth[half_edge] == none || marks[t] == 0 || side_of[t] != none) continue;
-      side_of[t] = before[smooth[half_edge] / 3];
-    }
-  }
 }
 
 // The two sides. Narrow bridges between them, as noise makes them at a rim, are cut: the marks are
@@ -200,6 +165,16 @@ void grow_flat(const LeafletSheet &skin, const std::vector<uint32_t> &across,
 
 }  // namespace
 
+double ray_distance(const Vec3 &from, const Vec3 &way, const Vec3 &a, const Vec3 &b,
+                    const Vec3 &c) {
+  const Vec3 ab = b - a, ac = c - a, p = way.cross(ac);
+  const double det = ab.dot(p);
+  if (det == 0) return -1;
+  const Vec3 s = from - a, q = s.cross(ab);
+  const double u = s.dot(p) / det, v = way.dot(q) / det;
+  return u >= 0 && v >= 0 && u + v <= 1 ? ac.dot(q) / det : -1;
+}
+
 std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin) {
   const TriangleBvh bvh(skin.triangles, skin.x);
   std::vector<TissueBehind> behind(skin.triangles.size());
@@ -246,12 +221,7 @@ std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<Tissu
   const double median = sorted[sorted.size() / 2];
   std::vector<Vec3> normal(n);
   for (uint32_t t = 0; t < n; ++t) normal[t] = unit_normal(skin, t);
-  std::vector<uint8_t> marks(n, 0);
-  for (uint32_t t = 0; t < n; ++t) {
-    const TissueBehind &b = behind[t];
-    marks[t] = b.triangle != none && b.thickness <= thickest * median &&
-               normal[t].dot(normal[b.triangle]) < -parallel_cosine;
-  }
+  const std::vector<uint8_t> marks = parallel_marks(normal, behind, median);
   const std::vector<uint32_t> across = join_sides(skin.x, skin.triangles).across;
   std::vector<uint32_t> smooth = across;  // without ridges
   for (uint32_t half_edge = 0; half_edge < across.size(); ++half_edge) {

@@ -12,6 +12,9 @@ namespace mvs::core {
 // rounded rim face none from there on.
 inline constexpr double parallel_cosine = 0.8;
 
+// Distance along a ray to a triangle (Moeller & Trumbore 1997); negative if it passes by.
+double ray_distance(const Vec3 &from, const Vec3 &way, const Vec3 &a, const Vec3 &b, const Vec3 &c);
+
 // The tissue behind a triangle, along a ray from its centroid inward.
 struct TissueBehind {
   double thickness = 0;      // m; 0 if the ray leaves nowhere within 12 mm

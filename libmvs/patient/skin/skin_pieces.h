@@ -1,0 +1,31 @@
+// Parts of a skin whose triangles face parallel tissue, and which of them belong to one side.
+#pragma once
+
+#include "patient/skin/skin_sides.h"
+
+namespace mvs::core {
+
+// Thickness over the median up to which a ray passes one leaflet: two that touch and are one body
+// are twice as thick.
+inline constexpr double one_leaflet = 1.5;
+
+// 1 for triangles that face a parallel one, at most three times as far behind as the median:
+// beyond, a ray runs along the leaflet.
+std::vector<uint8_t> parallel_marks(const std::vector<Vec3> &normal,
+                                    const std::vector<TissueBehind> &behind, double median);
+
+// Takes the marks of triangles beside others without a mark. `joined`: the side of the other
+// triangle for each side, or `none`.
+std::vector<uint8_t> eroded(const std::vector<uint32_t> &joined, const std::vector<uint8_t> &marks);
+
+// Gives triangles with a mark the side of a neighbour, ring by ring.
+void grow_back(const std::vector<uint32_t> &joined, const std::vector<uint8_t> &marks, int rounds,
+               std::vector<uint32_t> &side_of);
+
+// The connected pieces of triangles with a mark, numbered; `none` for the others. Narrow bridges
+// between sides, as noise makes them at a rim, are cut: the marks are eroded until hardly any piece
+// lies behind itself at about the median thickness, and the pieces grow back.
+std::vector<uint32_t> parallel_pieces(const LeafletSheet &skin, const std::vector<Vec3> &normal,
+                                      const std::vector<TissueBehind> &behind, double median);
+
+}  // namespace mvs::core
