@@ -1,4 +1,5 @@
 """`mvs op`: one surgical operation from the command line."""
+import json
 import math
 import re
 import unittest
@@ -113,6 +114,29 @@ class Op(Command):
         self.assertIn("pressures are in mmHg", self.misused(*too_much))
         table = self.ok("op", "v.obj", "annulus-scale", "--factor", 1.2, "--settle").stdout
         self.assertRegex(table, r"Annulus CC diameter +35\.00 +42\.00 mm")
+
+    def test_a_new_chord_that_carries_no_force_is_warned_of(self):
+        tie = ("closed.obj", "neochord", "--head", "PM1", "--site", "P2:0.5:1", "--name", "loop")
+        slack = self.json("op", *tie, "--length", 40, "--settle")["slack_new_chordae"]
+        self.assertEqual([chord["name"] for chord in slack], ["loop"])
+        self.assertEqual(slack[0]["rest_length_mm"], 40)
+        self.assertLess(slack[0]["length_mm"], 40)
+        said = self.ok("op", *tie, "--length", 40, "--settle", "-o", "op.obj").stderr
+        self.assertRegex(said, r"chord loop carries no force in closed.obj after: its rest length is 40.00 mm")
+        # the length that the sentence names is the limit: 5 % below it the chord pulls
+        short = 0.95 * slack[0]["length_mm"]
+        pulling = self.ok("op", *tie, "--length", short, "--settle", "-o", "op.obj", "--json")
+        self.assertEqual(json.loads(pulling.stdout)["slack_new_chordae"], [])
+        self.assertNotIn("carries no force", pulling.stderr)
+        tied = next(c for c in self.json("chords", "op.obj")["chords"] if c["name"] == "loop")
+        self.assertGreater(tied["tension_N"], 0)
+
+    def test_chordae_of_an_open_valve_are_not_called_slack(self):
+        tie = ("v.obj", "neochord", "--head", "PM1", "--site", "P2:0.5:1", "--length", 40)
+        opened = self.ok("op", *tie, "--settle", 0, "--json")
+        self.assertEqual(json.loads(opened.stdout)["slack_new_chordae"], [])
+        self.assertNotIn("carries no force", opened.stderr)
+        self.assertNotIn("slack_new_chordae", self.json("op", *tie, "-o", "op.obj"))
 
     def test_points_come_from_text_in_mm(self):
         names = self.ok("op", "--help").stdout

@@ -58,6 +58,16 @@ class Plans(unittest.TestCase):
                         self.assertTrue(side["converged"])
                         self.assertEqual(side["intersections"], 0)
 
+    def test_a_plan_names_the_chordae_that_it_attaches_in_vain(self):
+        self.json("generate", "--shape", "founding", "-o", "v.obj")
+        tie = [{"do": "neochord", "head": "PM1", "site": {"scallop": "P2", "along": along, "height": 1.0},
+                "length_m": length, "name": name} for name, along, length in
+               (("long", 0.4, 0.040), ("short", 0.6, 0.010))]
+        plan = {"format": "mvs-plan", "version": 1, "units": "SI: m, N, Pa, s", "steps": tie}
+        pathlib.Path(self.folder.name, "tie.json").write_text(json.dumps(plan))
+        found = self.json("repair", "v.obj", "--plan", "tie.json")
+        self.assertEqual([chord["name"] for chord in found["slack_new_chordae"]], ["long"])
+
     def test_every_plan_is_explained(self):
         text = (PLANS / "README.md").read_text()
         files = sorted(path.name for path in PLANS.glob("*.json"))

@@ -11,6 +11,7 @@
 #include "text/readouts.h"
 #include "valve/at_rest.h"
 #include "valve/pressure.h"
+#include "valve/slack_chordae.h"
 
 namespace cli {
 namespace {
@@ -27,8 +28,9 @@ struct Operated {
   mvs::Snapshot valve;
   std::string title;
   mvs_id made;
-  std::vector<AtRest> at_rest;  // before and after, with --settle
-  double pressure_mmhg;         // of both
+  std::vector<AtRest> at_rest;    // before and after, with --settle
+  double pressure_mmhg;           // of both
+  std::vector<SlackChord> slack;  // chordae attached in vain, with --settle
 };
 
 // Both closures start from the shape in the file.
@@ -48,10 +50,13 @@ Operated operate(const OpRequest &request, const Console &console) {
   }
   const mvs_id made = with_command_units([&] { return sim.apply(op.get()); });
   const std::string title = sim.snapshot().history().done.back().title;
+  std::vector<SlackChord> slack;
   if (request.settle) {
     at_rest.push_back(settle(sim, pressure_mmhg, request.in + " after"));
+    slack = slack_new_chordae(at_rest.back());
+    warn_slack(slack, request.in + " after");
   }
-  return {sim.snapshot(), title, made, at_rest, pressure_mmhg};
+  return {sim.snapshot(), title, made, at_rest, pressure_mmhg, slack};
 }
 
 std::optional<mvs_part> part_of(const mvs::Snapshot &valve, mvs_id id) {
@@ -78,6 +83,7 @@ Json operated_json(const OpRequest &request, const Operated &done) {
     object["pressure_mmHg"] = done.pressure_mmhg;
     object["before"] = at_rest_json(done.at_rest[0]);
     object["after"] = at_rest_json(done.at_rest[1]);
+    object["slack_new_chordae"] = slack_json(done.slack);
   }
   return object;
 }

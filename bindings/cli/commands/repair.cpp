@@ -7,6 +7,7 @@
 #include "text/readouts.h"
 #include "valve/at_rest.h"
 #include "valve/pressure.h"
+#include "valve/slack_chordae.h"
 
 namespace cli {
 namespace {
@@ -33,6 +34,8 @@ void run_repair(const RepairOptions &options, Console &console) {
   const AtRest before = settle(unrepaired, pressure_mmhg, options.file + " before");
   const mvs_replay replay = with_file_contents([&] { return repaired.replay_plan(plan); });
   const AtRest after = settle(repaired, pressure_mmhg, options.file + " after");
+  const std::vector<SlackChord> slack = slack_new_chordae(after);
+  warn_slack(slack, options.file + " after");
   if (!options.out.empty()) after.valve.save(options.out);
   if (!options.plan_out.empty()) {
     mvs_plan_options with_measures = {};
@@ -53,7 +56,8 @@ void run_repair(const RepairOptions &options, Console &console) {
          {"same_valve", replay.same_valve != 0},
          {"operations", titles},
          {"before", at_rest_json(before)},
-         {"after", at_rest_json(after)}},
+         {"after", at_rest_json(after)},
+         {"slack_new_chordae", slack_json(slack)}},
         lines + measures_text(before.measures, after.measures));
   demand_rest(console, before.stats, options.allow_unsettled);
   demand_rest(console, after.stats, options.allow_unsettled);

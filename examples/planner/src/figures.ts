@@ -83,6 +83,8 @@ export interface HistoryEntry {
   title: string;
   kind: string;
   group: string;
+  /** Id of the part that it made. */
+  made: string;
   undone: boolean;
 }
 

@@ -159,6 +159,23 @@ describe('planner verdict', () => {
     await page.keyboard.press('Escape');
   });
 
+  it('names_a_new_chord_that_carries_nothing', async () => {
+    const named = /The new chord P2\/\d+ is slack: it carries nothing/;
+    await tieP2(page, 60);
+    assert.match(await card(), named, 'preview');
+    await apply(page);
+    assert.match(await card(), named);
+    assert.match(await status(), named);
+    assert.match((await inReport()).all, named);
+    await undo(page);
+    // a chord much shorter than its way pulls
+    await tieP2(page, 15);
+    const pulls = await page.evaluate(() => window.planner.state.added.value.tension);
+    assert.ok(pulls > 0, `${pulls} N`);
+    assert.doesNotMatch(await card(), named);
+    await page.keyboard.press('Escape');
+  });
+
   it('does_not_grade_a_valve_that_did_not_come_to_rest', async () => {
     await page.evaluate(() => {
       const { main } = window.planner.state;

@@ -5,7 +5,7 @@ import type { Figures } from '../protocol';
 import * as state from './state';
 import { doubtOf } from './doubt';
 import { measuresItself, unmeasurable } from './limits';
-import { headline, relieved, verdictOf } from './verdict';
+import { attachedInVain, headline, relieved, verdictOf } from './verdict';
 
 /** The change that led to the present valve. */
 let done = '';
@@ -15,8 +15,12 @@ let held: Figures | null = null;
 
 const lineOf = (what: string, before: Figures | null, now: Figures): string => {
   const slack = relieved(before, now);
-  const more = slack.length ? verdictTexts.relieved(slack) : '';
-  return t.statusLine(what, headline(now), doubtOf(now) ? null : now, more);
+  const vain = attachedInVain(now);
+  const more = [
+    ...(slack.length ? [verdictTexts.relieved(slack)] : []),
+    ...(vain.length ? [verdictTexts.attachedInVain(vain)] : []),
+  ];
+  return t.statusLine(what, headline(now), doubtOf(now) ? null : now, more.join('. '));
 };
 
 function speak(now: Figures): void {

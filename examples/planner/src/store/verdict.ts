@@ -143,6 +143,15 @@ export function headline(figures: Figures, lasting = false): string {
   return headlineOf(word, level ? where(figures) : '', [...unknown, ...but]);
 }
 
+/** Names of the chordae that operations of the plan attached and that carry nothing; stitches of a clip do not count. */
+export function attachedInVain(figures: Figures): string[] {
+  if (doubtOf(figures) || !figures.measures.underLoad) return [];
+  const slack = new Map(figures.chords.filter(({ strain }) => strain <= 0).map(({ id, name }) => [id, name]));
+  return figures.history
+    .filter(({ kind, undone }) => !undone && (kind === 'neochord' || kind === 'chord_add'))
+    .flatMap(({ made }) => slack.get(made) ?? []);
+}
+
 /** Chordae far beyond their limit before that carry nothing any more, with their load before in per cent. */
 export function relieved(before: Figures | null, now: Figures): { name: string; percent: number }[] {
   if (!before || before.hash === now.hash || doubtOf(before) || doubtOf(now)) return [];

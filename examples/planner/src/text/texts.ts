@@ -713,6 +713,12 @@ export const verdictTexts = {
     `${listOf(chords.map(({ name, percent }) => `${name} (before ${percent} %)`))} ${chords.length === 1 ? 'is' : 'are'} slack`,
   relievedHelp:
     'It was far beyond its working limit before and carries nothing any more: its leaflet is held by its neighbours alone.',
+  attachedInVain: (names: string[]) =>
+    names.length === 1
+      ? `The new chord ${names[0]} is slack: it carries nothing`
+      : `The new chordae ${listOf(names)} are slack: they carry nothing`,
+  attachedInVainHelp:
+    'In the closed valve its two ends are nearer to each other than it is long, so that it holds no leaflet: give it a shorter length.',
   chordOver: (name: string, percent: number) => `${name} ${shareWords(percent)}`,
   limitHelp:
     'Working limit: the largest stretch and pull at which chordae of this kind work; 100 % is the limit. Far beyond it, from 200 % on, a chord may tear; at which load it does is not known here. A healthy valve may have one just at its limit.',

@@ -214,7 +214,7 @@ export function NumberField(props: FieldProps) {
       {position && <small>{formTexts.position(value ?? 0)}</small>}
       {position && kind === 'clip' && <small>{formTexts.placed(previewedPlace())}</small>}
       {rest !== null && value !== undefined && !refused && <small>{formTexts.change(rest, value)}</small>}
-      {kind === 'chord_add' && field.name === 'length' && isSlack() && (
+      {(kind === 'chord_add' || kind === 'neochord') && field.name === 'length' && isSlack() && (
         <small class="warn">{formTexts.slack}</small>
       )}
       {value === undefined &&

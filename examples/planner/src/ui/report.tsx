@@ -6,7 +6,7 @@ import { download, fileName } from '../store/keep';
 import { ofMiddle } from '../store/names';
 import * as state from '../store/state';
 import { doubtNote, doubtOf, marked } from '../store/doubt';
-import { headline, relieved } from '../store/verdict';
+import { attachedInVain, headline, relieved } from '../store/verdict';
 import { reportTexts, sectionTexts, t, valveTexts, verdictTexts } from '../text/texts';
 import type { Figures, SectionRequest, Shown } from '../protocol';
 import { openingOf } from '../store/limits';
@@ -154,12 +154,13 @@ function reportHtml({ shown }: Seen, pictures: Pictures, plot: string): string {
     .join('');
   const opening = openingRows(then, now);
   const slack = relieved(then, now);
+  const vain = attachedInVain(now);
   const table = comparedRows(then, now)
     .map((row) => tableRow(...row))
     .join('');
   return `<h1>${escape(state.title.value || now.valve)}</h1><p data-testid="report-plan">${escape(reportTexts.closed(date, keptName(now.hash), !!doubtOf(now)))}</p>
 <div class="pair"><section><h2>${reportTexts.before}</h2><p>${escape(headline(then))}</p>${doubt(then)}</section>
-<section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${doubt(now)}${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}</section></div>
+<section><h2>${reportTexts.after}</h2><p data-testid="report-verdict"><strong>${escape(headline(now))}</strong></p>${doubt(now)}${slack.length ? `<p>${escape(verdictTexts.relieved(slack))}.</p>` : ''}${vain.length ? `<p>${escape(verdictTexts.attachedInVain(vain))}.</p>` : ''}</section></div>
 <div class="pair"><section>${images(pictures.before)}</section><section>${images(pictures.after)}</section></div>
 <h2>${reportTexts.plan}</h2><ol>${steps || `<li>${reportTexts.nothing}</li>`}</ol>
 <div class="pair figures-and-plot"><section><h2>${reportTexts.figures}</h2><table><tr><th></th><th>${reportTexts.before}</th><th>${reportTexts.after}</th></tr>${table}${opening}</table>${notesBelow([then, now])}</section><section><h2>${reportTexts.section}</h2>${plot}</section></div>

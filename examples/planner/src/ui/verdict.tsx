@@ -6,7 +6,7 @@ import { allowedLoad, faultyLoad, smallAnnulus } from '../store/limits';
 import { ofMiddle } from '../store/names';
 import * as state from '../store/state';
 import { showChord } from '../store/tour';
-import { isOverloaded, relieved, verdictOf } from '../store/verdict';
+import { attachedInVain, isOverloaded, relieved, verdictOf } from '../store/verdict';
 import { figure, tipTexts, valveTexts, verdictTexts, where } from '../text/texts';
 import type { Figures } from '../protocol';
 import { Spread } from './parts';
@@ -59,6 +59,7 @@ export function Verdict() {
       {unmeasured && <div class="verdict-note">{verdictTexts.openingUnknown}</div>}
       {!doubt && <Beyond figures={figures} />}
       <Relieved figures={figures} />
+      <AttachedInVain figures={figures} />
     </div>
   );
 }
@@ -115,6 +116,17 @@ function Relieved({ figures }: { figures: Figures }) {
   return (
     <div class="verdict-note" title={verdictTexts.relievedHelp}>
       {verdictTexts.relieved(slack)}
+    </div>
+  );
+}
+
+/** Chordae that the plan attached and that are slack. */
+function AttachedInVain({ figures }: { figures: Figures }) {
+  const vain = figures.known === 'shape' ? [] : attachedInVain(figures);
+  if (!vain.length) return null;
+  return (
+    <div class="verdict-note" title={verdictTexts.attachedInVainHelp}>
+      {verdictTexts.attachedInVain(vain)}
     </div>
   );
 }

@@ -10,6 +10,7 @@ export function historyOf(snapshot: Snapshot): HistoryEntry[] {
     title: item.title,
     kind: String(item.kind),
     group: item.in_group,
+    made: String(item.made),
     undone: undoneNow,
   });
   return [...done.map(entry(false)), ...undone.map(entry(true))];
