@@ -114,6 +114,7 @@ Valve tissue_of(const PatientGeometry &g, const BuildSettings &settings, Leaflet
   }
   set_thickness(g.sheet, settings, valve, findings);
   valve.contact_thickness = contact_thickness(valve);
+  report_thin_contact(valve, findings);
   valve.contact_stiffness = contact_stiffness;
   return valve;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "patient/findings.h"
 
 namespace mvs::core {
 namespace {
@@ -39,6 +40,19 @@ Valve with_thickness(const Valve &valve, double factor) {
   for (Leaflet &leaflet : changed.leaflets) leaflet.thickness *= factor;
   changed.contact_thickness = contact_thickness(changed);
   return changed;
+}
+
+void report_thin_contact(const Valve &valve, Findings &findings) {
+  constexpr double least_gap = 1e-3;
+  const double thickness = mean_thickness(valve), contact = valve.contact_thickness;
+  if (thickness - contact < least_gap) return;
+  add_measured(
+      findings, "thin_contact",
+      format("the leaflets are %.2f mm thick in the mean and touch where their middles are %.2f mm "
+             "apart: contact has to be shorter than the sides of the mesh. Gaps that the thickness "
+             "closes may leak in the model; give fewer vertices",
+             1e3 * thickness, 1e3 * contact),
+      {contact, thickness}, "m");
 }
 
 void report_thickness_error(double error, Findings &findings) {

@@ -9,7 +9,6 @@
 namespace mvs::core {
 namespace {
 
-constexpr double thickest = 3;  // over the median
 // Share of a skin that may lie behind its own piece: folds that touch.
 constexpr double most_behind_itself = 0.03;
 constexpr int most_erosions_of_pieces = 8;
@@ -35,7 +34,7 @@ std::vector<uint8_t> parallel_marks(const std::vector<Vec3> &normal,
   std::vector<uint8_t> marks(behind.size(), 0);
   for (uint32_t t = 0; t < behind.size(); ++t) {
     const TissueBehind &b = behind[t];
-    marks[t] = b.triangle != none && b.thickness <= thickest * median &&
+    marks[t] = b.triangle != none && b.thickness <= most_side_thickness * median &&
                normal[t].dot(normal[b.triangle]) < -parallel_cosine;
   }
   return marks;

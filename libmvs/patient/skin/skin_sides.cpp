@@ -10,6 +10,7 @@
 #include "geometry/triangle_bvh.h"
 #include "model/sides.h"
 #include "patient/skin/skin_pieces.h"
+#include "patient/skin/thick_parts.h"
 #include "patient/surface/manifold.h"
 
 namespace mvs::core {
@@ -229,6 +230,7 @@ std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<Tissu
     if (normal[half_edge / 3].dot(normal[across[half_edge] / 3]) < ridge) smooth[half_edge] = none;
   }
   std::vector<uint32_t> side_of = split_sides(skin, smooth, marks);
+  add_thick_parts({skin, behind, across, normal}, most_side_thickness * median, side_of);
   fill_side_notches(across, normal, side_of);
   if (sharp_rims) grow_flat(skin, across, normal, median, side_of);
   check_facing(skin, behind, side_of);

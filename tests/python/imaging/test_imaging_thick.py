@@ -56,3 +56,24 @@ def test_a_calcified_annulus_is_a_doubtful_finding_and_lowers_the_confidence_of_
     true = (lump & (seen > 0)).sum() / (seen > 0).sum()
     # balls of 5 mm in voxels of 0.7 mm
     assert abs(share - true) < 0.15 and abs(most - 5e-3) < 0.7e-3 and taken < 3e-3
+
+
+def test_a_thick_part_of_narrow_labels_is_a_doubtful_finding_with_the_thickness_that_is_built():
+    """Labels of two voxels are built 0.8 mm thick everywhere, also where they are 3.4 mm wide."""
+    labels, at = funnel()
+    wide, _ = funnel(thickness=3.4)
+    seen = np.where((at[..., 1] < 0) & (np.abs(at[..., 0]) < 6), wide, labels).astype(np.uint8)
+    leaflets = imaging.leaflets_in(imaging.labels_of(image_of(seen), NAMES))
+    found = {one.name: one for one in leaflets.findings}["thick_tissue"]
+    assert found.doubtful
+    assert abs(found.values[1] - 3.4e-3) < 0.7e-3 and found.values[2] == 0.8e-3
+    assert leaflets.sheet.values["thickness"].min() > 0
+
+
+def test_no_point_of_a_wide_thick_part_is_without_a_thickness():
+    """Points far from measured ones had 0 mm, which a build refused as metres."""
+    labels, at = funnel(thickness=2.1)
+    wide, _ = funnel(thickness=6.3)
+    seen = np.where(at[..., 1] < -2, wide, labels).astype(np.uint8)
+    leaflets = imaging.leaflets_in(imaging.labels_of(image_of(seen), NAMES))
+    assert leaflets.sheet.values["thickness"].min() > 0.5e-3

@@ -21,6 +21,7 @@ from .names import ANTERIOR, POSTERIOR, UNKNOWN
 from .needs import need
 from .open_valve import check_open_valve
 from .reading import MOST_LABELS, LabelMap, is_label_map, is_probability, labels_of, read_labels, read_volume
+from .thick_tissue import RESOLVED, assumed_thickness
 from .tissue_sheet import LabelSettings
 from .valve import ImageValve, build, scanned
 
@@ -139,26 +140,22 @@ def edge_of_labels(voxel: float) -> dict[str, mvs.Finding]:
     }
 
 
-NORMAL_THICKNESS, NORMAL_RANGE = 0.8e-3, 0.25e-3
-"""m: of leaflets whose thickness is not known (the default of a build); normal ones have 0.6 to 1.1 mm."""
-
-RESOLVED = 2.5
-"""Voxels: labels that are narrower do not show how thick the tissue is. One voxel and a half is the least
-that keeps a slanted sheet in one piece, and networks draw it whatever the tissue is."""
+NORMAL_RANGE = 0.25e-3
+"""m: normal leaflets have 0.6 to 1.1 mm"""
 
 
 def thickness_of_labels(sheet: Sheet, voxel: float) -> dict[str, mvs.Finding]:
     """The thickness by option of a build: normal tissue where labels are too narrow to measure it, else
     only the error of the measured one, half a voxel and at most a quarter of it."""
     width = float(np.median(sheet.values["thickness"]))
-    if width >= RESOLVED * voxel:
+    assumed = assumed_thickness(width, voxel)
+    if assumed is None:
         error = min(voxel / 2, width / 4)
         return {"thickness_error": finding(
             "thickness_error", mvs.FindingSource.ASSUMED, 0.5,
             f"the leaflets may be {error * 1e3:.2f} mm thicker or thinner than their labels; the interval "
             "of leaks allows for it; give --thickness-error if the labels are better or worse", [error],
             "m")}
-    assumed = min(NORMAL_THICKNESS, width)
     return {
         "thickness": finding(
             "thickness", mvs.FindingSource.ASSUMED, 0.4,

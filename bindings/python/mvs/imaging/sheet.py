@@ -142,6 +142,11 @@ def between_sides(grid: Grid, tissue: Volume, sheet: Sheet, settings: SheetSetti
         shift[valid] = (sides[0][valid] - sides[1][valid]) / 2
         points = points + smooth(shift, passes, valid)[:, None] * across
     thickness = smooth(np.where(valid, sides.sum(axis=0), 0), passes, valid)
+    # smoothing does not reach the middle of wide parts without a valid thickness
+    unknown = thickness <= 0
+    if unknown.any() and not unknown.all():
+        near = need("scipy.spatial").cKDTree(points[~unknown]).query(points[unknown])[1]
+        thickness[unknown] = thickness[~unknown][near]
     found = Sheet(points, sheet.triangles,
                   {**sheet.values, "thickness": thickness, "measured": valid.astype(float)})
     smooth_rims(found, max(2, passes // 2))
