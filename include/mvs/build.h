@@ -83,8 +83,9 @@ typedef struct mvs_build_options {
                              the chordae; mvs_find_leak_interval gives them later [0] */
   uint32_t reserved2;
   double closed_error; /* m, 1e-6 to 5e-3: standard deviation of places of the closed surface; gaps
-                          of it widen the interval of leaks from 3.6 times as much of width on
-                          [0.5e-3, as of labels of segmentation networks] */
+                          of it widen the interval of leaks from 3.6 times as much of width on,
+                          of tissue thicker than twice as much, or 1e-3, from as much more [0.5e-3,
+                          as of labels of segmentation networks] */
 } mvs_build_options;
 
 /* How far a valve may be from the one of its patient. */

@@ -149,7 +149,8 @@ void add_range_options(CLI::App &command, ImportOptions &options) {
   command
       .add_option("--closed-error", options.closed_error,
                   "standard deviation of places of --closed, mm: gaps of it widen the interval of "
-                  "leaks from 3.6 times as much of width on [0.5, as of labels of networks]")
+                  "leaks from 3.6 times as much of width on, of tissue thicker than twice as much, "
+                  "or 1, from as much more [0.5, as of labels of networks]")
       ->needs(command.get_option("--closed"))
       ->check(between(0.001, 5, "mm"));
   command.add_flag("--no-leak", options.no_leak,

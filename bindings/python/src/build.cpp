@@ -176,7 +176,8 @@ void bind_build(py::class_<Simulator> &type) {
       "depth of its filled notches\nthickness_error: m, by how much the leaflets may be thicker or "
       "thinner; widens the interval of leaks [0]\nclosed_error: m, standard deviation of places "
       "of the closed surface; gaps of it widen the interval of leaks from 3.6 times as much of "
-      "width on [0.5e-3, as of labels of segmentation networks]\nchords: about this number of "
+      "width on, of tissue thicker than twice as much, or 1e-3, from as much more [0.5e-3, as of "
+      "labels of segmentation networks]\nchords: about this number of "
       "segments "
       "[100]\nleak: whether the leak is found over the plausible lengths of chordae; takes 3 to 13 "
       "closures\nprogress: as in settle");

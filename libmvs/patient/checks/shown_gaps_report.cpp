@@ -1,4 +1,5 @@
 // The findings about gaps that a closed surface shows, in words.
+#include <algorithm>
 #include <utility>
 
 #include "base/error.h"
@@ -29,9 +30,10 @@ void report_closed_error(double error, Findings &findings) {
        FindingSource::given,
        1,
        format("places of the closed surface have a standard deviation of %.2f mm, "
-              "as given; gaps of it count from %.2f mm of width on, of tissue thicker than %.0f mm "
+              "as given; gaps of it count from %.2f mm of width on, of tissue thicker than %.2f mm "
               "from as much more as it is thicker",
-              error * 1e3, least_widths * error * 1e3, usual_thickness * 1e3),
+              error * 1e3, least_widths * error * 1e3,
+              std::min(usual_thickness, usual_thicknesses * error) * 1e3),
        {error},
        "m"});
 }

@@ -25,16 +25,14 @@ constexpr double from_free_edge = 10e-3;
 struct EdgeErrors {
   // m, 95 % of the difference of two edges: 1.96 times 1.41 deviations.
   double width;
-  // m. The surface is the middle of the tissue, so that leaflets that touch are a thickness apart:
-  // least_widths is for usual ones, thicker ones are farther apart by the difference.
-  double least_width;
+  double least_width;  // m, of gaps that count
   // m2: in labels of networks, whose deviation is the usual one, gaps of sealed phantoms span less
   // together. False gaps are as wide as the errors, and no longer if these are smaller.
   double least_area;
 
   EdgeErrors(double deviation, double thickness)
       : width(2.8 * deviation),
-        least_width(least_widths * deviation + std::max(0.0, thickness - usual_thickness)),
+        least_width(least_gap_width(deviation, thickness)),
         least_area(12e-6 * deviation / usual_closed_error) {}
 };
 // A piece of the surface is one leaflet if so much of it is; a gap is between leaflets, and no hole
@@ -195,6 +193,12 @@ std::vector<double> missing_beside(const Orifice &orifice, const OrificeParts &p
 }
 
 }  // namespace
+
+// The surface is the middle of the tissue, so that leaflets that touch are a thickness apart.
+double least_gap_width(double deviation, double thickness) {
+  const double hidden = std::min(usual_thickness, usual_thicknesses * deviation);
+  return least_widths * deviation + std::max(0.0, thickness - hidden);
+}
 
 bool would_close(const ShownGap &gap) {
   return gap.missing - gap.width >= closed_overlap;

@@ -1385,8 +1385,8 @@ export interface BuildOptions {
   reserved2?: number;
   /**
    * m, 1e-6 to 5e-3: standard deviation of places of the closed surface; gaps of it widen the
-   * interval of leaks from 3.6 times as much of width on [0.5e-3, as of labels of segmentation
-   * networks]
+   * interval of leaks from 3.6 times as much of width on, of tissue thicker than twice as much, or
+   * 1e-3, from as much more [0.5e-3, as of labels of segmentation networks]
    */
   closed_error?: number;
 }
