@@ -85,6 +85,24 @@ TEST_CASE("the_annulus_stays_where_rims_lie_on_it_or_are_not_seen") {
   // no input of a build: read back as a curve it would give other bits
   CHECK(findings.back().name == "annulus_motion");
   CHECK(findings.back().value.empty());
+  CHECK(!is_doubtful(findings.back()));
+}
+
+TEST_CASE("a_closed_surface_farther_off_than_an_annulus_moves_is_doubted_with_its_displacement") {
+  const ParametricSheet p = parametric_sheet(430);
+  const std::vector<Vec3> annulus = annulus_of(p);
+  for (const Vec3 &shift : {Vec3(10, 0, 0), Vec3(0, 12, 0), Vec3(0, 0, 14), Vec3(9, -9, 4)}) {
+    CAPTURE(shift.transpose());
+    ClosedSurface closed{p.sheet.x, p.sheet.triangles};
+    for (Vec3 &x : closed.points) x += mm * shift;
+    Findings findings;
+    CHECK(!find_annulus_motion(annulus, {}, closed, findings).moves());
+    REQUIRE(findings.size() == 1);
+    CHECK(findings[0].name == "annulus_motion");
+    CHECK(findings[0].value.empty());
+    CHECK(is_doubtful(findings[0]));
+    CHECK(findings[0].sentence.find("have to be registered") != std::string::npos);
+  }
 }
 
 // The chordae of a valve whose loaded image lay 7 mm from the open one were fitted to make up for

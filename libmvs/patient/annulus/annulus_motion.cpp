@@ -21,6 +21,8 @@ constexpr double farthest_rim = 6e-3;
 // m: where too little of the annulus lies within that, it is sought so far: in a beat an annulus
 // descends by up to 12 mm.
 constexpr double farthest_moved_rim = 12e-3;
+// m: half of the height of leaflets, by which the middle of all rims lies below the annulus.
+constexpr double half_height = 6e-3;
 // m, RMS of what remains then: rims from images are right to a voxel. Parts of other rims that the
 // annulus meets by chance remain farther away.
 constexpr double rms_of_moved = 1e-3;
@@ -38,6 +40,9 @@ constexpr size_t most_waves = 4;
 // Confidence of a motion that is found at once, and of one that is sought farther off: an image of
 // another place of the table, or another frame, looks the same.
 constexpr double confidence_of_rims = 0.6, confidence_of_far_rims = 0.3;
+// Confidence that the annulus stays where it lies on no rim, and where it would if it was
+// displaced.
+constexpr double confidence_of_unseen = 0.3, confidence_of_displaced = 0.1;
 
 // Sides that have one triangle.
 std::vector<CurveSide> rims_of(const ClosedSurface &closed) {
@@ -101,15 +106,53 @@ void report_given(const std::vector<Vec3> &annulus, const std::vector<Vec3> &giv
   set_points(given, findings.back());  // read back it is the same curve
 }
 
+// The displacement, m, with which the annulus would lie on rims that are farther off than it moves;
+// 0: none is found. Iterative closest points find the nearest fit only, so that they begin with the
+// annulus in the middle of the rims, and above and below it, as free edges lie on one side.
+double displacement_to(const std::vector<Vec3> &annulus, const Vec3 &centre,
+                       const std::vector<CurveSide> &rims) {
+  Vec3 middle = Vec3::Zero(), axis = Vec3::Zero();
+  double length = 0;
+  for (const auto &[a, b] : rims) {
+    middle += (b - a).norm() * (a + b) / 2;
+    length += (b - a).norm();
+  }
+  if (!(length > 0)) return 0;
+  for (size_t k = 0; k < annulus.size(); ++k) {
+    axis += (annulus[k] - centre).cross(annulus[(k + 1) % annulus.size()] - centre);
+  }
+  Meeting best;
+  double displacement = 0;
+  for (const double above : {0.0, half_height, -half_height}) {
+    const Vec3 start = middle / length - centre + above * axis.normalized();
+    std::vector<Vec3> moved = annulus;
+    for (Vec3 &p : moved) p += start;
+    const Meeting met = meet(moved, centre + start, rims, farthest_moved_rim);
+    if (met.seen < least_on_curve || (displacement > 0 && met.rms >= best.rms)) continue;
+    best = met;
+    displacement = (start + met.motion.shift).norm();
+  }
+  const bool found = best.seen >= least_on_curve && best.motion.stretch.norm() <= most_stretch &&
+                     best.rms <= rms_of_moved && displacement > farthest_annulus;
+  return found ? displacement : 0;
+}
+
 // Without values: as a given curve they would be another boundary than this assumption.
-Finding unseen_motion() {
-  return {"annulus_motion",
-          FindingSource::assumed,
-          0.3,
-          "the annulus is taken to stay under load: too little of it lies near rims of the closed "
-          "surface; give points along the loaded annulus",
-          {},
-          ""};
+Finding unseen_motion(double displacement) {
+  Finding finding{"annulus_motion",
+                  FindingSource::assumed,
+                  confidence_of_unseen,
+                  "the annulus is taken to stay under load: too little of it lies near rims of the "
+                  "closed surface; give points along the loaded annulus",
+                  {},
+                  ""};
+  if (displacement == 0) return finding;
+  finding.confidence = confidence_of_displaced;
+  finding.sentence += format(
+      "; displaced by %.1f mm it would lie on them, farther than an annulus moves: both surfaces "
+      "do not lie in one frame, and have to be registered",
+      displacement * 1e3);
+  return finding;
 }
 
 double rms_of(const std::vector<Vec3> &annulus, const AnnulusMotion &motion) {
@@ -196,7 +239,7 @@ AnnulusMotion find_annulus_motion(const std::vector<Vec3> &annulus, const std::v
         met.motion.shift.norm() * 1e3, 100 * met.seen);
     report_given(annulus, given, sides, motion, findings);
   } else if (!motion.moves()) {
-    findings.push_back(unseen_motion());
+    findings.push_back(unseen_motion(displacement_to(annulus, motion.centre_, sides)));
   } else if (rms_of(annulus, motion) < no_motion) {
     motion.moves_ = false;
     report_measured(annulus, motion,

@@ -51,7 +51,8 @@ ModelPtr checked_model(const ClosedSurface &given, const Valve &valve) {
   MVS_MUST(
       rms <= farthest_annulus, MVS_E_OP, "closed_points",
       "the annulus lies %.1f mm from the closed surface, at most %.0f mm are accepted: are both "
-      "in one frame (LPS or RAS), in m (--unit of a file), and of one patient?",
+      "in one frame (LPS or RAS), in m (--unit of a file), and of one patient? If they are "
+      "displaced, register them",
       rms * 1e3, farthest_annulus * 1e3);
   // each vertex weighs as many triangles as meet there
   const std::vector<uint32_t> &start = model.topology.node_triangles.start;
