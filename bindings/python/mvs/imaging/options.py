@@ -76,7 +76,8 @@ def _add_labels(parser: argparse.ArgumentParser) -> None:
            "[where the thickness is assumed, 0.25 mm; where it is measured, half a voxel]")
     labels("--closed-error", type=_error("closed_error"), metavar="MM",
            help="standard deviation of places of the leaflets of --loaded: their gaps widen the interval of leaks from 3.6 "
-           "times as much of width on, of tissue thicker than twice as much, or 1, from as much more, 0 (exact) to 5 [0.5, as of networks]")
+           "times as much of width on, of tissue thicker than twice as much, or 1, from as much more, "
+           "0 (exact) to 5 [0.5, as of networks]")
 
 
 LAWS = tuple(law.name.lower() for law in LeafletLaw)
