@@ -47,7 +47,9 @@ typedef struct mvs_surface_desc {
                                  is more like a normal anterior one] */
   mvs_array papillary_tips;   /* k x 3, k <= 64 [assumed: two, from normal anatomy] */
   mvs_array closed_points;    /* F64 or F32: the same leaflets closed, in the same frame; chords get
-                                 the lengths with which the valve closes to it */
+                                 the lengths with which the valve closes to it. Of closed bodies
+                                 (both sides of the tissue, as segmentations are) the middle is
+                                 taken; other pieces count as mid-surface */
   mvs_array closed_triangles; /* U32 [as triangles] */
   mvs_array closed_annulus;   /* k x 3, k >= 6, points along the loaded annulus in any order
                                  [measured: an affine motion of the annulus onto rims of the closed

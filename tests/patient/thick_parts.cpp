@@ -46,7 +46,7 @@ TEST_CASE("thick_leaflets_on_a_fine_mesh_are_said_to_touch_too_late") {
   Valve valve = parametric_sheet(800).model->valve;
   for (const double thickness : {1e-3, 4e-3}) {
     valve.triangle_thickness.edit().assign(valve.triangles.size(), thickness);
-    valve.contact_thickness = contact_thickness(valve);
+    valve.contact_thickness = mvs::core::contact_thickness(valve);
     Findings findings;
     report_thin_contact(valve, findings);
     const Finding *thin = find(findings, "thin_contact");

@@ -174,8 +174,8 @@ void add_import(CLI::App &app, Console &console) {
   add_file_options(*command, options->files);
   add_landmark_options(*command, *options);
   command->add_option("--closed", options->closed,
-                      "the same leaflets closed: chords get lengths with which the valve closes to "
-                      "them");
+                      "the same leaflets closed, a mid-surface or a skin: chords get lengths with "
+                      "which the valve closes to them");
   command
       ->add_option("--kind", options->kind,
                    "mid: the mid-surface; atrial: the atrial side; skin: both sides, closed "

@@ -30,16 +30,6 @@ void turn_outward(LeafletSheet &skin) {
   for (Tri &t : skin.triangles) std::swap(t[1], t[2]);
 }
 
-// The median of the thickness behind all triangles.
-double median_thickness(const LeafletSheet &skin) {
-  std::vector<double> sorted;
-  for (const TissueBehind &b : tissue_behind(skin)) {
-    if (b.triangle != none) sorted.push_back(b.thickness);
-  }
-  std::sort(sorted.begin(), sorted.end());
-  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
-}
-
 // A skin is a ring: one handle, the orifice. Small handles beside it are cut.
 void make_ring(LeafletSheet &skin, Findings &findings) {
   const size_t handles = cut_handles(skin, 1, findings);
@@ -150,7 +140,7 @@ LeafletSheet mid_of_skin(const LeafletSheet &skin, const RimLandmarks &landmarks
   LeafletSheet closed = skin;
   turn_outward(closed);
   make_ring(closed, findings);
-  const double thickness = median_thickness(closed);
+  const double thickness = median_thickness(tissue_behind(closed));
   const SkinRidges ridges = skin_ridges(closed, thickness);
   const int rounds = smooth_skin(closed, thickness, ridges, findings);
   const std::vector<TissueBehind> behind = tissue_behind(closed);

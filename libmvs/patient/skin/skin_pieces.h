@@ -7,10 +7,14 @@ namespace mvs::core {
 
 // Thickness over the median up to which a ray passes one leaflet: two that touch and are one body
 // are twice as thick.
-inline constexpr double one_leaflet = 1.5;
+inline constexpr double one_leaflet = 1.25;
 
-// 1 for triangles that face a parallel one, at most three times as far behind as the median:
-// beyond, a ray runs along the leaflet.
+// The same beyond which the ray runs along the leaflet, or the tissue is one of the thick parts,
+// which sides_of() adds at the end.
+inline constexpr double most_side_thickness = 3;
+
+// 1 for triangles that face a parallel one, at most `most_side_thickness` times as far behind as
+// the median.
 std::vector<uint8_t> parallel_marks(const std::vector<Vec3> &normal,
                                     const std::vector<TissueBehind> &behind, double median);
 

@@ -207,19 +207,25 @@ std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin) {
   return behind;
 }
 
-std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
-                               bool sharp_rims) {
-  const size_t n = skin.triangles.size();
+double median_thickness(const std::vector<TissueBehind> &behind) {
   std::vector<double> sorted;
   for (const TissueBehind &b : behind) {
     if (b.triangle != none) sorted.push_back(b.thickness);
   }
-  MVS_MUST(2 * sorted.size() > n, MVS_E_OP, "triangles",
+  std::sort(sorted.begin(), sorted.end());
+  return sorted.empty() ? 0 : sorted[sorted.size() / 2];
+}
+
+std::vector<uint32_t> sides_of(const LeafletSheet &skin, const std::vector<TissueBehind> &behind,
+                               bool sharp_rims) {
+  const size_t n = skin.triangles.size();
+  const auto found = static_cast<size_t>(std::count_if(
+      behind.begin(), behind.end(), [](const TissueBehind &b) { return b.triangle != none; }));
+  MVS_MUST(2 * found > n, MVS_E_OP, "triangles",
            "behind %zu of %zu triangles there is no tissue within %.0f mm: is this the skin of "
            "leaflets?",
-           n - sorted.size(), n, longest_ray * 1e3);
-  std::sort(sorted.begin(), sorted.end());
-  const double median = sorted[sorted.size() / 2];
+           n - found, n, longest_ray * 1e3);
+  const double median = median_thickness(behind);
   std::vector<Vec3> normal(n);
   for (uint32_t t = 0; t < n; ++t) normal[t] = unit_normal(skin, t);
   const std::vector<uint8_t> marks = parallel_marks(normal, behind, median);

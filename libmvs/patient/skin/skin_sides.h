@@ -22,6 +22,8 @@ struct TissueBehind {
 };
 // Normals of `skin` point out of the tissue.
 std::vector<TissueBehind> tissue_behind(const LeafletSheet &skin);
+// The median of the thickness behind triangles with tissue behind them, m; 0 without any.
+double median_thickness(const std::vector<TissueBehind> &behind);
 
 // The side of each triangle, 0 or 1; `none` for the bands at the rims. `sharp_rims`: the bands are
 // flat and meet the sides at ridges, up to which the sides go; else the skin is round there.

@@ -1,6 +1,7 @@
 // Region growing over the flanks of thick parts.
 #include "patient/skin/thick_parts.h"
 
+#include "model/sides.h"
 #include "patient/surface/manifold.h"
 #include "patient/surface/weld.h"
 

@@ -1323,7 +1323,8 @@ export interface SurfaceDesc {
   papillary_tips?: ArrayInput;
   /**
    * F64 or F32: the same leaflets closed, in the same frame; chords get the lengths with which the
-   * valve closes to it
+   * valve closes to it. Of closed bodies (both sides of the tissue, as segmentations are) the
+   * middle is taken; other pieces count as mid-surface
    */
   closed_points?: ArrayInput;
   /** U32 [as triangles] */
