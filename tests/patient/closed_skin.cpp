@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "patient/findings.h"
+#include "tests/about.h"
 #include "tests/patient/voxel_skin.h"
 
 using namespace mvs::core;
@@ -109,9 +110,9 @@ TEST_CASE("the_middle_of_leaflets_that_are_one_body_is_taken_from_their_outer_si
   const Finding *found = find_finding(findings, "closed_skin");
   REQUIRE(found);
   // voxels whose centres are nearer than half a thickness
-  CHECK(found->value[0] == doctest::Approx(thickness).epsilon(0.15));
+  CHECK(found->value[0] == about(thickness, 0.15));
   // both hanging parts, seen from the ventricle
-  CHECK(found->value[2] == doctest::Approx(2 * height * 2 * half_length).epsilon(0.3));
+  CHECK(found->value[2] == about(2 * height * 2 * half_length, 0.3));
 }
 
 TEST_CASE("the_middle_of_leaflets_that_are_two_bodies_is_taken_from_their_atrial_sides") {

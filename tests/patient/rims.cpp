@@ -165,7 +165,7 @@ TEST_CASE("steps_of_voxels_do_not_lengthen_the_chords_of_a_rim") {
   const double circle = 2 * std::numbers::pi * 20e-3;
   CHECK(shape.length > 2 * circle);
   // chords may begin in and end out, by half a step of 0.7 mm in 2.6 mm at most
-  CHECK(shape.chord_length == doctest::Approx(circle).epsilon(0.04));
+  CHECK(shape.chord_length == about(circle, 0.04));
   CHECK(shape.turning < 1.5);
 }
 
