@@ -216,8 +216,9 @@ static void progress_rises_to_1_and_cancels(void) {
     MUST(mvs_sensitivity_get_summary(found, &summary));
     CHECK(told.calls >= 2 && told.falls == 0 && told.share == 1);
     CHECK(told.force == summary.residual);
-    CHECK(memcmp(numbers(plain, MVS_SENSITIVITY_ARRAY_DERIVATIVE),
-                 numbers(found, MVS_SENSITIVITY_ARRAY_DERIVATIVE), 2 * sizeof(double)) == 0);
+    const double *expected = numbers(plain, MVS_SENSITIVITY_ARRAY_DERIVATIVE);
+    const double *told_of = numbers(found, MVS_SENSITIVITY_ARRAY_DERIVATIVE);
+    CHECK(told_of[0] == expected[0] && told_of[1] == expected[1]);
     mvs_sensitivity_release(plain);
     mvs_sensitivity_release(found);
     const int calls = told.calls;
