@@ -39,7 +39,10 @@ inline Matrix operator*(const Matrix &a, const Matrix &b) {
 // exp(a) by scaling and squaring; `norm` bounds the row sums of |a|.
 inline Matrix exponential(Matrix a, double norm) {
   int squarings = 0;
-  for (; norm > 0.25 && squarings < 200; norm /= 2) ++squarings;
+  while (norm > 0.25 && squarings < 200) {
+    norm /= 2;
+    ++squarings;
+  }
   for (auto &row : a)
     for (double &value : row) value = std::ldexp(value, -squarings);
   Matrix unit = {}, sum;

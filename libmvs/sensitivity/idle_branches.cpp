@@ -70,6 +70,7 @@ class IdleBranches {
   // Moves each point by the mean of the excesses of its chordae, towards their other ends.
   bool slacken_group(const std::vector<uint32_t> &group, double margin) {
     std::vector<Vec3> before;
+    before.reserve(group.size());
     for (const uint32_t node : group) before.push_back(x_[node]);
     if (excess(group, margin) <= 0) return false;
     for (int sweep = 0; sweep < sweeps; ++sweep) {

@@ -35,7 +35,8 @@ static inline mvs_array packed(const void *data, uint64_t count, uint32_t compon
 
 static inline void funnel_sheet(funnel *f) {
   for (uint32_t n = 0; n < FUNNEL_SHEET; ++n) {
-    double row = n / FUNNEL_SEGMENTS;
+    const uint32_t full_rows = n / FUNNEL_SEGMENTS;
+    double row = full_rows;
     double turn = 2 * 3.14159265358979 * n / (double)FUNNEL_SEGMENTS;
     double radius = 15e-3 - 2e-3 * row;
     f->nodes[n][0] = radius * cos(turn);

@@ -75,6 +75,7 @@ mvs_comparison distance(const std::string &a, const std::string &b);
 template <typename Map>
 std::vector<std::string> keys(const Map &map) {
   std::vector<std::string> names;
+  names.reserve(map.size());
   for (const auto &entry : map) names.push_back(entry.first);
   return names;
 }

@@ -23,6 +23,8 @@
 #endif
 
 #if HAS_OWN_MALLOC
+// One file of a program includes this header, and glibc names its allocator so.
+// NOLINTBEGIN(cert-dcl59-cpp, bugprone-reserved-identifier)
 namespace {
 thread_local long allocations = 0;
 thread_local bool has_memory = true;  // of this thread, for operator new and malloc
@@ -57,6 +59,7 @@ int posix_memalign(void **made, size_t alignment, size_t size) {
   return *made ? 0 : 12;
 }
 }
+// NOLINTEND(cert-dcl59-cpp, bugprone-reserved-identifier)
 #endif
 
 #if HAS_OWN_MALLOC && defined(__x86_64__)

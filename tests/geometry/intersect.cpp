@@ -79,6 +79,7 @@ TEST_CASE("pairs_that_share_nodes_cross_as_each_pair_alone") {
   size_t found = 0, shared = 0;
   for (int round = 0; round < 400; ++round) {
     std::vector<Vec3> x;
+    x.reserve(9);
     // small lattices have many coplanar and flat triangles
     for (int k = 0; k < 9; ++k) x.push_back(real(random_point(random, 1 + round % 3)));
     std::vector<Tri> triangles;

@@ -47,7 +47,7 @@ ModelPtr model_of(const Sheet &sheet) {
   return make_model(valve_of(sheet));
 }
 
-Sheet disc(double radius, double hole, std::function<double(double x, double y)> height) {
+Sheet disc(double radius, double hole, const std::function<double(double x, double y)> &height) {
   Sheet sheet;
   sheet.at = [=](double angle, double s) -> Vec3 {
     const double r = radius + s * (hole - radius);

@@ -30,7 +30,7 @@ Valve valve_of(const Sheet &sheet);
 ModelPtr model_of(const Sheet &sheet);
 
 // A flat ring of the radius in m with a hole of the second radius, at a height over it.
-Sheet disc(double radius, double hole, std::function<double(double x, double y)> height);
+Sheet disc(double radius, double hole, const std::function<double(double x, double y)> &height);
 
 // Leaflets that overlap, with a gap of two lenses side by side; closed in the middle.
 Sheet two_gaps(double left, double right);

@@ -89,6 +89,7 @@ TEST_CASE("vertices_on_rims_move_along_them_only") {
   ParametricSheet p = parametric_sheet(430);
   const auto &annulus = p.rims.annulus;
   std::vector<Vec3> rim;
+  rim.reserve(annulus.size());
   for (const uint32_t v : annulus) rim.push_back(p.sheet.x[v]);
   // the sheet next to the annulus folds over it: an inner vertex goes past the opposite side
   const Rows stars = rows_of(p.sheet.x.size(), p.sheet.triangles);

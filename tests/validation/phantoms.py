@@ -43,8 +43,9 @@ SAID = ("tissue", "edge_found", "leak", "leak_interval", "shown_gaps", "edge_los
 
 
 def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder: Path,
-             unfitted: bool = True) -> Row:
-    """Makes a phantom, recovers it from its files, compares; `unfitted`: also without the loaded image."""
+             fitted: bool = True, unfitted: bool = True) -> Row:
+    """Makes a phantom, recovers it from its files, compares; `fitted`: with the loaded
+    image; `unfitted`: also, or only, without it."""
     row, start = Row(name), time.process_time()
     made = phantom.make(valve, settings)
     phantom.save(made, folder)
@@ -54,6 +55,11 @@ def run_case(name: str, valve: mvs.Snapshot, settings: phantom.Settings, folder:
     row.law_rms = closed_with_default_law(made.truth) * MM
     start = time.process_time()
     try:
+        if not fitted:
+            low, high = leak_interval(recover(folder, settings.kind, loaded=False))
+            row.unfitted = high - low
+            row.cpu_recovery = time.process_time() - start
+            return row
         found = recover(folder, settings.kind, loaded=True)
     except mvs.Error as error:
         row.refused = str(error)
@@ -131,6 +137,8 @@ def main() -> int:
     add("--short", action="store_true", help="two cases of coarse phantoms, in less than a minute")
     add("--spacing", type=float, metavar="MM", help="of the voxels [0.15; ultrasound 0.7]")
     add("--fitted-only", action="store_true", help="ultrasound: not also without the loaded image")
+    add("--unfitted-only", action="store_true", help="ultrasound: without the loaded image alone: the "
+        "width of the interval of leaks")
     add("--exact-labels", action="store_true", help="ultrasound labels without errors")
     add("--law", metavar="LAW", help="tissue of the true leaflets [may_newman_yin]")
     add("--truth-only", action="store_true", help="no volumes: the true leak, and how far the law "
@@ -152,7 +160,8 @@ def main() -> int:
             if arguments.truth_only:
                 rows.append(truth_of(name, valve(), settings))
             else:
-                rows.append(run_case(name, valve(), settings, folder, not arguments.fitted_only))
+                rows.append(run_case(name, valve(), settings, folder, not arguments.unfitted_only,
+                                     not arguments.fitted_only))
             print(f"  {rows[-1]}", file=sys.stderr, flush=True)
     print(table(rows, spacing or 0.0))
     if arguments.save:
