@@ -120,7 +120,8 @@ enum mvs_sensitivity_notes_e {
   MVS_SENSITIVITY_NOTE_RASTER = 1 << 4,      /* the same, of a measure on a raster: see
                                                 libmvs/measure/DEFINITIONS.md */
   MVS_SENSITIVITY_NOTE_EXTREME = 1 << 5,     /* a largest or smallest value: its derivative changes
-                                                where another place takes over */
+                                                where another place takes over; or of a place half
+                                                way along the annulus: where it passes a node */
   MVS_SENSITIVITY_NOTE_ENVELOPE = 1 << 6, /* the orifice: its rim is taken as fixed in the tissue.
                                              An estimate: of a leak of a few mm2 it can be wrong by
                                              several times */

@@ -26,6 +26,13 @@ bool is_on_raster(const mvs_field_info &field) {
          is_named(field, "billow_volume");
 }
 
+// Returns whether a measure of the annulus is that of its highest and lowest nodes, or of places
+// half way along it, which are at a node of a symmetric valve.
+bool has_places_of_annulus(const mvs_field_info &field) {
+  return is_named(field, "annulus_saddle_height") || is_named(field, "annulus_ap") ||
+         is_named(field, "annulus_nonplanar_angle");
+}
+
 // A gradient with respect to the end b of a chord; that of the end a is opposite.
 void add_at_ends(const Model &model, uint32_t index, const Vec3 &by_b, QuantityGradient &q) {
   const Chord &chord = model.valve.chords[index];
@@ -150,7 +157,7 @@ void measure(const Model &model, const State &state, const Quantity &quantity, d
   q.notes |= MVS_SENSITIVITY_NOTE_DIFFERENCES;
   if (is_on_raster(field)) {
     q.notes |= MVS_SENSITIVITY_NOTE_RASTER;
-  } else if (field.group != MVS_MEASURE_GROUP_ANNULUS || is_named(field, "annulus_saddle_height")) {
+  } else if (field.group != MVS_MEASURE_GROUP_ANNULUS || has_places_of_annulus(field)) {
     q.notes |= MVS_SENSITIVITY_NOTE_EXTREME;
   }
   q.value = measure_field(model, state.x, field);

@@ -103,7 +103,10 @@ double ImplicitEuler::limit_step(SolveStats &stats) {
     const double length = displacement_[i].norm();
     const double most =
         i < instruments.first_point() ? set::max_displacement : set::max_instrument_displacement;
-    if (length > most) displacement_[i] *= most / length;
+    if (length > most) {
+      displacement_[i] *= most / length;
+      stats.lowered |= MVS_LOWERED_STEP;
+    }
     farthest = std::max(farthest, std::min(length, most));
     to[i] = x[i] + displacement_[i];
   }
@@ -114,6 +117,10 @@ double ImplicitEuler::limit_step(SolveStats &stats) {
     total_energy_.prepare(x, to, slack, stats.work);
   }
   total_energy_.limit_step(x, slack, displacement_, stats.work);
+  // `to` is still the step before that
+  for (size_t i = 0; i < x.size() && (stats.lowered & MVS_LOWERED_STEP) == 0; ++i) {
+    if (x[i] + displacement_[i] != to[i]) stats.lowered |= MVS_LOWERED_STEP;
+  }
   return slack;
 }
 

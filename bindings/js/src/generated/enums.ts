@@ -781,7 +781,10 @@ export const SensitivityNotes = {
   note_differences: 8,
   /** the same, of a measure on a raster: see libmvs/measure/DEFINITIONS.md */
   note_raster: 16,
-  /** a largest or smallest value: its derivative changes where another place takes over */
+  /**
+   * a largest or smallest value: its derivative changes where another place takes over; or of a
+   * place half way along the annulus: where it passes a node
+   */
   note_extreme: 32,
   /**
    * the orifice: its rim is taken as fixed in the tissue. An estimate: of a leak of a few mm2 it
