@@ -161,12 +161,12 @@ class ContactPairHessian {
 
 }  // namespace
 
-template <typename System>
+template <typename Assembler>
 bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
-                 const std::vector<Vec3> &x, Curvature curvature, System &system) {
+                 const std::vector<Vec3> &x, Curvature curvature, Assembler &assembler) {
   bool complete = true;
   for (const ContactPair &s : contact_pairs) {
-    if (!system.takes(s.nodes())) continue;
+    if (!assembler.takes(s.nodes())) continue;
     const Barrier b = curve(s.gap() / s.range);
     const double second = s.strength / s.range * b.second;
     const bool balances = curvature == Curvature::balanced && !s.is_barrier && s.radius == 0;
@@ -174,9 +174,9 @@ bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)
     if (!exact && second <= 0) continue;
     const ContactPairHessian blocks(s, second, exact ? s.strength * b.first / s.distance : 0, x);
     for (uint32_t k = 0; k < s.count; ++k) {
-      system.add_diagonal(s.node[k], blocks.block(k, k));
+      assembler.add_diagonal(s.node[k], blocks.block(k, k));
       for (uint32_t l = 0; l < k; ++l) {
-        complete = system.add(s.node[k], s.node[l], blocks.block(k, l)) && complete;
+        complete = assembler.add(s.node[k], s.node[l], blocks.block(k, l)) && complete;
       }
     }
   }

@@ -62,9 +62,9 @@ void add_gradient(const std::vector<ContactPair> &contact_pairs, Barrier (*curve
                   Gradient &to);
 // Adds to a HessianAssembler or a HessianPart. Returns false if the pattern lacks a block;
 // add_pairs() returns the pairs of nodes it needs.
-template <typename System>
+template <typename Assembler>
 bool add_hessian(const std::vector<ContactPair> &contact_pairs, Barrier (*curve)(double),
-                 const std::vector<Vec3> &x, Curvature curvature, System &system);
+                 const std::vector<Vec3> &x, Curvature curvature, Assembler &assembler);
 void add_pairs(const std::vector<ContactPair> &contact_pairs, std::vector<Edge> &pairs);
 
 }  // namespace mvs::core

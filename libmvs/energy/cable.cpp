@@ -58,16 +58,17 @@ void CableTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
                      });
 }
 
-template <typename System>
-void CableTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+template <typename Assembler>
+void CableTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                        Assembler &assembler) const {
   for_each_stretched(*valve_, x,
                      [&](const Chord &c, const Vec3 &d, double length, const Axial &at) {
-                       if (!system.takes(Edge{c.a, c.b})) return;
+                       if (!assembler.takes(Edge{c.a, c.b})) return;
                        const Mat3 block = axial_block(d / length, c.area * at.slope / c.rest_length,
                                                       c.area * at.stress / length, curvature);
-                       system.add_diagonal(c.a, block);
-                       system.add_diagonal(c.b, block);
-                       system.add(index_of(c), c.a, c.b, -block);
+                       assembler.add_diagonal(c.a, block);
+                       assembler.add_diagonal(c.b, block);
+                       assembler.add(index_of(c), c.a, c.b, -block);
                      });
 }
 

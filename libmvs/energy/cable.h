@@ -20,8 +20,8 @@ class CableTerm {
   template <typename Gradient>
   void add_gradient(const std::vector<Vec3> &x, Gradient &to) const;
   // Adds to a HessianAssembler or a HessianPart.
-  template <typename System>
-  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  template <typename Assembler>
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, Assembler &assembler) const;
   // Elements, and the energies of elements first .. last.
   size_t size() const { return valve_->chords.size(); }
   void energies(const std::vector<Vec3> &x, size_t first, size_t last, double *to) const;

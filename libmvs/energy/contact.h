@@ -70,9 +70,9 @@ class ContactTerm {
     mvs::core::add_gradient(contact_pairs_, curve_, to);
   }
   // Returns false if the pattern lacks a block; add_pairs() returns the pairs of nodes it needs.
-  template <typename System>
-  bool hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
-    return add_hessian(contact_pairs_, curve_, x, curvature, system);
+  template <typename Assembler>
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, Assembler &assembler) const {
+    return add_hessian(contact_pairs_, curve_, x, curvature, assembler);
   }
   // Elements, and the energies of elements first .. last.
   size_t size() const { return contact_pairs_.size(); }

@@ -209,15 +209,15 @@ void ConvexContactTerm::add_gradient(const std::vector<Vec3> &x, std::vector<Vec
 }
 
 bool ConvexContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
-                                HessianAssembler &system) const {
+                                HessianAssembler &assembler) const {
   bool complete = true;
   for (const BodyContact &c : contacts_) {
     const BodyContactHessian blocks(c, barrier(c.gap() / c.range), curvature == Curvature::exact,
                                     x);
     for (uint32_t k = 0; k < c.count; ++k) {
-      system.add_diagonal(c.node[k], blocks.block(k, k));
+      assembler.add_diagonal(c.node[k], blocks.block(k, k));
       for (uint32_t l = 0; l < k; ++l)
-        complete = system.add(c.node[k], c.node[l], blocks.block(k, l)) && complete;
+        complete = assembler.add(c.node[k], c.node[l], blocks.block(k, l)) && complete;
     }
   }
   for (const FrameEdge &e : edges_) {
@@ -225,9 +225,9 @@ bool ConvexContactTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
     const double length = d.norm();
     const Mat3 block = axial_block(d / length, frame_stiffness,
                                    frame_stiffness * (1 - e.length / length), curvature);
-    system.add_diagonal(e.node[0], block);
-    system.add_diagonal(e.node[1], block);
-    complete = system.add(e.node[0], e.node[1], -block) && complete;
+    assembler.add_diagonal(e.node[0], block);
+    assembler.add_diagonal(e.node[1], block);
+    complete = assembler.add(e.node[0], e.node[1], -block) && complete;
   }
   return complete;
 }

@@ -97,15 +97,15 @@ void FollowerPressureTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to
 // Force p N / 6 on each corner, N = e2 x (-e1), dN = sum_k [e_k]x dx_k with e_k the edge opposite
 // corner k. The symmetric part for the corners (i, j) of one triangle is
 // -p / 12 [x_i + x_j - 2 x_k]x, and zero on the diagonal.
-template <typename System>
-void FollowerPressureTerm::hessian(const std::vector<Vec3> &x, System &system) const {
+template <typename Assembler>
+void FollowerPressureTerm::hessian(const std::vector<Vec3> &x, Assembler &assembler) const {
   if (empty()) return;
   for (const Slope &s : slopes_) {
-    if (!system.takes(Edge{s.i, s.j})) continue;
+    if (!assembler.takes(Edge{s.i, s.j})) continue;
     const Vec3 arm = s.right == none ? Vec3(x[s.i] + x[s.j] - 2 * x[s.left])
                                      : Vec3(2 * (x[s.right] - x[s.left]));
-    system.add(static_cast<size_t>(&s - slopes_.data()), s.i, s.j,
-               cross_matrix((-pressure_ / 12) * arm));
+    assembler.add(static_cast<size_t>(&s - slopes_.data()), s.i, s.j,
+                  cross_matrix((-pressure_ / 12) * arm));
   }
 }
 

@@ -34,8 +34,8 @@ class FollowerPressureTerm {
   template <typename Gradient>
   void add_gradient(const std::vector<Vec3> &x, Gradient &to) const;
   // Adds the symmetric part of the derivative. It is indefinite and has no projected form.
-  template <typename System>
-  void hessian(const std::vector<Vec3> &x, System &system) const;
+  template <typename Assembler>
+  void hessian(const std::vector<Vec3> &x, Assembler &assembler) const;
   // Triangles, the volumes that triangles first .. last enclose with the origin, and the energy
   // from the volumes of all.
   size_t size() const { return triangles_.size(); }

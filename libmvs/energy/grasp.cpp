@@ -46,8 +46,8 @@ double GraspTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) con
   return energy(x);
 }
 
-void GraspTerm::hessian(const std::vector<Vec3> &x, HessianAssembler &system) const {
-  for (const ToolSpring &h : springs_) system.add_diagonal(h.node, spring_block(h, x[h.node]));
+void GraspTerm::hessian(const std::vector<Vec3> &x, HessianAssembler &assembler) const {
+  for (const ToolSpring &h : springs_) assembler.add_diagonal(h.node, spring_block(h, x[h.node]));
 }
 
 }  // namespace mvs::core

@@ -36,7 +36,7 @@ class GraspTerm {
 
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  void hessian(const std::vector<Vec3> &x, HessianAssembler &system) const;
+  void hessian(const std::vector<Vec3> &x, HessianAssembler &assembler) const;
 
  private:
   std::vector<ToolSpring> springs_;

@@ -104,14 +104,14 @@ void HessianAssembler::keep_old_rows() {
 }
 
 // Adds an outer product block by block.
-template <typename System>
-static void add_blocks(System &system, size_t k, const std::array<uint32_t, 4> &nodes,
+template <typename Assembler>
+static void add_blocks(Assembler &assembler, size_t k, const std::array<uint32_t, 4> &nodes,
                        const Slope &slope, double times) {
   for (uint32_t a = 0; a < 4; ++a) {
     const Vec3 of_a = slope.node(a);
-    system.add_diagonal(nodes[a], times * (of_a * of_a.transpose()));
+    assembler.add_diagonal(nodes[a], times * (of_a * of_a.transpose()));
     for (uint32_t b = 0; b < a; ++b, ++k) {
-      system.add(k, nodes[a], nodes[b], times * (of_a * slope.node(b).transpose()));
+      assembler.add(k, nodes[a], nodes[b], times * (of_a * slope.node(b).transpose()));
     }
   }
 }
@@ -146,58 +146,58 @@ void HessianAssembler::add_outer_product(size_t k, const std::array<uint32_t, 4>
 }
 
 void HessianPart::clear() {
-  BlockMatrix &m = system_->matrix;
+  BlockMatrix &m = assembler_->matrix;
   for (uint32_t r = 0; r < m.size(); ++r) {
-    if (!part_.has(system_->node_of[r])) continue;
+    if (!part_.has(assembler_->node_of[r])) continue;
     for (uint32_t k = m.start[r]; k < m.start[r + 1]; ++k) m.value[k].setZero();
-    system_->boundary_force[r].setZero();
+    assembler_->boundary_force[r].setZero();
   }
 }
 
 bool HessianPart::add(uint32_t i, uint32_t j, const Mat3 &block) {
-  const uint32_t r = system_->row_of[i], c = system_->row_of[j];
+  const uint32_t r = assembler_->row_of[i], c = assembler_->row_of[j];
   if (r == none || c == none) {
     couple(i, j, block);
     return true;
   }
-  const uint32_t slot = system_->find(r, c);
+  const uint32_t slot = assembler_->find(r, c);
   if (slot == none) return false;
-  if (has_column(r, c)) system_->add_at(slot, r > c, block);
+  if (has_column(r, c)) assembler_->add_at(slot, r > c, block);
   return true;
 }
 
 void HessianPart::add(size_t k, uint32_t i, uint32_t j, const Mat3 &block) {
-  if (system_->slots_.empty()) {
+  if (assembler_->slots_.empty()) {
     add(i, j, block);
     return;
   }
-  const uint32_t slot = system_->slots_[first_ + k];
+  const uint32_t slot = assembler_->slots_[first_ + k];
   if (slot == none) {
     couple(i, j, block);
     return;
   }
-  const uint32_t r = system_->row_of[i], c = system_->row_of[j];
-  if (has_column(r, c)) system_->add_at(slot, r > c, block);
+  const uint32_t r = assembler_->row_of[i], c = assembler_->row_of[j];
+  if (has_column(r, c)) assembler_->add_at(slot, r > c, block);
 }
 
 void HessianPart::couple(uint32_t i, uint32_t j, const Mat3 &block) const {
-  if (system_->boundary_step == nullptr) return;
-  const std::vector<Vec3> &step = *system_->boundary_step;
-  const uint32_t r = system_->row_of[i], c = system_->row_of[j];
-  if (r != none && part_.has(i)) system_->boundary_force[r] -= block * step[j];
-  if (c != none && part_.has(j)) system_->boundary_force[c] -= block.transpose() * step[i];
+  if (assembler_->boundary_step == nullptr) return;
+  const std::vector<Vec3> &step = *assembler_->boundary_step;
+  const uint32_t r = assembler_->row_of[i], c = assembler_->row_of[j];
+  if (r != none && part_.has(i)) assembler_->boundary_force[r] -= block * step[j];
+  if (c != none && part_.has(j)) assembler_->boundary_force[c] -= block.transpose() * step[i];
 }
 
 // Blocks of other parts are written to `aside`, which is not read.
 void HessianPart::add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes,
                                     const Slope &slope, double times) {
   OuterProductTarget to;
-  if (system_->find_outer_product(first_, k, nodes, to)) {
+  if (assembler_->find_outer_product(first_, k, nodes, to)) {
     std::array<double, 10> aside{};
     for (uint32_t a = 0, pair = 0; a < 4; ++a) {
       if (!part_.has(nodes[a])) to.diagonal[a] = aside.data();
       for (uint32_t b = 0; b < a; ++b, ++pair) {
-        if (!has_column(system_->row_of[nodes[a]], system_->row_of[nodes[b]])) {
+        if (!has_column(assembler_->row_of[nodes[a]], assembler_->row_of[nodes[b]])) {
           to.pair[pair] = aside.data();
         }
       }

@@ -129,7 +129,7 @@ class HessianAssembler {
 // touch such a node, in their order. So each block has the bits of a single thread.
 class HessianPart {
  public:
-  HessianPart(HessianAssembler &system, NodePart part) : system_(&system), part_(part) {}
+  HessianPart(HessianAssembler &assembler, NodePart part) : assembler_(&assembler), part_(part) {}
 
   // Sets the blocks and the right-hand side of the part to zero.
   void clear();
@@ -144,16 +144,16 @@ class HessianPart {
   void add_outer_product(size_t k, const std::array<uint32_t, 4> &nodes, const Slope &slope,
                          double times);
   void add_diagonal(uint32_t i, const Mat3 &block) {
-    if (part_.has(i)) system_->add_diagonal(i, block);
+    if (part_.has(i)) assembler_->add_diagonal(i, block);
   }
 
  private:
   bool has_column(uint32_t r, uint32_t c) const {
-    return part_.has(system_->node_of[r < c ? r : c]);
+    return part_.has(assembler_->node_of[r < c ? r : c]);
   }
   void couple(uint32_t i, uint32_t j, const Mat3 &block) const;
 
-  HessianAssembler *system_;
+  HessianAssembler *assembler_;
   NodePart part_;
   size_t first_ = 0;
 };

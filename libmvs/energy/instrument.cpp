@@ -84,8 +84,8 @@ double InstrumentTerm::gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g
 }
 
 bool InstrumentTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
-                             HessianAssembler &system) const {
-  bool complete = add_hessian(contact_pairs_, barrier, x, curvature, system);
+                             HessianAssembler &assembler) const {
+  bool complete = add_hessian(contact_pairs_, barrier, x, curvature, assembler);
   for (const InstrumentBody &body : bodies_.all()) {
     if (!body.is_rod()) continue;
     const auto &[a, b] = body.point;
@@ -94,11 +94,11 @@ bool InstrumentTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
     const Mat3 block = axial_block(
         d / length, settings::instrument::rod_stiffness,
         settings::instrument::rod_stiffness * (1 - body.tool.length / length), curvature);
-    system.add_diagonal(a, block);
-    system.add_diagonal(b, block);
-    complete = system.add(a, b, -block) && complete;
+    assembler.add_diagonal(a, block);
+    assembler.add_diagonal(b, block);
+    complete = assembler.add(a, b, -block) && complete;
   }
-  return convex_.hessian(x, curvature, system) && complete;
+  return convex_.hessian(x, curvature, assembler) && complete;
 }
 
 void InstrumentTerm::add_pairs(std::vector<Edge> &pairs) const {

@@ -39,7 +39,7 @@ class InstrumentTerm {
   // These refer to the last collect().
   double energy(const std::vector<Vec3> &x) const;
   double gradient(const std::vector<Vec3> &x, std::vector<Vec3> &g) const;
-  bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) const;
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &assembler) const;
   void add_pairs(std::vector<Edge> &pairs) const;
 
  private:

@@ -154,10 +154,11 @@ MVS_INLINE Mat3 block_of(const Outer &outer, const Middle &middle, const Mat2 &f
 //     d2E / dx_k dx_l = t A sum_pq w_kp w_lq d2W / df_p df_q,
 // and the stress adds (w_k . S w_l) I, S its form. A shift of all three corners changes nothing:
 // that gives the rows of corner 0.
-template <typename System>
-void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+template <typename Assembler>
+void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                           Assembler &assembler) const {
   for (const Triangle &t : triangles_) {
-    if (!system.takes(t.nodes)) continue;
+    if (!assembler.takes(t.nodes)) continue;
     size_t pair = 3 * static_cast<size_t>(&t - triangles_.data());
     const Deformed d = deform(t, x);
     const InPlane at = in_plane_stiffness(d.response, d.strain);
@@ -170,12 +171,12 @@ void MembraneTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, Syst
     const Mat3 b12 = block_of(outer, middle, form, w1, w2);
     const Mat3 b22 = block_of(outer, middle, form, w2, w2);
     const Mat3 b10 = -(b11 + b12), b20 = -(b12.transpose() + b22);
-    system.add_diagonal(t.nodes[0], -(b10 + b20));
-    system.add_diagonal(t.nodes[1], b11);
-    system.add_diagonal(t.nodes[2], b22);
-    system.add(pair++, t.nodes[1], t.nodes[0], b10);
-    system.add(pair++, t.nodes[1], t.nodes[2], b12);
-    system.add(pair++, t.nodes[2], t.nodes[0], b20);
+    assembler.add_diagonal(t.nodes[0], -(b10 + b20));
+    assembler.add_diagonal(t.nodes[1], b11);
+    assembler.add_diagonal(t.nodes[2], b22);
+    assembler.add(pair++, t.nodes[1], t.nodes[0], b10);
+    assembler.add(pair++, t.nodes[1], t.nodes[2], b12);
+    assembler.add(pair++, t.nodes[2], t.nodes[0], b20);
   }
 }
 

@@ -89,13 +89,13 @@ double SharedTerms::gradient(const TotalEnergy &of, const std::vector<Vec3> &x,
 }
 
 bool SharedTerms::fill(const TotalEnergy &of, const std::vector<Vec3> &x, Curvature curvature,
-                       HessianAssembler &system) {
+                       HessianAssembler &assembler) {
   const uint32_t parts = workers_->width();
   parts_.divide(*of.model_, parts);
-  system.boundary_force.resize(system.matrix.size());
+  assembler.boundary_force.resize(assembler.matrix.size());
   std::atomic<bool> is_complete{true};
   workers_->parallel_for(parts, [&](uint32_t part) {
-    HessianPart to(system, parts_.part(part));
+    HessianPart to(assembler, parts_.part(part));
     to.clear();
     if (of.contact_.hessian(x, curvature, to)) {
       of.fill_sheet(x, curvature, to);
@@ -103,7 +103,7 @@ bool SharedTerms::fill(const TotalEnergy &of, const std::vector<Vec3> &x, Curvat
       is_complete = false;
     }
   });
-  if (is_complete) of.grasp_.hessian(x, system);
+  if (is_complete) of.grasp_.hessian(x, assembler);
   return is_complete;
 }
 

@@ -27,7 +27,7 @@ class SharedTerms {
   double gradient(const TotalEnergy &of, const std::vector<Vec3> &x, std::vector<Vec3> &g,
                   double &elastic);
   bool fill(const TotalEnergy &of, const std::vector<Vec3> &x, Curvature curvature,
-            HessianAssembler &system);
+            HessianAssembler &assembler);
 
  private:
   void make_room(const TotalEnergy &of);

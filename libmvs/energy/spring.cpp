@@ -67,10 +67,11 @@ void SpringTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
   }
 }
 
-template <typename System>
-void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+template <typename Assembler>
+void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                         Assembler &assembler) const {
   for (const Spring &s : springs_) {
-    if (!system.takes(Edge{s.i, s.j})) continue;
+    if (!assembler.takes(Edge{s.i, s.j})) continue;
     const Vec3 d = x[s.j] - x[s.i];
     const double length = d.norm();
     const double e = length / s.length - 1;
@@ -78,9 +79,9 @@ void SpringTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System
     const double stiffness = s.section * s.per_length * law.tangent(e);
     const double tension = s.section * law.stress(e), inverse = 1 / length;
     const Mat3 block = axial_block(inverse * d, stiffness, inverse * tension, curvature);
-    system.add_diagonal(s.i, block);
-    system.add_diagonal(s.j, block);
-    system.add(static_cast<size_t>(&s - springs_.data()), s.i, s.j, -block);
+    assembler.add_diagonal(s.i, block);
+    assembler.add_diagonal(s.j, block);
+    assembler.add(static_cast<size_t>(&s - springs_.data()), s.i, s.j, -block);
   }
 }
 

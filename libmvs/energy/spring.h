@@ -29,8 +29,8 @@ class SpringTerm {
   template <typename Gradient>
   void add_gradient(const std::vector<Vec3> &x, Gradient &to) const;
   // Adds to a HessianAssembler or a HessianPart.
-  template <typename System>
-  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  template <typename Assembler>
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, Assembler &assembler) const;
   // Elements, and the energies of elements first .. last.
   size_t size() const { return springs_.size(); }
   void energies(const std::vector<Vec3> &x, size_t first, size_t last, double *to) const;

@@ -107,39 +107,40 @@ double TotalEnergy::freeze(const std::vector<Vec3> &x) {
   return elastic_ + pressure_.energy(x);
 }
 
-bool TotalEnergy::fill(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system) {
-  if (shared_.pay(*this, hessian_us)) return shared_.fill(*this, x, curvature, system);
-  system.clear();
+bool TotalEnergy::fill(const std::vector<Vec3> &x, Curvature curvature,
+                       HessianAssembler &assembler) {
+  if (shared_.pay(*this, hessian_us)) return shared_.fill(*this, x, curvature, assembler);
+  assembler.clear();
   // contact first: the pattern may lack its blocks, and the rest would be computed in vain
-  if (!contact_.hessian(x, curvature, system)) return false;
-  if (!instrument_.hessian(x, curvature, system)) return false;
-  fill_sheet(x, curvature, system);
-  grasp_.hessian(x, system);
+  if (!contact_.hessian(x, curvature, assembler)) return false;
+  if (!instrument_.hessian(x, curvature, assembler)) return false;
+  fill_sheet(x, curvature, assembler);
+  grasp_.hessian(x, assembler);
   return true;
 }
 
-void TotalEnergy::set_pattern(HessianAssembler &system) {
+void TotalEnergy::set_pattern(HessianAssembler &assembler) {
   wanted_.clear();
   contact_.add_pairs(wanted_);
   instrument_.add_pairs(wanted_);
-  system.set_pattern(*model_, pairs_, wanted_);
+  assembler.set_pattern(*model_, pairs_, wanted_);
 }
 
-bool TotalEnergy::hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system,
-                          Profile &profile) {
+bool TotalEnergy::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                          HessianAssembler &assembler, Profile &profile) {
   ++profile.passes;
-  if (!system.row_of.empty()) {
+  if (!assembler.row_of.empty()) {
     const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
-    if (fill(x, curvature, system)) return false;
+    if (fill(x, curvature, assembler)) return false;
   }
   // the pattern lacks blocks of contact: build a new one from the present contact pairs
   {
     const PhaseTimer timer(profile, MVS_PHASE_ORDERING);
     ++profile.orderings;
-    set_pattern(system);
+    set_pattern(assembler);
   }
   const PhaseTimer timer(profile, MVS_PHASE_ASSEMBLY);
-  fill(x, curvature, system);
+  fill(x, curvature, assembler);
   return true;
 }
 

@@ -69,7 +69,7 @@ class TotalEnergy {
     return grasp_.gradient(x, g);
   }
   // Assembles the Hessian at the x of the last gradient(). Returns true if its pattern is new.
-  bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system,
+  bool hessian(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &assembler,
                Profile &profile);
 
   // Adds the skew part that the Hessian leaves out: see FollowerPressureTerm::add_skew.
@@ -79,7 +79,7 @@ class TotalEnergy {
   }
 
   // Sets the pattern that the Hessian at the x of the last gradient() needs.
-  void set_pattern(HessianAssembler &system);
+  void set_pattern(HessianAssembler &assembler);
   // Pairs of nodes that terms with a fixed pattern couple.
   const std::vector<Edge> &pairs() const { return pairs_; }
   const BroadPhase &broad_phase() const { return broad_phase_; }
@@ -90,9 +90,9 @@ class TotalEnergy {
  private:
   friend class SharedTerms;
   void collect(const std::vector<Vec3> &x);
-  bool fill(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &system);
-  template <typename System>
-  void fill_sheet(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  bool fill(const std::vector<Vec3> &x, Curvature curvature, HessianAssembler &assembler);
+  template <typename Assembler>
+  void fill_sheet(const std::vector<Vec3> &x, Curvature curvature, Assembler &assembler) const;
 
   const Model *model_;
   SpringTerm spring_;
@@ -114,19 +114,19 @@ class TotalEnergy {
   SharedTerms shared_;
 };
 
-template <typename System>
+template <typename Assembler>
 void TotalEnergy::fill_sheet(const std::vector<Vec3> &x, Curvature curvature,
-                             System &system) const {
-  system.begin_term(0);
-  spring_.hessian(x, curvature, system);
-  system.begin_term(first_[of_membrane]);
-  membrane_.hessian(x, curvature, system);
-  system.begin_term(first_[of_bending]);
-  bending_.hessian(x, curvature, system);
-  system.begin_term(first_[of_chord]);
-  chord_.hessian(x, curvature, system);
-  system.begin_term(first_[of_pressure]);
-  pressure_.hessian(x, system);
+                             Assembler &assembler) const {
+  assembler.begin_term(0);
+  spring_.hessian(x, curvature, assembler);
+  assembler.begin_term(first_[of_membrane]);
+  membrane_.hessian(x, curvature, assembler);
+  assembler.begin_term(first_[of_bending]);
+  bending_.hessian(x, curvature, assembler);
+  assembler.begin_term(first_[of_chord]);
+  chord_.hessian(x, curvature, assembler);
+  assembler.begin_term(first_[of_pressure]);
+  pressure_.hessian(x, assembler);
 }
 
 }  // namespace mvs::core

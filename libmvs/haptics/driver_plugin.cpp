@@ -130,7 +130,7 @@ void DriverPlugin::check_options() const {
   }
 }
 
-// The table lies before a guard area with a known pattern, which detects a driver that writes too
+// The table lies before bytes of a known pattern, which detects a driver that writes too
 // much.
 void DriverPlugin::negotiate(const std::string &path) {
   struct Room {

@@ -13,7 +13,7 @@
 namespace mvs::core {
 namespace {
 
-constexpr size_t lanes = 8, tile_rows = 2 * lanes;
+constexpr size_t batch = 8, tile_rows = 2 * batch;
 constexpr float most = 32767;
 
 size_t tile_count(size_t last, size_t height) {
@@ -28,7 +28,7 @@ MVS_INLINE void for_blocks(size_t width, size_t height, const Use &use) {
   for (size_t first = 0; first < width; first += solve_columns) {
     const size_t last = std::min(first + solve_columns, width);
     use(first, last, words);
-    words += tile_count(last, height) * (last - first) * lanes;
+    words += tile_count(last, height) * (last - first) * batch;
   }
 }
 
@@ -38,7 +38,7 @@ struct Pair {
 };
 
 #if defined(__GNUC__)
-typedef int32_t Words __attribute__((vector_size(4 * lanes), aligned(4), may_alias));
+typedef int32_t Words __attribute__((vector_size(4 * batch), aligned(4), may_alias));
 
 MVS_INLINE void unpack(const int32_t *words, Pair &to) {
   const Float8::Mask both = *reinterpret_cast<const Words *>(words);
@@ -51,12 +51,12 @@ MVS_INLINE void multiply(const float *a, size_t columns, const float *x, float *
   Pair sum = {}, of_a;
   for (size_t k = 0; k < columns; ++k, a += tile_rows) {
     load<Float8>(of_a.low, a);
-    load<Float8>(of_a.high, a + lanes);
+    load<Float8>(of_a.high, a + batch);
     sum.low += of_a.low * x[k];
     sum.high += of_a.high * x[k];
   }
   store<Float8>(y, sum.low);
-  store<Float8>(y + lanes, sum.high);
+  store<Float8>(y + batch, sum.high);
 }
 
 // x -= a by for the rows of a tile.
@@ -64,14 +64,14 @@ template <size_t columns>
 MVS_INLINE void take_tile(const int32_t *words, const float *by, float *x) {
   Pair sum, a;
   load<Float8>(sum.low, x);
-  load<Float8>(sum.high, x + lanes);
-  for (size_t k = 0; k < columns; ++k, words += lanes) {
+  load<Float8>(sum.high, x + batch);
+  for (size_t k = 0; k < columns; ++k, words += batch) {
     unpack(words, a);
     sum.low -= a.low * by[k];
     sum.high -= a.high * by[k];
   }
   store<Float8>(x, sum.low);
-  store<Float8>(x + lanes, sum.high);
+  store<Float8>(x + batch, sum.high);
 }
 
 // to[k] -= scale[k] sum_i a[i, k] x[i] over all tiles, in eight sums for each column.
@@ -82,8 +82,8 @@ MVS_INLINE void take_sums(const int32_t *words, size_t tiles, const float *x, co
   Pair of_x, a;
   for (size_t tile = 0; tile < tiles; ++tile, x += tile_rows) {
     load<Float8>(of_x.low, x);
-    load<Float8>(of_x.high, x + lanes);
-    for (size_t k = 0; k < columns; ++k, words += lanes) {
+    load<Float8>(of_x.high, x + batch);
+    for (size_t k = 0; k < columns; ++k, words += batch) {
       unpack(words, a);
       sum[k] += a.low * of_x.low;
       sum[k] += a.high * of_x.high;
@@ -109,10 +109,10 @@ MVS_INLINE float high_of(int32_t word) {
 
 template <size_t columns>
 MVS_INLINE void take_tile(const int32_t *words, const float *by, float *x) {
-  for (size_t k = 0; k < columns; ++k, words += lanes) {
-    for (size_t r = 0; r < lanes; ++r) {
+  for (size_t k = 0; k < columns; ++k, words += batch) {
+    for (size_t r = 0; r < batch; ++r) {
       x[r] -= low_of(words[r]) * by[k];
-      x[lanes + r] -= high_of(words[r]) * by[k];
+      x[batch + r] -= high_of(words[r]) * by[k];
     }
   }
 }
@@ -120,12 +120,12 @@ MVS_INLINE void take_tile(const int32_t *words, const float *by, float *x) {
 template <size_t columns>
 MVS_INLINE void take_sums(const int32_t *words, size_t tiles, const float *x, const float *scale,
                           float *to) {
-  std::array<std::array<float, lanes>, columns> sum = {};
+  std::array<std::array<float, batch>, columns> sum = {};
   for (size_t tile = 0; tile < tiles; ++tile, x += tile_rows) {
-    for (size_t k = 0; k < columns; ++k, words += lanes) {
-      for (size_t r = 0; r < lanes; ++r) {
+    for (size_t k = 0; k < columns; ++k, words += batch) {
+      for (size_t r = 0; r < batch; ++r) {
         sum[k][r] += low_of(words[r]) * x[r];
-        sum[k][r] += high_of(words[r]) * x[lanes + r];
+        sum[k][r] += high_of(words[r]) * x[batch + r];
       }
     }
   }
@@ -138,7 +138,7 @@ MVS_INLINE void take_sums(const int32_t *words, size_t tiles, const float *x, co
 
 template <size_t columns>
 MVS_INLINE void take_tiles(const int32_t *words, size_t tiles, const float *by, float *x) {
-  for (size_t tile = 0; tile < tiles; ++tile, x += tile_rows, words += columns * lanes) {
+  for (size_t tile = 0; tile < tiles; ++tile, x += tile_rows, words += columns * batch) {
     take_tile<columns>(words, by, x);
   }
 }
@@ -175,12 +175,12 @@ MVS_INLINE void backward_columns(const CompactPanel &p, float *x) {
   std::array<float, tile_rows> y;
   const int32_t *from = p.tiles;
   for_blocks(p.width, p.height, [&](size_t first, size_t last, size_t) {
-    from += tile_count(last, p.height) * (last - first) * lanes;
+    from += tile_count(last, p.height) * (last - first) * batch;
   });
   for (size_t last = p.width; last > 0;) {
     const size_t first = (last - 1) / solve_columns * solve_columns;
     const size_t columns = last - first, tiles = tile_count(last, p.height);
-    from -= tiles * columns * lanes;
+    from -= tiles * columns * batch;
     const float *scale = p.scale + first;
     for_columns(columns, [&](auto constant) {
       take_sums<constant>(from, tiles, x + last, scale, x + first);
@@ -229,10 +229,10 @@ MVS_INLINE void compress(const float *panel, const CompactPanel &p) {
       // a subnormal scale is zero with FlushDenormals
       const float by = scale[j] > 0 ? 1 / scale[j] : 0;
       const auto number = [&](size_t i) { return i < height ? rounded(from[i] * by) : 0; };
-      int32_t *to = p.tiles + words + (j - first) * lanes;
-      for (size_t i = last; i < height; i += tile_rows, to += (last - first) * lanes) {
-        for (size_t r = 0; r < lanes; ++r) {
-          to[r] = static_cast<int32_t>((static_cast<uint32_t>(number(i + lanes + r)) << 16) |
+      int32_t *to = p.tiles + words + (j - first) * batch;
+      for (size_t i = last; i < height; i += tile_rows, to += (last - first) * batch) {
+        for (size_t r = 0; r < batch; ++r) {
+          to[r] = static_cast<int32_t>((static_cast<uint32_t>(number(i + batch + r)) << 16) |
                                        (static_cast<uint32_t>(number(i + r)) & 0xffffu));
         }
       }
@@ -245,7 +245,7 @@ MVS_INLINE void compress(const float *panel, const CompactPanel &p) {
 size_t compact_size(size_t width, size_t height) {
   size_t words = 0;
   for_blocks(width, height, [&](size_t first, size_t last, size_t before) {
-    words = before + tile_count(last, height) * (last - first) * lanes;
+    words = before + tile_count(last, height) * (last - first) * batch;
   });
   return words;
 }
