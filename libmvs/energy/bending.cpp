@@ -5,28 +5,12 @@
 
 #include "base/atan2_batch.h"
 #include "energy/hinge.h"
+#include "energy/hinge_batch.h"
 
 namespace mvs::core {
 namespace {
 
-constexpr size_t hinges_per_batch = 32;  // of atan2_batch()
-using Angles = std::array<double, hinges_per_batch>;
-
-// Calls use() with each of the hinges and its fold, and sets their angles. nodes_of(k): the nodes
-// of hinge k.
-template <typename Fold, typename NodesOf, typename Use>
-MVS_INLINE void find_angles(size_t count, const NodesOf &nodes_of, const std::vector<Vec3> &x,
-                            Angles &angle, const Use &use) {
-  Angles sine{}, cosine{};
-  for (size_t k = 0; k < count; ++k) {
-    const std::array<uint32_t, 4> &node = nodes_of(k);
-    const Fold fold(x[node[0]], x[node[1]], x[node[2]], x[node[3]]);
-    sine[k] = fold.sine();
-    cosine[k] = fold.cosine();
-    use(k, fold);
-  }
-  atan2_batch(sine.data(), cosine.data(), angle.data(), count);
-}
+constexpr size_t hinges_per_batch = HingeBatch::most;
 
 }  // namespace
 
@@ -78,14 +62,12 @@ double BendingTerm::energy_at(const Hinge &h, double angle) {
 
 double BendingTerm::energy(const std::vector<Vec3> &x) const {
   double sum = 0;
-  Angles angle{};
+  HingeBatch batch;
   for (size_t first = 0; first < hinges_.size(); first += hinges_per_batch) {
     const size_t count = std::min(hinges_per_batch, hinges_.size() - first);
-    const auto nodes_of = [&](size_t k) -> const auto & {
-      return hinges_[first + k].node;
-    };
-    find_angles<HingeFold>(count, nodes_of, x, angle, [](size_t, const HingeFold &) {});
-    for (size_t k = 0; k < count; ++k) sum += energy_at(hinges_[first + k], angle[k]);
+    for (size_t k = 0; k < count; ++k) batch.set_nodes(k, hinges_[first + k].node, x);
+    find_angles(batch, count);
+    for (size_t k = 0; k < count; ++k) sum += energy_at(hinges_[first + k], batch.angle[k]);
   }
   return sum;
 }
@@ -137,54 +119,47 @@ void BendingTerm::add_gradient(const std::vector<Vec3> &x, Gradient &to) const {
 template <typename Gradient>
 void BendingTerm::add_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
                             Gradient &to) const {
-  Angles angle{};
-  std::array<Slope, hinges_per_batch> slope;
-  const auto nodes_of = [&](size_t k) -> const auto & {
-    return hinges_[hinge[k]].node;
-  };
-  find_angles<HingeFold>(count, nodes_of, x, angle,
-                         [&](size_t k, const HingeFold &fold) { fold.slopes(slope[k]); });
+  HingeBatch batch;
+  for (size_t k = 0; k < count; ++k) batch.set_nodes(k, hinges_[hinge[k]].node, x);
+  find_slopes(batch, count);
   for (size_t k = 0; k < count; ++k) {
     const Hinge &h = hinges_[hinge[k]];
-    const double bent = wrap_angle(angle[k] - h.rest_angle), moment = h.stiffness * bent;
+    const double bent = wrap_angle(batch.angle[k] - h.rest_angle), moment = h.stiffness * bent;
     to.add_energy(hinge[k], h.node[0], 0.5 * moment * bent);
-    for (uint32_t c = 0; c < 4; ++c) to.add(h.node[c], moment * slope[k].node(c));
+    for (uint32_t n = 0; n < 4; ++n) to.add(h.node[n], moment * batch.slope_at(k, n));
   }
 }
 
-template <typename System>
-void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const {
+template <typename Assembler>
+void BendingTerm::hessian(const std::vector<Vec3> &x, Curvature curvature,
+                          Assembler &assembler) const {
   if (curvature == Curvature::exact) {
-    add_exact(x, system);
+    add_exact(x, assembler);
   } else {
-    add_projected(x, system);
+    add_projected(x, assembler);
   }
 }
 
-template <typename System>
-void BendingTerm::add_exact(const std::vector<Vec3> &x, System &system) const {
-  const auto takes = [&](const auto &node) { return system.takes(node); };
+template <typename Assembler>
+void BendingTerm::add_exact(const std::vector<Vec3> &x, Assembler &assembler) const {
+  const auto takes = [&](const auto &node) { return assembler.takes(node); };
   for_batches(takes, [&](const uint32_t *hinge, size_t count) {
-    add_exact_batch(hinge, count, x, system);
+    add_exact_batch(hinge, count, x, assembler);
   });
 }
 
-template <typename System>
+template <typename Assembler>
 void BendingTerm::add_exact_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
-                                  System &system) const {
-  Angles angle{};
-  std::array<HingeParts, hinges_per_batch> parts;
-  const auto nodes_of = [&](size_t k) -> const auto & {
-    return hinges_[hinge[k]].node;
-  };
-  find_angles<HingeParts>(count, nodes_of, x, angle,
-                          [&](size_t k, const HingeParts &fold) { parts[k] = fold; });
+                                  Assembler &assembler) const {
+  HingeBatch batch;
+  for (size_t k = 0; k < count; ++k) batch.set_nodes(k, hinges_[hinge[k]].node, x);
+  find_angles(batch, count);
   HingeHessian exact;
   for (size_t i = 0; i < count; ++i) {
     const Hinge &h = hinges_[hinge[i]];
     size_t pair = 6 * size_t{hinge[i]};
-    const HingeParts &p = parts[i];
-    const double moment = h.stiffness * wrap_angle(angle[i] - h.rest_angle);
+    const HingeParts p(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]);
+    const double moment = h.stiffness * wrap_angle(batch.angle[i] - h.rest_angle);
     angle_hessian(p, exact);
     std::array<Vec3, 4> slope;
     for (uint32_t k = 0; k < 4; ++k) slope[k] = p.a[k] * p.m1 + p.b[k] * p.m2;
@@ -193,23 +168,23 @@ void BendingTerm::add_exact_batch(const uint32_t *hinge, size_t count, const std
       for (uint32_t l = 0; l <= k; ++l) {
         const Mat3 block = stiff * slope[l].transpose() + moment * exact[k][l];
         if (k == l) {
-          system.add_diagonal(h.node[k], block);
+          assembler.add_diagonal(h.node[k], block);
         } else {
-          system.add(pair++, h.node[k], h.node[l], block);
+          assembler.add(pair++, h.node[k], h.node[l], block);
         }
       }
     }
   }
 }
 
-template <typename System>
-void BendingTerm::add_projected(const std::vector<Vec3> &x, System &system) const {
+template <typename Assembler>
+void BendingTerm::add_projected(const std::vector<Vec3> &x, Assembler &assembler) const {
   Slope slope;
   for (const Hinge &h : hinges_) {
-    if (!system.takes(h.node)) continue;
+    if (!assembler.takes(h.node)) continue;
     HingeFold(x[h.node[0]], x[h.node[1]], x[h.node[2]], x[h.node[3]]).slopes(slope);
     const size_t pair = 6 * static_cast<size_t>(&h - hinges_.data());
-    system.add_outer_product(pair, h.node, slope, h.stiffness);
+    assembler.add_outer_product(pair, h.node, slope, h.stiffness);
   }
 }
 

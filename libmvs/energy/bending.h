@@ -33,8 +33,8 @@ class BendingTerm {
   template <typename Gradient>
   void add_gradient(const std::vector<Vec3> &x, Gradient &to) const;
   // Adds to a HessianAssembler or a HessianPart.
-  template <typename System>
-  void hessian(const std::vector<Vec3> &x, Curvature curvature, System &system) const;
+  template <typename Assembler>
+  void hessian(const std::vector<Vec3> &x, Curvature curvature, Assembler &assembler) const;
   // Elements, and the energies of elements first .. last.
   size_t size() const { return hinges_.size(); }
   void energies(const std::vector<Vec3> &x, size_t first, size_t last, double *to) const;
@@ -56,13 +56,13 @@ class BendingTerm {
   template <typename Gradient>
   void add_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
                  Gradient &to) const;
-  template <typename System>
-  void add_exact(const std::vector<Vec3> &x, System &system) const;
-  template <typename System>
+  template <typename Assembler>
+  void add_exact(const std::vector<Vec3> &x, Assembler &assembler) const;
+  template <typename Assembler>
   void add_exact_batch(const uint32_t *hinge, size_t count, const std::vector<Vec3> &x,
-                       System &system) const;
-  template <typename System>
-  void add_projected(const std::vector<Vec3> &x, System &system) const;
+                       Assembler &assembler) const;
+  template <typename Assembler>
+  void add_projected(const std::vector<Vec3> &x, Assembler &assembler) const;
 
   std::vector<Hinge> hinges_;
 };

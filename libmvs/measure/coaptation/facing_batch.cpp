@@ -1,10 +1,6 @@
 // The nearest points of the triangle, then the ramps of FacingWeight.
 #include "measure/coaptation/facing_batch.h"
 
-#if defined(__SSE2__) && defined(__GNUC__)
-#include <emmintrin.h>
-#endif
-
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -57,17 +53,10 @@ struct FacingKernel : SimdPoints<V> {
     weight = distance > contact_ramp.from * reach ? sided : weight;
   }
 
-  // The compiler keeps std::sqrt of elements apart, as it may set errno.
   MVS_INLINE static void root_of(const Value &square, Value &root) {
     double element[V::width];
     store<V>(element, square);
-#if defined(__SSE2__) && defined(__GNUC__)
-    for (size_t k = 0; k + 1 < V::width; k += 2) {
-      _mm_storeu_pd(element + k, _mm_sqrt_pd(_mm_loadu_pd(element + k)));
-    }
-#else
     for (double &e : element) e = std::sqrt(e);
-#endif
     load<V>(root, element);
   }
 
