@@ -17,6 +17,7 @@ import type {
   SessionContents,
   SessionOpened,
   Shown,
+  SideFile,
   Spread,
   Surface,
 } from './protocol';
@@ -62,6 +63,8 @@ export interface Calls {
   spread: { argument: { members: number }; result: Spread };
   /** null: the unit that the file states, else a guess. */
   read_surface: { argument: { name: string; bytes: Uint8Array; unit: FileUnit | null }; result: Surface };
+  /** How many triangles the file of the closed leaflets has. */
+  read_closed: { argument: SideFile & { unit: FileUnit }; result: number };
   build: { argument: BuildRequest; result: { shown: Shown; findings: Finding[] } };
 }
 

@@ -33,6 +33,12 @@ export interface Surface {
   shape: SurfaceShape;
 }
 
+/** A file that is read beside the surface. */
+export interface SideFile {
+  name: string;
+  bytes: Uint8Array;
+}
+
 export interface BuildRequest {
   /** Layer of the leaflets that the surface describes; '' leaves it to the library. */
   kind: SurfaceKind;
@@ -40,6 +46,11 @@ export interface BuildRequest {
   tips: number[][];
   commissures: number[][];
   anterior: number[][];
+  /** The same leaflets closed, in the same frame; in `unit` where the file states none. */
+  closed: SideFile | null;
+  unit: FileUnit;
+  /** Of the leaflets, mm; null where it is not known. */
+  thickness: number | null;
   name: string;
 }
 

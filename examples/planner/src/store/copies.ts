@@ -2,7 +2,7 @@
 // copy under a key of its own, so that neither a second tab nor the next plan writes over it. A tab holds a lock on the
 // keys it writes to: copies without a held lock were left behind. A browser without locks offers all of them.
 import type { FileUnit } from '../protocol';
-import type { Imported } from './state';
+import type { Given, Imported } from './state';
 
 const database = 'mvs-planner-1';
 const store = 'session';
@@ -16,7 +16,7 @@ export interface Copy {
   saved: string;
   bytes: Uint8Array;
   /** A surface that is being imported: `title` is the name of its file, `bytes` are those of the file. */
-  surface?: { unit: FileUnit } & Pick<Imported, 'kind' | 'points'>;
+  surface?: { unit: FileUnit } & Pick<Imported, Given>;
 }
 
 export interface LeftCopy {

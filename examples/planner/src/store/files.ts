@@ -66,7 +66,7 @@ function leaveSurface(): void {
 }
 
 /** Puts the name of the file that could not be opened before the reason in the notice, and whether the file is at fault. */
-function blame(name: string): void {
+function nameFile(name: string): void {
   const { value } = state.notice;
   if (value?.kind !== 'error') return;
   // some reasons begin with it and a line
@@ -189,7 +189,7 @@ async function openValve(name: string, bytes: Uint8Array, left: Left | null): Pr
   const shown = await run(t.closing, 'open_file', { name, bytes }, { motion: showComing });
   batch(() => {
     arrived();
-    if (!shown) return blame(name);
+    if (!shown) return nameFile(name);
     state.tour.value = null;
     const note = noteIn(bytes);
     if (note) keepLeakRange(shown.figures.hash, note.range, note.own);
@@ -197,16 +197,16 @@ async function openValve(name: string, bytes: Uint8Array, left: Left | null): Pr
   });
 }
 
-/** Shows a surface to build a valve from, with points that were clicked on it before; whether it could be read. */
+/** Shows a surface to build a valve from, with what was given beside it before; whether it could be read. */
 export async function beginImport(
   name: string,
   bytes: Uint8Array,
   unit: FileUnit | null = null,
-  clicked: Partial<Pick<state.Imported, 'kind' | 'points'>> = {},
+  given: Partial<Pick<state.Imported, state.Given>> = {},
 ): Promise<boolean> {
   const surface = await run(t.reading, 'read_surface', { name, bytes, unit });
   if (!surface) {
-    blame(name);
+    nameFile(name);
     return false;
   }
   discard();
@@ -214,9 +214,11 @@ export async function beginImport(
     state.imported.value = {
       name,
       bytes,
-      kind: clicked.kind ?? '',
+      kind: given.kind ?? '',
       surface,
-      points: clicked.points ?? { annulus: [], commissures: [], anterior: [], tips: [] },
+      points: given.points ?? { annulus: [], commissures: [], anterior: [], tips: [] },
+      closed: given.closed ?? null,
+      thickness: given.thickness ?? null,
       findings: [],
     };
     state.panel.value = 'import';
@@ -232,15 +234,13 @@ export async function chooseUnit(unit: FileUnit): Promise<void> {
   const factor = millimetres[unit] / millimetres[from.surface.unit];
   const scaled = (rows: number[][]) => rows.map((row) => row.map((v) => v * factor));
   const { annulus, commissures, anterior, tips } = from.points;
-  await beginImport(from.name, from.bytes, unit, {
-    kind: from.kind,
-    points: {
-      annulus: scaled(annulus),
-      commissures: scaled(commissures),
-      anterior: scaled(anterior),
-      tips: scaled(tips),
-    },
-  });
+  const points = {
+    annulus: scaled(annulus),
+    commissures: scaled(commissures),
+    anterior: scaled(anterior),
+    tips: scaled(tips),
+  };
+  await beginImport(from.name, from.bytes, unit, { ...from, points });
 }
 
 /** Builds a valve from the surface and closes it. */
@@ -251,7 +251,9 @@ async function leaveForSurface(): Promise<void> {
   if (!from) return;
   const title = from.name.replace(/\.\w+$/, '');
   const left = await leave();
-  const built = await run(t.building, 'build', { ...from.points, kind: from.kind, name: title });
+  const { kind, points, closed, thickness, surface } = from;
+  const asked = { ...points, kind, closed, thickness, unit: surface.unit, name: title };
+  const built = await run(closed ? t.fitting : t.building, 'build', asked);
   if (!built) return;
   state.tour.value = null;
   keepLeakRange(built.shown.figures.hash, rangeIn(built.findings));

@@ -100,14 +100,14 @@ export function keepCopy(session: Promise<Uint8Array>): Promise<void> {
 }
 
 /** Writes the surface of an import with its clicked points to a copy of its own, if the user allowed it. */
-function keepSurface({ name, bytes, kind, points, surface }: state.Imported): void {
+function keepSurface({ name, bytes, surface, kind, points, closed, thickness }: state.Imported): void {
   if (!mayCopy()) return;
   surfaceKey ??= newKey();
   void write(surfaceKey, async () => ({
     title: name,
     saved: new Date().toISOString(),
     bytes,
-    surface: { unit: surface.unit, kind, points },
+    surface: { unit: surface.unit, kind, points, closed, thickness },
   }));
 }
 

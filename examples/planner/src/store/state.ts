@@ -11,6 +11,7 @@ import type {
   OperationInfo,
   Picture,
   Shown,
+  SideFile,
   Spread,
   Surface,
   SurfaceKind,
@@ -134,18 +135,27 @@ export interface Imported {
   kind: SurfaceKind;
   surface: Surface;
   points: { annulus: number[][]; commissures: number[][]; anterior: number[][]; tips: number[][] };
+  closed: SideFile | null;
+  /** Of the leaflets, mm. */
+  thickness: number | null;
   findings: Finding[];
 }
+/** What the user gives beside the file. */
+export type Given = 'kind' | 'points' | 'closed' | 'thickness';
 export const imported = signal<Imported | null>(null);
 /** The surface that is shown instead of a valve. */
 export const surface = computed(() => {
   const { value } = imported;
   return value && !value.findings.length ? value : null;
 });
-/** Points were clicked on the surface, which are kept nowhere else. */
-export const marked = computed(
-  () => !!surface.value && Object.values(surface.value.points).some((rows) => rows.length),
-);
+/** Something was given beside the surface, which is kept nowhere else: clicked points, closed leaflets, a thickness. */
+export const marked = computed(() => {
+  const { value } = surface;
+  if (!value) return false;
+  return (
+    !!value.closed || value.thickness !== null || Object.values(value.points).some((rows) => rows.length)
+  );
+});
 /** Which points the next clicks on the surface set. */
 export const importing = signal<keyof Imported['points']>('commissures');
 /** Sections of the panels that were opened or closed by hand, by name: they stay so where a panel comes again. */

@@ -260,9 +260,9 @@ export function say(sentence: string): string {
     .replace(/(?:divide|multiply) by \d+ or give --unit (\w+)/, (_, unit: string) =>
       importTexts.chooseUnit(unit),
     )
-    .replace('; give the closed leaflets to fit the lengths to them', importTexts.closedByCommand)
-    .replace('; give it if it is known', importTexts.thicknessByCommand)
-    .replace('; give the open leaflets, and these as the closed ones', importTexts.openOnly)
+    .replace('; give the closed leaflets to fit the lengths to them', importTexts.giveClosed)
+    .replace('; give it if it is known', importTexts.giveThickness)
+    .replace('; give the open leaflets, and these as the closed ones', importTexts.giveOpen)
     .replace(clipEnd, () => `, ${clipSaid(clipWords(sentence)!)}`)
     .replace(/\bmm2\b/g, 'mm²')
     .replace(/(\d) x (?=\d)/g, '$1 × ')
@@ -286,6 +286,9 @@ export const t = {
   spreading: 'Closing it eight times…',
   replaying: 'Repeating the plan…',
   building: 'Building the valve…',
+  fitting: 'Building the valve and fitting its chordae, which takes minutes…',
+  closedRead: (name: string, triangles: number) =>
+    `${name}: closed leaflets of ${triangles} triangles. Chordae will be fitted to them.`,
   reading: 'Reading the file…',
   cancel: 'Cancel',
   sessionFile: 'Repair session',
@@ -547,12 +550,19 @@ export const importTexts = {
   },
   tips: 'Chordae are placed by normal anatomy, and so are papillary tips that you do not mark. Tips below the surface can be clicked beside it, in the view from the side: such a point takes the depth of the middle of the surface.',
   again: 'Change and build again',
-  /** What the library asks for and this page has no field for. */
-  closedByCommand:
-    ' (this page cannot fit their lengths to closed leaflets; the command “mvs import --closed” can)',
-  thicknessByCommand: ' (this page takes no other one; the command “mvs import --thickness” does)',
-  openOnly:
-    '; this page needs the open leaflets (the command “mvs import --closed” takes closed ones beside them)',
+  closed: 'Closed leaflets',
+  notGiven: 'not given',
+  forgetClosed: 'Forget the closed leaflets',
+  closedHint:
+    'A surface of the same leaflets in systole, from the same scan and with the same axes. Chordae then get the lengths with which the valve closes to it, which takes minutes.',
+  thickness: 'Thickness of the leaflets',
+  thicknessOpen: 'not known',
+  thicknessOutside: (given: number, low: number, high: number) =>
+    `${String(given).replace('-', '−')} mm is out of range; it has to be ${low} to ${high} mm.`,
+  /** What the library asks for, in the words of the fields. */
+  giveClosed: '; choose the file of the “Closed leaflets” to fit the lengths to them',
+  giveThickness: '; enter it as the “Thickness of the leaflets” if it is known',
+  giveOpen: '; open the open leaflets, and choose these as their “Closed leaflets”',
   kindGuessed: '; if it is not, choose what it is by “Change and build again”',
   chooseUnit: (unit: string) => `choose ${unit} as the unit of the file`,
   found: 'What was found and what was guessed',
@@ -1752,6 +1762,9 @@ export const tips: Record<string, string> = {
   [importTexts.points.annulus]:
     'Then click along the rim where the leaflets are attached; six points or more all around cut off what is beyond it',
   [importTexts.points.tips]: 'Then click where the papillary muscles end, in any order',
+  [importTexts.closed]: 'Chooses the file of the same leaflets in systole (STL, PLY, OBJ, OFF, VTK, VTP)',
+  [importTexts.thickness]:
+    'Of the tissue, from annulus to free edge in the mean; 0.8 mm where it is not known',
   [importTexts.build]: 'Makes a valve of the surface, adds chordae by normal anatomy and closes it',
   [importTexts.leave]: 'Leaves the surface; the valve before is shown again',
   [importTexts.again]: 'Back to the surface with its marked points',

@@ -5,6 +5,7 @@ import * as state from '../store/state';
 import type { FileUnit, Finding, SurfaceKind } from '../protocol';
 import { fileUnits, millimetres } from '../units';
 import { importTexts, say, tips } from '../text/texts';
+import { Known } from './import_known';
 import { Button } from './parts';
 
 const kinds = ['commissures', 'anterior', 'annulus', 'tips'] as const;
@@ -95,6 +96,7 @@ export function ImportPanel() {
         </div>
       ))}
       <p class="hint">{importTexts.tips}</p>
+      <Known imported={imported} />
       <div class="form-foot">
         <button
           type="button"

@@ -1,6 +1,6 @@
 // A patient's surface from a file: points and triangles to show and to click, then the valve built from it.
 import { MvsError, type Mvs } from 'libmvs';
-import type { BuildRequest, FileUnit, Finding, Surface } from '../protocol';
+import type { BuildRequest, FileUnit, Finding, SideFile, Surface } from '../protocol';
 import { refusals } from '../text/texts';
 import { fileUnits, millimetres } from '../units';
 import { vertexNormals } from '../view/mesh';
@@ -36,7 +36,7 @@ export class Importer {
     const { inUnit, unitFrom, ...found } = asked
       ? this.inChosen(name, bytes, asked)
       : (this.inStated(name, bytes) ?? this.inGuessed(name, bytes));
-    if (!found.triangles.length) throw new MvsError('MVS_E_FORMAT', name, refusals.noTriangles(name));
+    hasTriangles(name, found);
     this.points = Float64Array.from(found.points);
     this.triangles = Uint32Array.from(found.triangles);
     const points = scaled(this.points, mm);
@@ -50,6 +50,13 @@ export class Importer {
       size: sizeOf(points),
       shape: shapeOf(points, this.triangles),
     };
+  }
+
+  /** Closed leaflets: a file that states no unit has that of the open ones. */
+  closed({ name, bytes }: SideFile, unit: FileUnit): Found {
+    const found = this.inStated(name, bytes) ?? this.inChosen(name, bytes, unit);
+    hasTriangles(name, found);
+    return found;
   }
 
   /** The library knows no inches. */
@@ -82,7 +89,8 @@ export class Importer {
       rows.length ? rows.map((row) => row.map((v) => v / mm)) : undefined;
     const sim = this.mvs.simulator({ progress: (share) => (report(share), false) });
     try {
-      const findings = sim.buildValve({
+      const closed = request.closed && this.closed(request.closed, request.unit);
+      const surface = {
         name: request.name,
         ...(request.kind ? { kind: request.kind } : {}),
         points: this.points,
@@ -91,7 +99,11 @@ export class Importer {
         ...given('papillary_tips', metres(request.tips)),
         ...given('commissures', metres(request.commissures)),
         ...given('anterior', metres(request.anterior)),
-      });
+        ...(closed ? { closed_points: closed.points, closed_triangles: closed.triangles } : {}),
+      };
+      // a skin has a thickness of its own
+      const known = request.thickness !== null && request.kind !== 'skin';
+      const findings = sim.buildValve(surface, known ? { thickness: request.thickness! / mm } : {});
       return {
         valve: sim.read((snapshot) => snapshot.save('obj')),
         findings: findings.map(({ name, source, sentence, confidence, values }) => ({
@@ -106,6 +118,11 @@ export class Importer {
       sim.dispose();
     }
   }
+}
+
+/** Refuses a file without triangles. */
+function hasTriangles(name: string, { triangles }: Pick<Found, 'triangles'>): void {
+  if (!triangles.length) throw new MvsError('MVS_E_FORMAT', name, refusals.noTriangles(name));
 }
 
 function given(name: string, rows: number[][] | undefined): Record<string, number[][]> {

@@ -125,6 +125,7 @@ const handlers: Handlers = {
   founding_repair: ({ number, vertices }) => foundingRepair(mvs, number, vertices),
   spread: ({ members }, { report }) => planner.spread(members, report),
   read_surface: ({ name, bytes, unit }) => importer.read(name, bytes, unit),
+  read_closed: ({ name, bytes, unit }) => importer.closed({ name, bytes }, unit).triangles.length / 3,
   build: async (request, { signal, report }) => {
     letGo();
     // closing it takes about a third of the time
