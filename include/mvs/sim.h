@@ -212,7 +212,9 @@ typedef struct mvs_stats {
  * Ending without convergence is not an error: stats->converged is 0, the valve is at the last
  * iterate, or at that equilibrium with growth_rate > 0. MVS_E_CANCELLED if the progress callback
  * cancelled, MVS_E_DIVERGED if numbers left their range, or if a leaflet grows to ten times its
- * area because its law cannot bear the pressure. `options` and `stats` are nullable. */
+ * area because its law cannot bear the pressure. `options` and `stats` are nullable. A chord that
+ * an operation of the history attached and that carries no force at rest under pressure is logged
+ * as MVS_LOG_WARNING: its rest length is too long to hold the leaflet. */
 MVS_API mvs_result mvs_settle(mvs_sim *sim, const mvs_settle_options *options, mvs_stats *stats);
 
 /* Begins a settle in slices, for a host whose only thread has to answer in between (the worker of a

@@ -116,8 +116,9 @@ MVS_API mvs_result mvs_add_tool(mvs_sim *sim, const mvs_tool_desc *desc, mvs_id 
 
 /* Moves the hand of a tool. The next mvs_settle or mvs_step starts with the last position of each
  * hand; until then snapshots show the previous one. From any thread, also during a call on the
- * simulator. `axis` is nullable: unchanged; only rods have an axis. MVS_E_ID if the tool does not
- * exist. mvs_restore and a new valve discard a move that no settle or step has used.
+ * simulator. `axis` is nullable: unchanged; tools other than rods ignore it. MVS_E_ID if the tool
+ * does not exist; MVS_E_ARGUMENT if a coordinate is not within 10 m, or an axis has no length.
+ * mvs_restore and a new valve discard a move that no settle or step has used; mvs_undo keeps it.
  * The history records the motion of hands for plans: 30 bytes of memory for each step of a hand
  * that moved (27 MB an hour at 250 steps a second), 33 bytes in a plan; a resting hand adds
  * nothing. A tool that is added and removed takes 840 bytes of memory. */

@@ -7,6 +7,7 @@
 #include "history/event_limits.h"
 #include "session/recorded_event.h"
 #include "session/simulator.h"
+#include "session/slack_chordae.h"
 #include "session/unit_warnings.h"
 #include "solve/static/mesh_hierarchy.h"
 
@@ -116,6 +117,7 @@ void finish_settle(mvs_sim &sim, const Snapshot &before, State state,
   sim.log(found.converged ? MVS_LOG_INFO : MVS_LOG_WARNING,
           "settle: %s after %u iterations, residual %.3g N, %.3f s", outcome, found.iterations,
           found.residual, found.wall_s);
+  if (found.converged && sim.load().pressure > 0) log_slack_chordae(sim, *sim.present().get());
 }
 
 // Works on the slices of a simulator; an error ends them.

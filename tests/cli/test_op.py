@@ -122,7 +122,7 @@ class Op(Command):
         self.assertEqual(slack[0]["rest_length_mm"], 40)
         self.assertLess(slack[0]["length_mm"], 40)
         said = self.ok("op", *tie, "--length", 40, "--settle", "-o", "op.obj").stderr
-        self.assertRegex(said, r"chord loop carries no force in closed.obj after: its rest length is 40.00 mm")
+        self.assertRegex(said, r"chord loop carries no force in the closed valve: its rest length is 40.00 mm")
         # the length that the sentence names is the limit: 5 % below it the chord pulls
         short = 0.95 * slack[0]["length_mm"]
         pulling = self.ok("op", *tie, "--length", short, "--settle", "-o", "op.obj", "--json")

@@ -115,6 +115,13 @@ def test_a_created_part_can_be_used_by_its_id(sim):
     assert "loop" in sim.snapshot().history[1].title
 
 
+def test_a_new_chord_that_carries_no_force_is_warned_of(sim):
+    sim.apply("neochord", head="PM1", site=("P2", 0.5, 1.0), length=0.04, name="loop")
+    sim.set_load(mvs.SYSTOLE_PA)
+    with pytest.warns(mvs.ValveWarning, match="chord loop carries no force"):
+        sim.settle()
+
+
 def test_only_operations_are_applied(sim):
     with pytest.raises(mvs.ArgumentError, match="not int"):
         sim.apply(3)

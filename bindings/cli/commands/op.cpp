@@ -54,7 +54,6 @@ Operated operate(const OpRequest &request, const Console &console) {
   if (request.settle) {
     at_rest.push_back(settle(sim, pressure_mmhg, request.in + " after"));
     slack = slack_new_chordae(at_rest.back());
-    warn_slack(slack, request.in + " after");
   }
   return {sim.snapshot(), title, made, at_rest, pressure_mmhg, slack};
 }

@@ -35,7 +35,6 @@ void run_repair(const RepairOptions &options, Console &console) {
   const mvs_replay replay = with_file_contents([&] { return repaired.replay_plan(plan); });
   const AtRest after = settle(repaired, pressure_mmhg, options.file + " after");
   const std::vector<SlackChord> slack = slack_new_chordae(after);
-  warn_slack(slack, options.file + " after");
   if (!options.out.empty()) after.valve.save(options.out);
   if (!options.plan_out.empty()) {
     mvs_plan_options with_measures = {};

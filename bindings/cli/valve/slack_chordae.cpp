@@ -1,7 +1,6 @@
 #include "valve/slack_chordae.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace cli {
 namespace {
@@ -28,15 +27,6 @@ std::vector<SlackChord> slack_new_chordae(const AtRest &closed) {
     if (chord.tension == 0) slack.push_back({chord.name, chord.rest_length, chord.length});
   }
   return slack;
-}
-
-void warn_slack(const std::vector<SlackChord> &chordae, const std::string &name) {
-  for (const SlackChord &chord : chordae) {
-    std::fprintf(stderr,
-                 "mvs: warning: chord %s carries no force in %s: its rest length is %.2f mm, its "
-                 "ends are %.2f mm apart; only a rest length below that holds the leaflet\n",
-                 chord.name.c_str(), name.c_str(), 1e3 * chord.rest_length, 1e3 * chord.length);
-  }
 }
 
 Json slack_json(const std::vector<SlackChord> &chordae) {

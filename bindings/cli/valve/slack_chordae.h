@@ -15,11 +15,8 @@ struct SlackChord {
 
 // The chordae that the operations of the valve's history attached and that are slack, in the order
 // of the operations. Empty unless the valve is at rest under pressure: an open valve hangs on no
-// chord.
+// chord. The settle has warned of them.
 std::vector<SlackChord> slack_new_chordae(const AtRest &closed);
-
-// A warning on stderr for each, with the length below which it would pull.
-void warn_slack(const std::vector<SlackChord> &chordae, const std::string &name);
 
 // Name, rest length and length of each.
 Json slack_json(const std::vector<SlackChord> &chordae);

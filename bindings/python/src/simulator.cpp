@@ -1,5 +1,7 @@
 #include "simulator.h"
 
+#include <string_view>
+
 namespace mvs_python {
 namespace {
 
@@ -11,6 +13,11 @@ constexpr Backend backends[] = {{"default", MVS_BACKEND_DEFAULT},
                                 {"block", MVS_BACKEND_BLOCK},
                                 {"cholmod", MVS_BACKEND_CHOLMOD},
                                 {"eigen", MVS_BACKEND_EIGEN}};
+
+// The returned stats hold the convergence of a settle.
+bool is_known(const char *text, bool settles) {
+  return settles && std::string_view(text).starts_with("settle: ");
+}
 
 // Whether this build of the library has a backend.
 bool has(const Backend &backend) {
@@ -66,7 +73,7 @@ void Simulator::on_log(void *user, mvs_log_level level, const char *text) {
   auto &self = *static_cast<Simulator *>(user);
   const bool has_log = !self.log_.is_none();
   // a dropped message must not wait for the interpreter
-  if (!has_log && (level > MVS_LOG_WARNING || self.settling_)) return;
+  if (!has_log && (level > MVS_LOG_WARNING || is_known(text, self.settling_))) return;
   py::gil_scoped_acquire held;
   try {
     if (has_log) {

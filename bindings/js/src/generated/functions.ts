@@ -1124,7 +1124,9 @@ export class Functions extends Calls {
    * Ending without convergence is not an error: stats->converged is 0, the valve is at the last
    * iterate, or at that equilibrium with growth_rate > 0. MVS_E_CANCELLED if the progress callback
    * cancelled, MVS_E_DIVERGED if numbers left their range, or if a leaflet grows to ten times its
-   * area because its law cannot bear the pressure. `options` and `stats` are nullable.
+   * area because its law cannot bear the pressure. `options` and `stats` are nullable. A chord that
+   * an operation of the history attached and that carries no force at rest under pressure is logged
+   * as MVS_LOG_WARNING: its rest length is too long to hold the leaflet.
    */
   mvs_settle(sim: SimHandle, options?: SettleOptions | null): Stats {
     return this.invoke(signatures.mvs_settle!, [sim, options]) as never;
@@ -1504,11 +1506,12 @@ export class Functions extends Calls {
   /**
    * Moves the hand of a tool. The next mvs_settle or mvs_step starts with the last position of each
    * hand; until then snapshots show the previous one. From any thread, also during a call on the
-   * simulator. `axis` is nullable: unchanged; only rods have an axis. MVS_E_ID if the tool does not
-   * exist. mvs_restore and a new valve discard a move that no settle or step has used. The history
-   * records the motion of hands for plans: 30 bytes of memory for each step of a hand that moved
-   * (27 MB an hour at 250 steps a second), 33 bytes in a plan; a resting hand adds nothing. A tool
-   * that is added and removed takes 840 bytes of memory.
+   * simulator. `axis` is nullable: unchanged; tools other than rods ignore it. MVS_E_ID if the tool
+   * does not exist; MVS_E_ARGUMENT if a coordinate is not within 10 m, or an axis has no length.
+   * mvs_restore and a new valve discard a move that no settle or step has used; mvs_undo keeps it.
+   * The history records the motion of hands for plans: 30 bytes of memory for each step of a hand
+   * that moved (27 MB an hour at 250 steps a second), 33 bytes in a plan; a resting hand adds
+   * nothing. A tool that is added and removed takes 840 bytes of memory.
    */
   mvs_move_tool(sim: SimHandle, tool: bigint | number, position: ArrayLike<number>, axis?: ArrayLike<number> | null): void {
     return this.invoke(signatures.mvs_move_tool!, [sim, tool, position, axis]) as never;

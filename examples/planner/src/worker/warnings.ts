@@ -7,8 +7,8 @@ export function otherLoad({ loadCase: { pressure } }: Simulator): number | undef
   return pressure > 0 && Math.abs(pressure / SYSTOLE_PA - 1) > 0.01 ? pressure / mmHg : undefined;
 }
 
-/** That it did not come to rest is in the figures of a valve. */
-const known = /^settle: /;
+/** That it did not come to rest, and chordae without force, are in the figures of a valve. */
+const known = /^settle: |^chord .* carries no force/;
 
 export class Warnings {
   private readonly said = new Set<string>();
