@@ -49,6 +49,13 @@ Boundary boundary_of(const PatientSurface &surface, const PatientGeometry &g,
           find_papillary_tips(surface.tips, g, findings, surface.closed_tips, rigid)};
 }
 
+// Adds to the sentence on the chordae from normal anatomy.
+void add_to_chordae(const char *words, Findings &findings) {
+  for (Finding &finding : findings) {
+    if (finding.name == "chordae") finding.sentence += words;
+  }
+}
+
 }  // namespace
 
 void tell_progress(const Progress &progress, double share) {
@@ -97,6 +104,9 @@ BuiltValve build_valve(const PatientSurface &surface, const BuildSettings &setti
     leaks = fitted.leaks;
     done = 0.8;
   }
+  add_to_chordae(closed.points.empty() ? "; give the closed leaflets to fit the lengths to them"
+                                       : "; the fit to the closed leaflets has changed the lengths",
+                 findings);
   valve.name = surface.name;
   built.model = make_model(std::move(valve));
   if (!settings.finds_leak) return built;

@@ -35,6 +35,7 @@ def test_a_surface_becomes_a_valve_that_closes(surface):
     assert closed.measures.intersections == 0
     # the surface has no chordae: theirs come from normal anatomy, and the answer is an interval
     assert found["chordae"].source == mvs.FindingSource.ASSUMED
+    assert found["chordae"].sentence.endswith("; give the closed leaflets to fit the lengths to them")
     leaks = found["leak"].values
     assert leaks.shape == (3,) and not leaks.flags.writeable
     # the middle one is the valve itself; residuals of two closures differ, figures by 0.1 mm2
@@ -214,6 +215,7 @@ def test_chords_get_lengths_with_which_the_valve_closes_to_a_given_surface(surfa
     _, found, fitted = built({**surface, **given})
     assert found["tissue"].source == mvs.FindingSource.GUESSED
     assert list(found["tissue"].values) == [mvs.LeafletLaw.BILINEAR]
+    assert found["chordae"].sentence.endswith("; the fit to the closed leaflets has changed the lengths")
     # the interval of leaks counts the distance that the fit leaves
     assert "faces) from the given surface: with edges" in found["leak_interval"].sentence
     assert list(found["leak_limits"].values) == [0.5e-6, 20e-6]

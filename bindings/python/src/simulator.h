@@ -61,7 +61,7 @@ class Simulator {
 
   mvs_sim *sim_ = nullptr;
   py::object log_, progress_;
-  bool settling_ = false;      // then the warning of its convergence is dropped, which the stats hold
+  bool settling_ = false;      // then its warning of convergence is dropped: the stats hold it
   std::exception_ptr raised_;  // by a callback; raised again after the call
   std::mutex turn_;
   std::shared_mutex open_;  // shared by `look`, exclusive for freeing

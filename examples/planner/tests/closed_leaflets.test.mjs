@@ -54,7 +54,7 @@ describe('closed leaflets', () => {
       // the closed shape of the same valve: within half of the thickness
       assert.ok(+distance < 0.45, said);
       assert.match(said, /thickness\s+given/i);
-      assert.match(said, /0\.9\smm/);
+      assert.match(said, /0\.90\smm/);
     });
   });
 

@@ -134,12 +134,11 @@ void add_chordae(Valve &valve, const PatientGeometry &g, const PapillaryTips &ti
       {"chordae",
        FindingSource::assumed,
        0.3,
-       format(
-           "%zu segments in %zu trees with insertions and diameters of normal anatomy, and rest "
-           "lengths for an overlap of %.1f mm of the leaflets at A2-P2, %.1f mm below the plane "
-           "of the annulus (asked: %.1f mm); give the closed leaflets to fit the lengths to them",
-           valve.chords.size(), plan.anterolateral.size() + plan.posteromedial.size(),
-           target.overlap * 1e3, target.depth * 1e3, settings.coaptation_length * 1e3),
+       format("%zu segments in %zu trees with insertions and diameters of normal anatomy, and rest "
+              "lengths for an overlap of %.1f mm of the leaflets at A2-P2, %.1f mm below the plane "
+              "of the annulus (asked: %.1f mm)",
+              valve.chords.size(), plan.anterolateral.size() + plan.posteromedial.size(),
+              target.overlap * 1e3, target.depth * 1e3, settings.coaptation_length * 1e3),
        {target.overlap, target.depth},
        "m"});
 }
