@@ -10,8 +10,9 @@ export const fileUnits = Object.keys(millimetres) as FileUnit[];
 export const flowRange = [10, 1000] as const;
 export const isFlow = (flow: number): boolean => flow >= flowRange[0] && flow <= flowRange[1];
 
-/** mm: thicknesses of leaflets that the library takes. */
+/** mm: thicknesses of leaflets that the library takes, and that which it takes where none is given. */
 export const thicknessRange = [0.1, 5] as const;
+export const usualThickness = 0.8;
 export const isThickness = (mm: number): boolean => mm >= thicknessRange[0] && mm <= thicknessRange[1];
 
 /** N: forces of a valve at rest are smaller; one that is not at rest with such forces leaves its shape again. */

@@ -556,7 +556,6 @@ export const importTexts = {
   closedHint:
     'A surface of the same leaflets in systole, from the same scan and with the same axes. Chordae then get the lengths with which the valve closes to it, which takes minutes.',
   thickness: 'Thickness of the leaflets',
-  thicknessOpen: 'not known',
   thicknessOutside: (given: number, low: number, high: number) =>
     `${String(given).replace('-', '−')} mm is out of range; it has to be ${low} to ${high} mm.`,
   /** What the library asks for, in the words of the fields. */

@@ -5,7 +5,7 @@ import { useRef } from 'preact/hooks';
 import { takeClosed } from '../store/closed_leaflets';
 import * as state from '../store/state';
 import { importTexts, tips } from '../text/texts';
-import { isThickness, thicknessRange } from '../units';
+import { isThickness, thicknessRange, usualThickness } from '../units';
 import { DecimalBox } from './decimal';
 import { Button } from './parts';
 
@@ -65,7 +65,7 @@ function Thickness({ imported }: { imported: state.Imported }) {
           title={tips[importTexts.thickness]}
           range={thicknessRange}
           step={0.1}
-          placeholder={importTexts.thicknessOpen}
+          placeholder={String(usualThickness)}
           text={String(imported.thickness ?? '')}
           onTake={take}
           onRefuse={(sentence) => (refused.value = sentence)}
