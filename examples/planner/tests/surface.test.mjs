@@ -148,7 +148,7 @@ describe('surface', () => {
         page.getByRole('button', { name: `${name}: commissures` }),
       );
       // the panel scrolls to the clicked control
-      await page.getByRole('button', { name: 'Papillary tips', exact: true }).scrollIntoViewIfNeeded();
+      await page.getByRole('button', { name: 'Both commissures', exact: true }).scrollIntoViewIfNeeded();
       const place = await clear.boundingBox();
       await markCommissures(page);
       // nothing moves under the pointer

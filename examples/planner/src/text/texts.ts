@@ -553,6 +553,7 @@ export const importTexts = {
   closed: 'Closed leaflets',
   notGiven: 'not given',
   forgetClosed: 'Forget the closed leaflets',
+  forgetClosedTip: 'Chordae are then placed by normal anatomy alone',
   closedHint:
     'A surface of the same leaflets in systole, from the same scan and with the same axes. Chordae then get the lengths with which the valve closes to it, which takes minutes.',
   thickness: 'Thickness of the leaflets',

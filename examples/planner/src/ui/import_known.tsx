@@ -27,6 +27,7 @@ function ClosedLeaflets({ imported }: { imported: state.Imported }) {
           kind="quiet"
           icon={<X size={16} />}
           label={importTexts.forgetClosed}
+          title={importTexts.forgetClosedTip}
           disabled={!closed}
           onClick={() => (state.imported.value = { ...imported, closed: null })}
         />
